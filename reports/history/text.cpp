@@ -25,8 +25,7 @@ constexpr std::size_t kRows = 17;
 
 /// Text in a field of `width` columns.
 std::string cell(const std::string& text, std::size_t width) {
-  const std::string cut = shortened(printable(text), width);
-  return cut + std::string(width - std::min(width, columns(cut)), ' ');
+  return padded(shortened(printable(text), width), width);
 }
 
 std::string um_or_dash(const std::optional<double>& value_mm) {
@@ -155,18 +154,15 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);
   TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
+  const auto line = [&](double value_mm, char mark, std::string_view name) {
+    canvas.line(value_mm / core::kMicrometre, mark, fmt::format("{} {}", name, um(value_mm)));
+  };
   if (chart.limits) {
-    canvas.line(chart.limits->lower_mm / core::kMicrometre, '-',
-                fmt::format("LCL {}", um(chart.limits->lower_mm)));
-    canvas.line(chart.limits->center_mm / core::kMicrometre, '.',
-                fmt::format("CL {}", um(chart.limits->center_mm)));
-    canvas.line(chart.limits->upper_mm / core::kMicrometre, '-',
-                fmt::format("UCL {}", um(chart.limits->upper_mm)));
+    line(chart.limits->lower_mm, '-', "LCL");
+    line(chart.limits->center_mm, '.', "CL");
+    line(chart.limits->upper_mm, '-', "UCL");
   }
-  if (chart.upper_limit_mm) {
-    canvas.line(*chart.upper_limit_mm / core::kMicrometre, '=',
-                fmt::format("U {}", um(*chart.upper_limit_mm)));
-  }
+  if (chart.upper_limit_mm) line(*chart.upper_limit_mm, '=', "U");
   draw_results(canvas, chart, values_mm);
   std::string out = head_of(chart) + canvas.text(coloured) + legend_of(chart);
   if (chart.limits) {

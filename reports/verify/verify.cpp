@@ -85,11 +85,10 @@ std::size_t compare_results(const std::vector<record::StoredResult>& stored,
     compared += pair.stored && pair.now ? 1 : 0;
     if (auto found = compare_result(name, pair, exactness)) differences.push_back(*found);
   }
-  const std::size_t more = differences.size() - 1;
-  if (!differences.empty()) {
-    out.differences.push_back(differences.front() +
-                              (more > 0 ? fmt::format(" (and {} more)", more) : ""));
-  }
+  if (differences.empty()) return compared;
+  out.differences.push_back(differences.front());
+  if (differences.size() > 1)
+    out.differences.back() += fmt::format(" (and {} more)", differences.size() - 1);
   return compared;
 }
 
