@@ -59,12 +59,7 @@ class LiveView::Impl {
   }
 
   ~Impl() {
-    {
-      std::unique_lock lock(mutex_);
-      ending_ = true;
-      wake_.notify_all();
-    }
-    if (thread_.joinable()) thread_.join();
+    end_painting();
     wait_for_readers();
   }
 
@@ -74,21 +69,25 @@ class LiveView::Impl {
     return gate.control ? page + "#token=" + gate.token : page;
   }
 
-  /// Leaves the painter's thread and paints the last frame in the caller's.
+  /// Ends the painter's thread and paints the last frame in that of the caller.
   template <class Paint>
   void show_last(const Paint& paint_last) {
-    {
-      const std::lock_guard lock(mutex_);
-      ending_ = true;
-      wake_.notify_all();
-    }
-    if (thread_.joinable()) thread_.join();
+    end_painting();
     auto last = paint_last(painter_);
     const std::lock_guard lock(mutex_);
     frame_ = std::move(last);
   }
 
  private:
+  void end_painting() {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+      wake_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+  }
+
   /// In the server's threads.
   std::string state(std::uint64_t since, const std::string& client) {
     std::shared_ptr<const LiveFrame> frame;

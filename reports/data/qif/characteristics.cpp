@@ -55,7 +55,7 @@ struct PlacedResult {
 void add_definition(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   pugi::xml_node node = add_numbered(draft, draft.lists.characteristic_definitions,
-                                     element(placed.family, "Definition").c_str());
+                                     element(placed.family, "Definition"));
   const int definition = id_of(node);
   add(node, "Name", asked.id);
   if (placed.family == Family::kUserDefined) {
@@ -71,8 +71,8 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
     add(node, "ToleranceValue", decimal(*asked.tolerance_mm));
   }
 
-  node = add_numbered(draft, draft.lists.characteristic_nominals,
-                      element(placed.family, "Nominal").c_str());
+  node =
+      add_numbered(draft, draft.lists.characteristic_nominals, element(placed.family, "Nominal"));
   placed.nominal = id_of(node);
   add(node, "CharacteristicDefinitionId", definition);
   if (placed.places.whole) {
@@ -83,7 +83,7 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
 void add_item(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   pugi::xml_node node =
-      add_numbered(draft, draft.lists.characteristic_items, element(placed.family, "Item").c_str());
+      add_numbered(draft, draft.lists.characteristic_items, element(placed.family, "Item"));
   placed.item = id_of(node);
   add_attributes(node,
                  {{"feature", placed.feature.feature.id}, {"drawing_zone", asked.drawing_zone}});
@@ -164,7 +164,7 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   const evaluation::CharacteristicResult& result = placed.result;
   const record::Characteristic& asked = result.characteristic;
   pugi::xml_node node = add_numbered(draft, draft.lists.measured_characteristics,
-                                     element(placed.family, "Measurement").c_str());
+                                     element(placed.family, "Measurement"));
   add_attributes(node, {{"verdict", std::string(name_of(result.verdict))},
                         {"verification_operator",
                          result.value ? result.value->operator_text() : std::string()},

@@ -83,7 +83,7 @@ QifShape add_shape(QifDraft& draft, const record::Feature& asked, bool circle, d
   shape.circle = circle;
   const auto add_node = [&](pugi::xml_node list, std::string_view kind) {
     return add_numbered(draft, list,
-                        fmt::format("{}Feature{}", circle ? "Circle" : "Cylinder", kind).c_str());
+                        fmt::format("{}Feature{}", circle ? "Circle" : "Cylinder", kind));
   };
   pugi::xml_node node = add_node(draft.lists.feature_definitions, "Definition");
   const int definition = id_of(node);

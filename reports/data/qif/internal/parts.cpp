@@ -86,8 +86,8 @@ pugi::xml_node add(pugi::xml_node parent, const char* name, int number) {
   return add(parent, name, std::to_string(number));
 }
 
-pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const char* name) {
-  pugi::xml_node node = add(parent, name);
+pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const std::string& name) {
+  pugi::xml_node node = add(parent, name.c_str());
   node.append_attribute("id").set_value(draft.ids.next());
   return node;
 }

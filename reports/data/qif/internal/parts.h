@@ -23,7 +23,7 @@ pugi::xml_node add(pugi::xml_node parent, const char* name, std::string_view tex
 pugi::xml_node add(pugi::xml_node parent, const char* name, int number);
 
 /// A new last child with the next id of the document, and that id.
-pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const char* name);
+pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const std::string& name);
 [[nodiscard]] int id_of(const pugi::xml_node& node);
 
 /// A new attribute, its text cleaned in the same way.
