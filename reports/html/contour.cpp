@@ -44,7 +44,7 @@ Curve curve_of(std::string name, std::string_view css_class, const std::vector<d
 
 using CurveOf = std::function<const std::vector<double>*(const fit::ContourPartResult&)>;
 
-/// One line a part; nothing where no part has the curve.
+/// One line for each part; empty where no part has the curve.
 std::string side_by_side(const evaluation::ContourResult& facts, std::string_view title,
                          std::string_view x_title, std::string_view y_title, double unit,
                          const CurveOf& curve) {

@@ -183,7 +183,7 @@ std::string truth_text(const record::SimulationTruth* truth,
   return text;
 }
 
-/// Of an analysis: the numbers that were hidden in its series.
+/// Hidden truth of an analysis: the numbers that made its simulated series.
 std::string truth_text(const record::RunRecord& record, std::size_t index) {
   std::string text;
   for (const record::TruthValue& truth : record.truth_values) {
@@ -203,7 +203,7 @@ std::string key_numbers(const evaluation::FeatureResult& feature,
   return html + "</dl>";
 }
 
-/// Of a feature whose shape is an analysis.
+/// Section of a feature whose shape is an analysis.
 std::string analysis_section(const record::RunRecord& record, std::size_t index,
                              const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;

@@ -14,7 +14,7 @@ namespace {
 
 using core::um;
 
-/// What goes beyond a mask, or that nothing does.
+/// Table of the harmonics beyond a mask, or a note that there are none.
 std::string against_limits(const evaluation::FeatureResult& feature,
                            const record::Characteristic& asked) {
   TableRows rows;

@@ -134,7 +134,7 @@ std::string disc_label(double deviation_mm) {
   return fmt::format("{}{}", value > 0.0 ? "+" : "", fixed(value, decimals));
 }
 
-/// Where a point is drawn: one that several poses touched stands beside itself.
+/// x of a disc: discs of one target in several poses stand side by side.
 double disc_x(const evaluation::CloudPoint& point, const evaluation::FeatureResult& feature,
               const MapView& view) {
   const double x = view.x.at(point.angle_rad / core::kDegree);

@@ -29,7 +29,7 @@ namespace rondure::reports {
 [[nodiscard]] std::string deviation_map(const evaluation::FeatureResult& feature,
                                         const evaluation::Zone& zone);
 /// The cylinder with its zone and its points in three dimensions: complete as it stands, turned by
-/// the script of the page (html_script.h). Empty for a single section.
+/// the script of the page (html/internal/script.h). Empty for a single section.
 [[nodiscard]] std::string solid_view(const evaluation::FeatureResult& feature,
                                      const evaluation::Zone& zone);
 /// f against the visit, and where the poses lie.

@@ -29,7 +29,7 @@ std::string mono(const std::string& text) {
 
 std::string text_or_dash(const std::string& text) { return text.empty() ? "–" : isolated(text); }
 
-/// Of a text that is the program's own.
+/// The same for a text of the program.
 std::string words_or_dash(const std::string& text) { return text.empty() ? "–" : worded(text); }
 
 /// A sentence that a journal holds stays as it is in English.

@@ -19,7 +19,7 @@ struct WheelResult;
 namespace rondure::reports {
 
 /// The parts of the page, in their order.
-/// @param kind  What page this is, beside the name of the program.
+/// @param kind  Kind of page, printed after the name of the program.
 [[nodiscard]] std::string head_section(const record::RunRecord& record, const std::string& kind);
 [[nodiscard]] std::string verdict_section(const record::RunRecord& record,
                                           const evaluation::Evaluation& evaluation);

@@ -112,7 +112,7 @@ std::string motion_plot(const std::string& title, const std::vector<double>& alp
   return polar_chart(title, curves);
 }
 
-/// What the mean revolution leaves of every revolution.
+/// Every revolution without the mean revolution.
 std::string asynchronous_plot(const std::string& title, const std::vector<double>& alpha_rad,
                               const fit::AxisMotion& motion) {
   if (motion.turns_mm.size() < 2) return {};

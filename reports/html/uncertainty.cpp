@@ -16,7 +16,7 @@ using core::signed_um;
 using core::tiny_um;
 using core::um;
 
-/// What the letters of the formula stand for.
+/// Meaning of the letters in the formula of the rule.
 constexpr const char* kFormulaLetters = translatable(
     "T: the tolerance; y: the value corrected for noise (and, of the whole surface, for sparse "
     "sampling); [lo, hi]: its coverage interval; U: half its width. In the bars above: the line is "
@@ -67,7 +67,7 @@ std::string bias_entries(const evaluation::UncertaintyResult& u) {
   return html;
 }
 
-/// What the form model found in the cloud.
+/// Findings of the form model in the cloud.
 std::string finding_entry(const evaluation::UncertaintyResult& u) {
   const evaluation::FormFinding& found = u.finding;
   std::string note = tr("means over the draws; spots are form and are never smoothed away");

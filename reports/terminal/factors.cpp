@@ -24,7 +24,7 @@ using Combination = std::array<std::size_t, 4>;
 /// A row: one combination of the last three factors, a column a reference.
 struct CombinationRow {
   const evaluation::FactorStudy& study;
-  Combination combination;  ///< Its reference is not looked at.
+  Combination combination;  ///< Its reference is ignored.
 
   [[nodiscard]] const evaluation::FactorCell& cell(std::size_t reference) const {
     Combination c = combination;

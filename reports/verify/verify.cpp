@@ -46,7 +46,7 @@ struct Pair {
   std::optional<double> now;
 };
 
-/// What is wrong with one result, or nothing.
+/// The difference between both, in one sentence; nothing when they agree.
 std::optional<std::string> compare_result(const std::string& name, const Pair& pair,
                                           const Exactness& exactness) {
   if (!pair.stored || !pair.now) {
@@ -136,7 +136,8 @@ bool was_written(const Export& what, const record::RunRecord& record, const List
   return usual && applies(what, record);
 }
 
-/// Compares each export that exists; gives their names.
+/// Compares each export that exists.
+/// @return Their names.
 core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
                                           const evaluation::Evaluation& evaluation,
@@ -168,7 +169,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   return (names.empty() ? "none" : names) + absent;
 }
 
-/// What the journal and the list of digests say before anything is computed.
+/// Adds the damage of journal and list that shows before anything is computed.
 void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Verification& out) {
   const record::RunRecord& record = read.record;
   for (const record::BrokenTable& broken : read.broken) {
@@ -232,7 +233,7 @@ std::string how_exactly(const record::Header& header, const VerifyOptions& optio
   return words.empty() ? "bit for bit (same kind of processor)" : words;
 }
 
-/// What an answer leaves open without being a difference.
+/// Limits of the answer that are no differences.
 std::vector<std::string> notes_on(const record::ReadJournal& read, const ListedFiles& listed) {
   std::vector<std::string> out;
   const record::Header& header = read.record.header;
@@ -270,7 +271,8 @@ std::vector<std::string> signed_files() {
   return files;
 }
 
-/// Checks the signature when there is a key; says what of it was checked.
+/// Checks the signature when there is a key.
+/// @return The end of the sentence: how far the signature was checked.
 core::Result<std::string> about_signature(const fs::path& directory, const VerifyOptions& options,
                                           const ListedFiles& listed, Verification& out) {
   if (!options.public_key_pem) {

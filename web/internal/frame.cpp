@@ -29,7 +29,7 @@ record::Strategy strategy_of(const record::RunRecord& record, const record::Pose
   return record.features[static_cast<std::size_t>(visit.feature)].strategy;
 }
 
-/// Whether every target of a pose was touched: before, f is of another cloud than in other poses.
+/// Whether every target of a pose was touched; until then its f is not comparable with the others.
 bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
   const record::Feature& feature = record.features[static_cast<std::size_t>(visit.feature)];
   const int targets = feature.layers * feature.points_per_layer;

@@ -30,7 +30,7 @@ struct LiveNow {
 [[nodiscard]] std::string live_drawings(const core::Result<LiveCloud>& cloud);
 /// The last touches, the newest first.
 [[nodiscard]] std::string live_touches(const record::RunRecord& record);
-/// What the page says when the run is over, above the verdict.
+/// Heading of the page when the run is over, above the verdict.
 [[nodiscard]] std::string live_over(const record::RunRecord& record, std::string_view report);
 
 }  // namespace rondure::web

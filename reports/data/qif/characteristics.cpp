@@ -42,7 +42,7 @@ bool has_reference(const record::Characteristic& asked) {
   return !evaluation::reference_of(asked).empty();
 }
 
-/// One characteristic on its way through the document.
+/// One characteristic, with the ids of its elements once they are written.
 struct PlacedResult {
   const evaluation::CharacteristicResult& result;
   const evaluation::FeatureResult& feature;
@@ -150,7 +150,7 @@ void add_circle_zone(pugi::xml_node node, const PlacedResult& placed) {
   }
 }
 
-/// What the attribute of that name is, which QIF leaves open; empty without one.
+/// Meaning of `combinedUncertainty`, which QIF leaves open; empty without an interval.
 std::string uncertainty_words(const evaluation::CharacteristicResult& result) {
   const evaluation::UncertaintyStatement* known =
       result.value ? result.value->statement() : nullptr;

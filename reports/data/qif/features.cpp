@@ -141,7 +141,7 @@ void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
   add(node, "Form", decimal(found.deviation_mm));
 }
 
-/// The rows of a layer as a range, where they stand one behind the other.
+/// The rows of a layer as a range; empty where they are not consecutive.
 PointRange point_range(std::optional<int> set, const std::vector<std::size_t>& rows) {
   if (rows.empty() || rows.back() - rows.front() + 1 != rows.size()) return {};
   if (!std::is_sorted(rows.begin(), rows.end())) return {};
@@ -157,13 +157,12 @@ std::optional<fit::Axis> zone_axis(const evaluation::FeatureResult& feature) {
   return section_axis(feature, section, section.mz->center_mm);
 }
 
-/// One more item of a list of numbers.
 void append(std::string& list, const std::string& item) {
   if (!list.empty()) list += ' ';
   list += item;
 }
 
-/// Unit vectors out of the material, one a point.
+/// Unit vectors out of the material, one for each point.
 std::string normals_of(const evaluation::FeatureResult& feature, const fit::Axis& axis) {
   const double sign = feature.feature.side == record::Side::kOutside ? 1.0 : -1.0;
   const Eigen::Vector3d unit = axis.direction.normalized();

@@ -14,7 +14,8 @@ void tick_beside(Svg& svg, double left, double y, std::string_view label, double
 /// The label alone, for a line of a grid.
 void label_beside(Svg& svg, double left, double y, std::string_view label, double gap = 8.0);
 
-/// The length of so many um as drawn, at the left below a drawing; `top` is that of its strokes.
+/// A bar of `length` px that stands for `length_um`, at the left below a drawing; `top`: its
+/// strokes.
 void scale_bar(Svg& svg, int top, double length, double length_um);
 
 /// Ticks every 30 deg round a polar drawing, with lines and labels every 90 deg.

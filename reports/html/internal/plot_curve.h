@@ -8,7 +8,7 @@
 
 namespace rondure::reports {
 
-/// One line of a drawing of an analysis. `css_class` is one of html_style.h: "profile" (black),
+/// One line of a drawing of an analysis. `css_class` is one of html/style.h: "profile" (black),
 /// "zone-outer" (orange), "zone-inner" (blue), "guide" (dotted), "mean" (dashed).
 struct Curve {
   std::string name;

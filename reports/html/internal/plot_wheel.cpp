@@ -22,10 +22,9 @@ constexpr double kEdgeSize = 340.0;
 constexpr double kEdgeCentre = 170.0;
 constexpr double kEdgeMean = 104.0;  ///< Radius of the mean circle as drawn.
 constexpr double kEdgeReach = 24.0;  ///< Largest deviation of a used point as drawn.
-constexpr double kMiddle = 64.0;     ///< What is drawn in the middle stays within this.
+constexpr double kMiddle = 64.0;     ///< Greatest radius of the drawing in the middle.
 constexpr std::size_t kMostCenters = 250;
 
-/// Places on the drawing of an edge.
 struct EdgeView {
   const fit::WheelMeasurement& wheel;
   double px_per_mm = 1.0;
@@ -121,7 +120,6 @@ void draw_scale_bar(Svg& svg, const EdgeView& view) {
   scale_bar(svg, 323, length, length_um);
 }
 
-/// Place and scale of a side view.
 struct SideView {
   Eigen::Vector2d low;
   Eigen::Vector2d high;

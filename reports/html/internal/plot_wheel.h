@@ -15,8 +15,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
                                           std::span<const Eigen::Vector2d> points_mm);
 
-/// Side view of a path, x and z at one scale: the surface, the way of the wheel's centre, the wheel
-/// at both ends and half way.
+/// Side view of a path, x and z at one scale: the surface, the path of the wheel's centre, the
+/// wheel at both ends and halfway.
 [[nodiscard]] std::string wheel_path_plot(const fit::WheelPath& path);
 
 }  // namespace rondure::reports

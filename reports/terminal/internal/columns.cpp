@@ -34,8 +34,8 @@ bool opens(std::string_view letter) {
   return kMarks.find(letter) != std::string_view::npos;
 }
 
-/// What a line may not be broken within: a word, or a wide character with the punctuation that
-/// belongs to it.
+/// A piece that is never broken: a word, or a wide character with the punctuation that belongs to
+/// it.
 struct LinePiece {
   std::string text;
   bool after_space = false;  ///< A space, or several, stood before it.

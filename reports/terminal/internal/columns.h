@@ -11,7 +11,7 @@ inline constexpr std::size_t kTerminalColumns = 80;
 
 /// Columns that UTF-8 text takes in a terminal; East Asian wide characters take two.
 [[nodiscard]] std::size_t columns(std::string_view text);
-/// The text with spaces behind it, `width` columns at least.
+/// The text followed by spaces up to `width` columns.
 [[nodiscard]] std::string padded(std::string_view text, std::size_t width);
 
 /// The text cut to at most `limit` columns, with "..." where something was cut.

@@ -62,7 +62,7 @@ struct QifDraft {
   QifLists lists = {};
   int software = 0;
   std::optional<int> device = {};  ///< None where points came from a file.
-  std::string frame = {};          ///< Of the feature that is written: where its points lie.
+  std::string frame = {};          ///< Frame of the points of the present feature.
 };
 
 /// References in the order of record::Reference.
@@ -76,10 +76,10 @@ struct QifShape {
   std::array<std::optional<int>, kReferences> measured = {};
 };
 
-/// What stands for one feature of the plan; nothing for an analysis of series.
+/// The shapes of one feature of the plan; none for an analysis of series.
 struct QifFeature {
   std::optional<QifShape> whole = {};
-  std::vector<QifShape> sections = {};  ///< Of a cylinder: a circle a layer, in their order.
+  std::vector<QifShape> sections = {};  ///< Of a cylinder: a circle for each layer.
 };
 
 /// Writes definition, nominal, item, point set and measurements of one feature.
