@@ -14,8 +14,8 @@ void tick_beside(Svg& svg, double left, double y, std::string_view label, double
 /// The label alone, for a line of a grid.
 void label_beside(Svg& svg, double left, double y, std::string_view label, double gap = 8.0);
 
-/// A bar of `length` px that stands for `length_um`, at the left below a drawing; `top`: its
-/// strokes.
+/// A bar at the left below a drawing, `length` px long, which stands for `length_um`.
+/// @param top  Upper end of its strokes.
 void scale_bar(Svg& svg, int top, double length, double length_um);
 
 /// Ticks every 30 deg round a polar drawing, with lines and labels every 90 deg.
