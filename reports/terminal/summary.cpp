@@ -120,7 +120,7 @@ constexpr std::size_t kValueColumn = 15;  ///< Where the values of labelled line
 
 /// Appends a line of the summary; `head` has kValueColumn columns or less.
 void add_wrapped(std::string& out, std::string_view head, std::string_view text) {
-  out += wrapped(padded(head, kValueColumn), text);
+  out += wrapped(padded(head, kValueColumn), text, LineBreaks::kAtWideCharacters);
 }
 
 /// An error of another room: the title of its code, then its English sentence.

@@ -41,7 +41,7 @@ struct LinePiece {
   bool after_space = false;  ///< A space, or several, stood before it.
 };
 
-std::vector<LinePiece> line_pieces(std::string_view text) {
+std::vector<LinePiece> line_pieces(std::string_view text, LineBreaks breaks) {
   std::vector<LinePiece> out;
   bool space = true;   // the text begins a line
   bool joins = false;  // the next character belongs to the piece before it
@@ -56,8 +56,9 @@ std::vector<LinePiece> line_pieces(std::string_view text) {
       continue;
     }
     const bool wide = is_wide(c.code);
-    const bool breaks = (wide || wide_before) && !joins && !closes(letter);
-    if (space || out.empty() || breaks) {
+    const bool ends = breaks == LineBreaks::kAtWideCharacters && (wide || wide_before) && !joins &&
+                      !closes(letter);
+    if (space || out.empty() || ends) {
       out.push_back({std::string(letter), space && !out.empty()});
     } else {
       out.back().text += letter;
@@ -100,12 +101,12 @@ std::string shortened(std::string_view text, std::size_t limit) {
   return result + "...";
 }
 
-std::string wrapped(std::string_view head, std::string_view text) {
+std::string wrapped(std::string_view head, std::string_view text, LineBreaks breaks) {
   const std::size_t indent = columns(head);
   std::string out;
   std::string line(head);
   bool fresh = true;
-  for (const LinePiece& piece : line_pieces(core::printable(text))) {
+  for (const LinePiece& piece : line_pieces(core::printable(text), breaks)) {
     const std::string word = shortened(piece.text, kTerminalColumns - indent);
     const std::size_t space = piece.after_space && !fresh ? 1 : 0;
     if (!fresh && columns(line) + space + columns(word) > kTerminalColumns) {

@@ -17,9 +17,13 @@ inline constexpr std::size_t kTerminalColumns = 80;
 /// The text cut to at most `limit` columns, with "..." where something was cut.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t limit);
 
+/// Where a line may be broken besides spaces: before and after wide characters (Chinese has no
+/// spaces), but not before closing nor after opening punctuation.
+enum class LineBreaks { kAtSpaces, kAtWideCharacters };
+
 /// The text in lines of at most kTerminalColumns columns, each with its line feed: the first after
-/// `head`, the others below its end. Lines are broken at spaces, and before and after wide
-/// characters (Chinese has no spaces), but not before closing nor after opening punctuation.
-[[nodiscard]] std::string wrapped(std::string_view head, std::string_view text);
+/// `head`, the others below its end.
+[[nodiscard]] std::string wrapped(std::string_view head, std::string_view text,
+                                  LineBreaks breaks = LineBreaks::kAtSpaces);
 
 }  // namespace rondure::reports
