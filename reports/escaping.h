@@ -12,6 +12,11 @@ namespace rondure::reports {
 /// tab stay) and without noncharacters, which XML and HTML refuse; each of these becomes U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
+/// A text as a field by RFC 4180: quoted when it holds a comma, a quote or a line break. A text
+/// that a spreadsheet would compute (it begins with = + - @, a tab or CR) gets an apostrophe in
+/// front, which tells spreadsheets that it is text. Not for numbers.
+[[nodiscard]] std::string csv_field(std::string text);
+
 /// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
 /// control characters and noncharacters the replacement character.
 [[nodiscard]] std::string escaped(std::string_view text);

@@ -3,8 +3,6 @@
 #include <string>
 #include <string_view>
 
-// Private to the room: the page itself, which fetches its parts (live_frame.h).
-
 namespace rondure::web {
 
 /// The page. Without control it has no button at all.
@@ -13,9 +11,9 @@ namespace rondure::web {
 /// The style of the report, and what the live page has besides.
 [[nodiscard]] std::string live_style();
 
-/// Asks for what changed four times a second and puts it into its places; says when nobody answers;
-/// stops the run when the button and then the question were answered, with the token that stands
-/// behind "#" in the address. It computes nothing and draws nothing.
+/// Fetches the parts that changed four times a second and shows when the program does not answer;
+/// stops the run after the button and the question were confirmed, with the token after "#" in the
+/// address. It computes nothing and draws nothing.
 inline constexpr std::string_view kLiveScript = R"js('use strict';
 (() => {
   const byId = (id) => document.getElementById(id);

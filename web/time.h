@@ -14,8 +14,8 @@ struct PredictedStage {
 /// Touches of all stages.
 [[nodiscard]] int predicted_touches(const std::vector<PredictedStage>& stages);
 
-/// What the model predicts from the beginning to behind touch `touches` [s]: whole stages, and of
-/// the stage it stands in a share of the time as of the touches.
+/// Predicted time from the start to the end of touch `touches` [s]; within a stage in proportion to
+/// its touches.
 [[nodiscard]] double predicted_time_s(const std::vector<PredictedStage>& stages, double touches);
 
 /// Time left: what the model predicts for the touches that are still to come, at the pace the run
@@ -23,7 +23,7 @@ struct PredictedStage {
 /// where a simulation does not wait).
 /// @param first     Touches on record when this start of the program made its first one.
 /// @param elapsed_s Since then.
-/// @return  Nothing without a model, before a pace is known (three touches), and behind the last
+/// @return  Nothing without a model, before a pace is known (three touches), and after the last
 ///          touch that was predicted.
 [[nodiscard]] std::optional<double> time_left_s(const std::vector<PredictedStage>& stages,
                                                 int first, int touches, double elapsed_s);

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr auto kLeastPause = milliseconds(200);  ///< Five frames a second at most.
-constexpr int kShare = 4;                        ///< The pause is so many times the painting.
+constexpr int kShare = 4;                        ///< Ratio of a pause to the painting before it.
 constexpr auto kLooking = milliseconds(3000);    ///< A page that asked so lately is open.
 constexpr auto kLastWord = milliseconds(1500);   ///< For the pages to fetch the last frame.
 constexpr std::size_t kMostClients = 64;
@@ -59,12 +59,7 @@ class LiveView::Impl {
   }
 
   ~Impl() {
-    {
-      std::unique_lock lock(mutex_);
-      ending_ = true;
-      wake_.notify_all();
-    }
-    if (thread_.joinable()) thread_.join();
+    end_painting();
     wait_for_readers();
   }
 
@@ -74,21 +69,25 @@ class LiveView::Impl {
     return gate.control ? page + "#token=" + gate.token : page;
   }
 
-  /// Leaves the painter's thread and paints the last frame in the caller's.
+  /// Ends the painter's thread and paints the last frame in that of the caller.
   template <class Paint>
   void show_last(const Paint& paint_last) {
-    {
-      const std::lock_guard lock(mutex_);
-      ending_ = true;
-      wake_.notify_all();
-    }
-    if (thread_.joinable()) thread_.join();
+    end_painting();
     auto last = paint_last(painter_);
     const std::lock_guard lock(mutex_);
     frame_ = std::move(last);
   }
 
  private:
+  void end_painting() {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+      wake_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+  }
+
   /// In the server's threads.
   std::string state(std::uint64_t since, const std::string& client) {
     std::shared_ptr<const LiveFrame> frame;
@@ -140,12 +139,12 @@ class LiveView::Impl {
     bool has_last = false;
   };
 
-  LivePainter painter_;  ///< Of its thread; of the run's behind the end of that.
+  LivePainter painter_;  ///< Used by its thread; after the end of that by the run's.
   reports::Language language_;
   std::function<void()> stop_;
   std::string session_;
   const Clock::time_point start_ = Clock::now();
-  std::mutex mutex_;  ///< Of what follows, to thread_.
+  std::mutex mutex_;  ///< Guards the members below, up to thread_.
   std::condition_variable wake_;
   std::shared_ptr<const LiveFrame> frame_ = std::make_shared<const LiveFrame>();
   Clock::time_point looked_ = start_ - 2 * kLooking;

@@ -20,9 +20,9 @@ namespace rondure::web {
 struct LiveOptions {
   std::uint16_t port = 0;  ///< 0: any free one.
   bool control = false;    ///< With a button that stops the run.
-  /// Of the plan, for the time left; empty: no prediction.
+  /// Prediction of the plan for the time left; may be empty.
   std::vector<PredictedStage> stages;
-  /// What the button does, as Ctrl-C: sets a flag that the run asks for. Called from another thread
+  /// Action of the button, as Ctrl-C: sets a flag that the run polls. Called from another thread
   /// and more than once. Only with `control`.
   std::function<void()> stop;
   reports::Language language = reports::Language::kEnglish;  ///< Of the page.

@@ -8,7 +8,7 @@
 namespace rondure::reports {
 namespace {
 
-Json contour_feature_json(const evaluation::ContourResult& facts) {
+Json found_json(const evaluation::ContourResult& facts) {
   auto out = contour_document(facts.study, facts.options, facts.names);
   out.erase("warnings");  // they stand beside, as of every feature
   auto curves = Json::array();
@@ -22,20 +22,16 @@ Json contour_feature_json(const evaluation::ContourResult& facts) {
   return out;
 }
 
+Json found_json(const evaluation::SpindleResult& found) { return separation_json(found); }
+Json found_json(const evaluation::WheelResult& found) {
+  return wheel_json(found.evaluation, found.task);
+}
+Json found_json(const evaluation::RotaryResult& found) { return rotary_json(found); }
+
 /// Everything under the name of the shape. Curves (one number a sample) stand under the key
 /// "curves", which the stored results leave out.
-Json result_json(const evaluation::AnalysisResult& result) {
-  struct Writer {
-    Json operator()(const evaluation::SpindleResult& found) const { return separation_json(found); }
-    Json operator()(const evaluation::WheelResult& found) const {
-      return wheel_json(found.evaluation, found.task);
-    }
-    Json operator()(const evaluation::ContourResult& found) const {
-      return contour_feature_json(found);
-    }
-    Json operator()(const evaluation::RotaryResult& found) const { return rotary_json(found); }
-  };
-  return std::visit(Writer{}, result.found);
+Json found_json(const evaluation::AnalysisResult& result) {
+  return std::visit([](const auto& found) { return found_json(found); }, result.found);
 }
 
 }  // namespace
@@ -50,9 +46,9 @@ Json analysis_json(const evaluation::FeatureResult& feature) {
   json["data_sha256"] = asked.points_sha256;
   json["characteristics"] = list_json(feature.characteristics, characteristic_json);
   json[std::string(record::name_of(asked.shape))] =
-      feature.analysis ? result_json(*feature.analysis) : Json(nullptr);
+      feature.analysis ? found_json(*feature.analysis) : Json(nullptr);
   json["warnings"] = list_json(feature.warnings, error_json);
-  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
+  json["failure"] = optional_json(feature.failure);
   return json;
 }
 

@@ -1,6 +1,5 @@
 #include "reports/data/contour.h"
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -84,9 +83,7 @@ Json repeatability_json(const std::optional<fit::Repeatability>& found, double s
                         const std::string& unit, const fit::StabilityLimits& limits) {
   if (!found) return nullptr;
   const auto scaled = [&](const std::vector<double>& values) {
-    Json out = Json::array();
-    for (const double v : values) out.push_back(v * scale);
-    return out;
+    return list_json(values, [&](double value) { return value * scale; });
   };
   const auto word = found->word(limits);
   Json out = {{"index", optional_json(found->index)},

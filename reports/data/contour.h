@@ -17,8 +17,8 @@ namespace rondure::reports {
                                                       const fit::ContourStudyOptions& options,
                                                       std::span<const std::string> names);
 
-/// What the indices say of the sources, one sentence each; fewer than 4 parts: that they say
-/// nothing yet.
+/// Conclusions from the stability indices, one sentence each; below 4 parts one sentence that there
+/// are too few.
 [[nodiscard]] std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
                                                         const fit::StabilityLimits& limits);
 

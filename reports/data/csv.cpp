@@ -19,22 +19,8 @@ namespace {
 
 using core::printable;
 
-/// A text as a field by RFC 4180: quoted when it holds a comma, a quote or a line break; control
-/// characters are U+FFFD. A text that a spreadsheet would compute (it begins with = + - @ or a tab)
-/// gets an apostrophe in front, which tells spreadsheets that it is text. Not for numbers.
-std::string csv_field(std::string_view text) {
-  std::string plain = clean(text);
-  if (!plain.empty() && std::string_view("=+-@\t").find(plain.front()) != std::string_view::npos) {
-    plain.insert(plain.begin(), '\'');
-  }
-  if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
-  std::string quoted = "\"";
-  for (const char c : plain) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
+/// Control characters are U+FFFD. Not for numbers.
+std::string text_field(std::string_view text) { return csv_field(clean(text)); }
 
 std::string um_field(const std::optional<double>& length_mm) {
   if (!length_mm || !std::isfinite(*length_mm)) return {};
@@ -51,8 +37,8 @@ std::string write_results_csv(const record::RunRecord& record,
                               const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   const std::string head =
-      fmt::format("{},{},{},{}", csv_field(header.run_id), csv_field(header.started_utc),
-                  csv_field(header.part_id), csv_field(header.serial));
+      fmt::format("{},{},{},{}", text_field(header.run_id), text_field(header.started_utc),
+                  text_field(header.part_id), text_field(header.serial));
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um\n";
@@ -65,12 +51,12 @@ std::string write_results_csv(const record::RunRecord& record,
                                                     : um_field(known->estimate_mm) + "," +
                                                           um_field(known->low_mm) + "," +
                                                           um_field(known->high_mm);
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
-                          csv_field(asked.id), evaluation::symbol_of(asked),
-                          evaluation::reference_of(asked), um_field(result.value_mm()),
-                          um_field(asked.tolerance_mm), name_of(result.verdict),
-                          csv_field(result.reason),
-                          csv_field(result.value ? result.value->operator_text() : ""), interval);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head,
+                          text_field(feature.feature.id), text_field(asked.id),
+                          evaluation::symbol_of(asked), evaluation::reference_of(asked),
+                          um_field(result.value_mm()), um_field(asked.tolerance_mm),
+                          name_of(result.verdict), text_field(result.reason),
+                          text_field(result.value ? result.value->operator_text() : ""), interval);
     }
   }
   return text;
@@ -82,12 +68,12 @@ std::string write_series_csv(const record::RunRecord& record) {
   for (const record::Series& series : record.series) {
     if (series.role == record::Series::Role::kTruth) continue;
     const std::string head =
-        csv_field(record.features[static_cast<std::size_t>(series.feature)].id) + "," +
-        csv_field(series.name);
+        text_field(record.features[static_cast<std::size_t>(series.feature)].id) + "," +
+        text_field(series.name);
     const std::size_t columns = series.columns.size();
     for (std::size_t i = 0; i < series.values.size(); ++i) {
       text += fmt::format("{},{},{},{}\n", head, i / columns,
-                          csv_field(series.columns[i % columns].name),
+                          text_field(series.columns[i % columns].name),
                           core::shortest(series.values[i]));
     }
   }
@@ -99,7 +85,7 @@ std::string write_touches_csv(const record::RunRecord& record) {
   for (const record::PoseVisit& pose : record.poses) {
     const auto index = static_cast<std::size_t>(pose.feature);
     if (pose.feature >= 0 && index < record.features.size()) {
-      feature_of_pose[pose.id] = csv_field(record.features[index].id);
+      feature_of_pose[pose.id] = text_field(record.features[index].id);
     }
   }
   std::string text = fmt::format("# rondure touches, run {}\n", printable(record.header.run_id));

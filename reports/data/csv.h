@@ -7,13 +7,13 @@
 
 namespace rondure::reports {
 
-/// touches.csv: a row a touch, as journalled.
+/// touches.csv: one row for each touch, as journalled.
 [[nodiscard]] std::string write_touches_csv(const record::RunRecord& record);
 
-/// series.csv: a line a number: feature, series, row, column, value; hidden truth is left out.
+/// series.csv: one line for each number: feature, series, row, column, value; no hidden truth.
 [[nodiscard]] std::string write_series_csv(const record::RunRecord& record);
 
-/// results.csv: a row a characteristic: value, tolerance, verdict, how it came about.
+/// results.csv: one row for each characteristic: value, tolerance, verdict, operator.
 [[nodiscard]] std::string write_results_csv(const record::RunRecord& record,
                                             const evaluation::Evaluation& evaluation);
 

@@ -18,7 +18,6 @@ using core::decimal;
 using core::printable;
 
 using record::Form;
-using record::Reference;
 
 /// Text of the record in a comment. DMIS is ASCII, a `$` may continue a line: both become "?".
 std::string remark(std::string_view text) {

@@ -44,7 +44,7 @@ Json header_json(const record::RunRecord& record) {
           {"temperature_max_degC", h.temperature_max_degC},
           {"touches", record.touches.size()},
           {"ending", record.ending},
-          {"failure", record.failure ? error_json(*record.failure) : Json(nullptr)}};
+          {"failure", optional_json(record.failure)}};
 }
 
 Json fixture_json(const std::optional<evaluation::FixtureUse>& use) {
@@ -57,7 +57,7 @@ Json fixture_json(const std::optional<evaluation::FixtureUse>& use) {
           {"residual_rms_um", in_um(use->residual_rms_mm)},
           {"residual_max_um", in_um(use->residual_max_mm)},
           {"residual_tilt_urad", use->residual_tilt_rad * 1e6},
-          {"invalid", use->invalid ? error_json(*use->invalid) : Json(nullptr)}};
+          {"invalid", optional_json(use->invalid)}};
 }
 
 Json probe_json(const std::optional<fit::ProbeTip>& probe) {
@@ -264,7 +264,7 @@ Json merged_json(const evaluation::MergedPoses& merged) {
     json["chi2_limit"] = solved.chi2_limit;
     json["statements"] = solved.statements;
   }
-  json["refusal"] = merged.refusal ? error_json(*merged.refusal) : Json(nullptr);
+  json["refusal"] = optional_json(merged.refusal);
   json["poses"] = Json::array();
   for (std::size_t k = 0; k < merged.poses.size(); ++k)
     json["poses"].push_back(merged_pose_json(merged, k));
@@ -325,7 +325,7 @@ Json feature_json(const evaluation::FeatureResult& feature) {
   for (std::size_t i = 0; feature.merged && i < feature.cloud.size(); ++i)
     json["cloud"][i]["pose"] = feature.cloud[i].pose;
   json["warnings"] = list_json(feature.warnings, error_json);
-  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
+  json["failure"] = optional_json(feature.failure);
   return json;
 }
 

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "core/units.h"
 #include "evaluation/rotary/result.h"
@@ -37,11 +36,9 @@ Json station_json(const fixture::AxisStation& station) {
 }
 
 Json measured_json(const fit::RotaryStation& station) {
-  Json removed = Json::array();
-  for (const std::string& ball : station.removed) removed.push_back(ball);
   return {{"angle_deg", in_deg(station.angle_rad)},
           {"balls", station.balls.size()},
-          {"removed", std::move(removed)},
+          {"removed", station.removed},
           {"undetermined", station.undetermined},
           {"flagged", station.flagged},
           {"chi2", station.chi2},

@@ -69,14 +69,6 @@ Json zone(const fit::WheelMeasurement& m) {
           {"certificate", fit::name_of(m.zone->certificate.kind)}};
 }
 
-Json dropped(const fit::WheelMeasurement& m) {
-  Json out = Json::array();
-  for (const fit::DroppedPoint& p : m.dropped) {
-    out.push_back({{"row", p.row}, {"deviation_um", micrometres(p.deviation_mm)}});
-  }
-  return out;
-}
-
 Json path_curves(const fit::WheelPath& path) {
   using Row = fit::WheelPathRow;
   const auto of = [&](const auto& value) { return list_json(path.rows, value); };
@@ -161,7 +153,11 @@ nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
   Json out = {{"shape", "wheel"},
               {"mode", fit::name_of(m.mode)},
               {"points", m.points},
-              {"dropped", dropped(m)},
+              {"dropped",
+               list_json(m.dropped,
+                         [](const fit::DroppedPoint& p) -> Json {
+                           return {{"row", p.row}, {"deviation_um", micrometres(p.deviation_mm)}};
+                         })},
               {"center_by", fit::name_of(m.mean)},
               {"center_mm", point(m.center_mm)},
               {"center_uncertainty_um", micrometres(m.center_uncertainty_mm)},

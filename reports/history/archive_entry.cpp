@@ -26,7 +26,7 @@ std::string sampling_of(const evaluation::FeatureResult& feature,
 
 using CertificateKind = fit::Certificate::Kind;
 
-/// Of the zone or circle behind a result; "none" for least squares, which proves nothing.
+/// Certificate of the zone or circle of a result; none for least squares, which proves nothing.
 template <class Zone, class Enclosing>
 CertificateKind certificate_of(record::Reference reference, const Zone& mz, const Enclosing& mc,
                                const Enclosing& mi) {

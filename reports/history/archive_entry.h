@@ -7,10 +7,10 @@
 
 namespace rondure::reports {
 
-/// A finished run as the archive keeps it: one result a characteristic. Texts are made well-formed
-/// UTF-8 without NUL, which no database would refuse.
+/// A finished run as the archive keeps it: one result for each characteristic. Texts are made
+/// well-formed UTF-8 without NUL, which no database would refuse.
 ///
-/// @param journal_sha256  Of the bytes of its sealed journal.
+/// @param journal_sha256  SHA-256 of the sealed journal.
 [[nodiscard]] record::ArchiveRun archive_entry(const record::RunRecord& record,
                                                const evaluation::Evaluation& evaluation,
                                                std::string journal_sha256);

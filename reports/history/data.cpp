@@ -1,10 +1,9 @@
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/data/internal/json_parts.h"
+#include "reports/escaping.h"
 #include "reports/history/history.h"
 
 namespace rondure::reports {
@@ -17,25 +16,7 @@ std::optional<double> outside(const std::optional<double>& value, const std::str
 }
 std::string outside_unit(const std::string& unit) { return unit == "mm" ? "um" : unit; }
 
-/// A field by RFC 4180. A spreadsheet takes text that begins with = + - @ for a formula; an
-/// apostrophe before it says that it is text.
-std::string field(const std::string& text) {
-  const bool formula =
-      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
-  const std::string kept = fmt::format("{}{}", formula ? "'" : "", text);
-  if (kept.find_first_of(",\"\r\n") == std::string::npos) return kept;
-  std::string quoted = "\"";
-  for (const char c : kept) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
-std::string shortest_or_empty(const std::optional<double>& value) {
-  return value ? core::shortest(*value) : std::string();
-}
-
+/// The fields of a result: of the JSON and, in this order, of the CSV file.
 Json result_json(const record::ArchivedResult& r) {
   return {{"run_id", r.head.run_id},
           {"started_utc", r.head.started_utc},
@@ -102,30 +83,25 @@ Json chart_json(const RunChart& chart) {
 }  // namespace
 
 std::string history_csv_header() {
-  return "run_id,started_utc,part,part_name,serial,operator,machine,fixture,simulated,feature,"
-         "characteristic,symbol,reference,filter,sampling,value,limit,unit,verdict,certificate,"
-         "plan,plan_revision,plan_sha256,journal_sha256,version\n";
+  std::string out;
+  const Json fields = result_json({});
+  for (const auto& [key, value] : fields.items()) out += (out.empty() ? "" : ",") + key;
+  return out + "\n";
 }
 
 std::string history_csv_rows(std::span<const record::ArchivedResult> newest_first) {
   std::string out;
   for (const record::ArchivedResult& r : newest_first) {
-    const record::ArchiveHead& h = r.head;
-    for (const std::string* text : {&h.run_id, &h.started_utc, &h.part_id, &h.part_name, &h.serial,
-                                    &h.operator_name, &h.machine, &h.fixture}) {
-      out += field(*text) + ",";
+    const char* separator = "";
+    for (const Json& value : result_json(r)) {
+      out += separator;
+      out += value.is_string()    ? csv_field(value.get<std::string>())
+             : value.is_number()  ? core::shortest(value.get<double>())
+             : value.is_boolean() ? (value.get<bool>() ? "1" : "0")
+                                  : "";
+      separator = ",";
     }
-    out += h.simulated ? "1," : "0,";
-    for (const std::string* text : {&r.result.feature, &r.result.characteristic, &r.result.symbol,
-                                    &r.result.reference, &r.result.filter, &r.result.sampling}) {
-      out += field(*text) + ",";
-    }
-    out += fmt::format("{},{},{},", shortest_or_empty(outside(r.result.value, r.result.unit)),
-                       shortest_or_empty(outside(r.result.upper_limit, r.result.unit)),
-                       outside_unit(r.result.unit));
-    out += fmt::format("{},{},{},{},{},{},{}\n", field(r.result.verdict),
-                       field(r.result.certificate), field(h.plan_name), field(h.plan_revision),
-                       field(h.plan_sha256), field(h.journal_sha256), field(h.version));
+    out += "\n";
   }
   return out;
 }

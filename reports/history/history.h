@@ -19,11 +19,11 @@ namespace rondure::reports {
 /// The run chart as a file of its own.
 [[nodiscard]] std::string history_svg(const RunChart& chart);
 
-/// The run chart as a drawing of the page, and what must be said with it.
+/// The run chart as a drawing of the page, and the sentences that belong below it.
 [[nodiscard]] std::string history_drawing(const RunChart& chart);
 [[nodiscard]] std::vector<std::string> history_sentences(const RunChart& chart);
 
-/// The header line of the CSV file, and its rows, oldest last: as they come.
+/// The header line of the CSV file, and its rows in the order given.
 [[nodiscard]] std::string history_csv_header();
 [[nodiscard]] std::string history_csv_rows(std::span<const record::ArchivedResult> newest_first);
 

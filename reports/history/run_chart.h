@@ -22,7 +22,7 @@ struct RunChart {
   std::size_t allowed_beyond = 0;   ///< As many are expected of a stable process: 0.27 %.
   std::optional<Capability> capability;
   std::string index_name;  ///< "CpkU" in statistical control, otherwise "PpkU".
-  /// What a reader must know: what was left out, what is missing, what is mixed. Sentences.
+  /// Sentences on results left out, missing statistics and mixed conditions.
   std::vector<std::string> notes;
 };
 
@@ -30,7 +30,7 @@ struct RunChart {
 /// @param newest_first  As Archive::newest() gives them.
 [[nodiscard]] RunChart run_chart_of(std::span<const record::ArchivedResult> newest_first);
 
-/// What a drawing of the chart shows of the value axis.
+/// Range of the value axis of a drawing.
 struct ChartRange {
   double low_mm = 0.0;
   double high_mm = 1.0;

@@ -45,12 +45,6 @@ struct RunAxes {
   Scale y;
 };
 
-RunAxes run_axes(const ChartRange& range, std::size_t results) {
-  return {
-      {0.0, static_cast<double>(results) + 1.0, kRunLeft, kRunRight},
-      {range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre, kRunBottom, kRunTop}};
-}
-
 void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
   svg.rect(kRunLeft, kRunTop, kRunRight - kRunLeft, kRunBottom - kRunTop, "frame");
   for (const double value : core::round_ticks(axes.y.low, axes.y.high, 6)) {
@@ -119,6 +113,17 @@ void draw_results(Svg& svg, const RunAxes& axes, const RunChart& chart,
   }
 }
 
+void draw_chart(Svg& svg, const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const ChartRange range = range_of(chart);
+  const RunAxes axes = {
+      {0.0, static_cast<double>(values_mm.size()) + 1.0, kRunLeft, kRunRight},
+      {range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre, kRunBottom, kRunTop}};
+  draw_frame(svg, axes, chart);
+  draw_levels(svg, axes, chart, range.limit_shown);
+  draw_results(svg, axes, chart, values_mm);
+}
+
 /// Lines of at most kSentenceLetters columns.
 std::vector<std::string> lines_within(std::string_view text,
                                       std::size_t letters = kSentenceLetters) {
@@ -139,15 +144,23 @@ std::string with_micro_sign(std::string text) {
   return text;
 }
 
-/// The sentences below the drawing.
-std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
+}  // namespace
+
+std::string history_drawing(const RunChart& chart) {
+  Svg svg(kRunWidth, kRunBottom + 50.0, "wide chart",
+          trf("Run chart of {}", printable(chart.results.back().result.characteristic)));
+  draw_chart(svg, chart);
+  return svg.str();
+}
+
+std::vector<std::string> history_sentences(const RunChart& chart) {
   std::vector<std::string> out;
   if (chart.limits) {
     out.emplace_back(
         "UCL, LCL: control limits of individuals, 3 sigma from moving ranges of ln x (I-MR chart). "
         "Triangle: beyond a control limit; cross: beyond the tolerance.");
   }
-  if (chart.upper_limit_mm && !limit_shown) {
+  if (chart.upper_limit_mm && !range_of(chart).limit_shown) {
     out.push_back(
         fmt::format("The tolerance, {} um, is above the chart.", um(*chart.upper_limit_mm)));
   }
@@ -155,31 +168,9 @@ std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
   return out;
 }
 
-}  // namespace
-
-std::string history_drawing(const RunChart& chart) {
-  const std::vector<double> values_mm = values_of(chart);
-  const ChartRange range = range_of(chart);
-  const RunAxes axes = run_axes(range, values_mm.size());
-  const record::ArchivedResult& newest = chart.results.back();
-  Svg svg(kRunWidth, kRunBottom + 50.0, "wide chart",
-          trf("Run chart of {}", printable(newest.result.characteristic)));
-  draw_frame(svg, axes, chart);
-  draw_levels(svg, axes, chart, range.limit_shown);
-  draw_results(svg, axes, chart, values_mm);
-  return svg.str();
-}
-
-std::vector<std::string> history_sentences(const RunChart& chart) {
-  return sentences_of(chart, range_of(chart).limit_shown);
-}
-
 std::string history_svg(const RunChart& chart) {
-  const std::vector<double> values_mm = values_of(chart);
-  const ChartRange range = range_of(chart);
-  const RunAxes axes = run_axes(range, values_mm.size());
   std::vector<std::string> lines;
-  for (const std::string& sentence : sentences_of(chart, range.limit_shown)) {
+  for (const std::string& sentence : history_sentences(chart)) {
     for (const std::string& line : lines_within(with_micro_sign(sentence))) lines.push_back(line);
   }
   const auto index = lines_within(with_micro_sign(capability_in_words(chart)), kIndexLetters);
@@ -197,9 +188,7 @@ std::string history_svg(const RunChart& chart) {
            fmt::format("{}; {}; {}", shortened(printable(newest.result.filter), 40),
                        shortened(printable(newest.result.sampling), 60),
                        count(chart.results.size(), "result", "results")));
-  draw_frame(svg, axes, chart);
-  draw_levels(svg, axes, chart, range.limit_shown);
-  draw_results(svg, axes, chart, values_mm);
+  draw_chart(svg, chart);
   double y = kText;
   for (const std::string& line : index) {
     svg.text(kRunLeft, y, "start", "index", line);

@@ -25,8 +25,7 @@ constexpr std::size_t kRows = 17;
 
 /// Text in a field of `width` columns.
 std::string cell(const std::string& text, std::size_t width) {
-  const std::string cut = shortened(printable(text), width);
-  return cut + std::string(width - std::min(width, columns(cut)), ' ');
+  return padded(shortened(printable(text), width), width);
 }
 
 std::string um_or_dash(const std::optional<double>& value_mm) {
@@ -38,22 +37,6 @@ std::string minute_of(const std::string& utc) {
   std::string out = utc.substr(0, 16);
   if (out.size() > 10) out[10] = ' ';
   return out;
-}
-
-std::string broken_lines(std::string_view text, std::string_view head) {
-  std::string out;
-  std::string line(head);
-  for (std::string_view rest = text; !rest.empty();) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string word = shortened(rest.substr(0, end), kTerminalColumns - columns(head) - 1);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (columns(line) + 1 + columns(word) > kTerminalColumns) {
-      out += line + "\n";
-      line = std::string(head.size(), ' ');
-    }
-    line += fmt::format("{}{}", line.size() == head.size() ? "" : " ", word);
-  }
-  return out + line + "\n";
 }
 
 /// The drawing as rows of characters, the first row on top.
@@ -127,15 +110,13 @@ void draw_results(TextCanvas& canvas, const RunChart& chart, const std::vector<d
 
 std::string head_of(const RunChart& chart) {
   const record::ArchivedResult& r = chart.results.back();
-  return broken_lines(fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
-                                  shortened(printable(r.result.feature), 60),
-                                  shortened(printable(r.result.characteristic), 60),
-                                  shortened(printable(r.head.part_id), 60)),
-                      "") +
-         broken_lines(fmt::format("{}; {}; {}", printable(r.result.filter),
-                                  shortened(printable(r.result.sampling), 60),
-                                  count(chart.results.size(), "result", "results")),
-                      "") +
+  return wrapped("", fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
+                                 shortened(printable(r.result.feature), 60),
+                                 shortened(printable(r.result.characteristic), 60),
+                                 shortened(printable(r.head.part_id), 60))) +
+         wrapped("", fmt::format("{}; {}; {}", printable(r.result.filter),
+                                 shortened(printable(r.result.sampling), 60),
+                                 count(chart.results.size(), "result", "results"))) +
          "\n";
 }
 
@@ -173,33 +154,29 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);
   TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
+  const auto line = [&](double value_mm, char mark, std::string_view name) {
+    canvas.line(value_mm / core::kMicrometre, mark, fmt::format("{} {}", name, um(value_mm)));
+  };
   if (chart.limits) {
-    const auto label = [](double mm) { return um(mm); };
-    canvas.line(chart.limits->lower_mm / core::kMicrometre, '-',
-                fmt::format("LCL {}", label(chart.limits->lower_mm)));
-    canvas.line(chart.limits->center_mm / core::kMicrometre, '.',
-                fmt::format("CL {}", label(chart.limits->center_mm)));
-    canvas.line(chart.limits->upper_mm / core::kMicrometre, '-',
-                fmt::format("UCL {}", label(chart.limits->upper_mm)));
+    line(chart.limits->lower_mm, '-', "LCL");
+    line(chart.limits->center_mm, '.', "CL");
+    line(chart.limits->upper_mm, '-', "UCL");
   }
-  if (chart.upper_limit_mm) {
-    canvas.line(*chart.upper_limit_mm / core::kMicrometre, '=',
-                fmt::format("U {}", um(*chart.upper_limit_mm)));
-  }
+  if (chart.upper_limit_mm) line(*chart.upper_limit_mm, '=', "U");
   draw_results(canvas, chart, values_mm);
   std::string out = head_of(chart) + canvas.text(coloured) + legend_of(chart);
   if (chart.limits) {
-    out += broken_lines(
-        "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); U: tolerance",
-        "");
+    out += wrapped("",
+                   "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); "
+                   "U: tolerance");
   }
   if (chart.upper_limit_mm && !range.limit_shown) {
     out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));
   }
   if (const std::string words = capability_in_words(chart); !words.empty()) {
-    out.append("\n").append(broken_lines(words, ""));
+    out.append("\n").append(wrapped("", words));
   }
-  for (const std::string& note : chart.notes) out += broken_lines(note, "note: ");
+  for (const std::string& note : chart.notes) out += wrapped("note: ", note);
   return out;
 }
 

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -45,7 +44,7 @@ Curve curve_of(std::string name, std::string_view css_class, const std::vector<d
 
 using CurveOf = std::function<const std::vector<double>*(const fit::ContourPartResult&)>;
 
-/// One line a part; nothing where no part has the curve.
+/// One line for each part; empty where no part has the curve.
 std::string side_by_side(const evaluation::ContourResult& facts, std::string_view title,
                          std::string_view x_title, std::string_view y_title, double unit,
                          const CurveOf& curve) {
@@ -89,10 +88,8 @@ std::string separation_plots(const evaluation::ContourResult& facts,
     curves.push_back(
         curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
     add_truth(record, feature, i, curves);
-    html += R"(<div class="scroll">)" +
-            line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"),
-                       curves) +
-            "</div>";
+    html += scrolling(line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle),
+                                 tr("contour error / µm"), curves));
   }
   return html;
 }
@@ -130,16 +127,10 @@ std::string harmonic_plot(const evaluation::ContourResult& facts,
   for (const fit::Harmonic& h : fit::contour_harmonics(curve, 50)) {
     bars.push_back({h.number, h.amplitude_mm / core::kMicrometre});
   }
-  std::vector<BarLimit> limits;
-  for (const record::Characteristic& characteristic : asked) {
-    for (const record::HarmonicLimit& line : characteristic.harmonic_limits) {
-      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
-    }
-  }
   return fmt::format(
       R"(<h3>{}</h3><div class="scroll">{}</div>)", tr("Harmonics"),
       bar_chart(several ? tr("Mean contour t of all parts") : tr("Contour t"),
-                tr("undulations per revolution"), tr("amplitude / µm"), bars, limits));
+                tr("undulations per revolution"), tr("amplitude / µm"), bars, limits_of(asked)));
 }
 
 std::string key_numbers(const evaluation::ContourResult& facts) {
@@ -168,35 +159,26 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   return html + "</dl>";
 }
 
-std::string part_row(const fit::ContourPartResult& part, const std::string& name) {
-  const fit::ContourSeparation& d = part.direct;
-  const auto cell = [](const std::string& text) {
-    return fmt::format(R"(<td class="n">{}</td>)", text);
-  };
+std::string part_table(const evaluation::ContourResult& facts) {
+  TableRows rows;
   const auto square = [](double mm2) {
     return fixed(mm2 / (core::kMicrometre * core::kMicrometre), 4);
   };
-  return fmt::format("<tr><td>{}</td>", isolated(name)) +
-         cell(um(part.pin.contour.peak_to_valley_mm)) + cell(um(part.following.peak_to_valley_mm)) +
-         cell(um(fit::peak_to_valley(d.rest_mm))) + cell(square(d.total_mm2)) +
-         cell(square(d.following_mm2)) + cell(square(d.rest_mm2)) + cell(square(d.cross_mm2)) +
-         "<td>" + (d.enlarges() ? tr("enlarges") : tr("reduces")) + "</td>" +
-         cell(part.indirect ? fixed(part.indirect->correlation, 4) : "–") + "</tr>";
-}
-
-std::string part_table(const evaluation::ContourResult& facts) {
-  std::string rows;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
-    rows += part_row(facts.study.parts[i], facts.names[i]);
+    const fit::ContourPartResult& part = facts.study.parts[i];
+    const fit::ContourSeparation& d = part.direct;
+    rows.push_back({isolated(facts.names[i]), um(part.pin.contour.peak_to_valley_mm),
+                    um(part.following.peak_to_valley_mm), um(fit::peak_to_valley(d.rest_mm)),
+                    square(d.total_mm2), square(d.following_mm2), square(d.rest_mm2),
+                    square(d.cross_mm2), d.enlarges() ? tr("enlarges") : tr("reduces"),
+                    part.indirect ? fixed(part.indirect->correlation, 4) : "–"});
   }
   return fmt::format(
-      R"(<h3>{}</h3><div class="scroll"><table class="short">{}<thead><tr><th scope="col">{}</th>)"
-      R"(<th scope="col" class="n">t µm</th><th scope="col" class="n">f µm</th><th scope="col" class="n">n µm</th>)"
-      R"(<th scope="col" class="n">{}</th><th scope="col" class="n">f²</th><th scope="col" class="n">n²</th>)"
-      R"(<th scope="col" class="n">2 f n</th><th scope="col">n … t</th><th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody>)"
-      R"(</table></div><p class="note">{}</p>)",
-      tr("Balance"), spoken_caption(tr("Balance")), tr("Part"), tr("mean t² µm²"),
-      tr("f from main"), rows,
+      R"(<h3>{}</h3>{}<p class="note">{}</p>)", tr("Balance"),
+      scrolling(table("short", "lrrrrrrrlr", spoken_caption(tr("Balance")),
+                      {tr("Part"), "t µm", "f µm", "n µm", tr("mean t² µm²"), "f²", "n²", "2 f n",
+                       "n … t", tr("f from main")},
+                      rows)),
       tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
          "valley do not. Last column: correlation of f with what the main journal leaves of t."));
 }
@@ -211,8 +193,8 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 
 }  // namespace
 
-std::string contour_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
-                         int feature) {
+std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
+                          int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return key_numbers(facts) + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          separation_plots(facts, record, feature) + harmonic_plot(facts, asked);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/units.h"
+#include "evaluation/analysis_result.h"
 #include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
@@ -167,14 +167,31 @@ std::string data_entries(const evaluation::FeatureResult& feature) {
   return html;
 }
 
-std::string truth_box(const record::SimulationTruth* truth,
-                      const std::optional<evaluation::Zone>& zone, record::Shape shape) {
+/// Empty for no text.
+std::string truth_box(const std::string& text) {
+  if (text.empty()) return {};
+  return fmt::format(R"(<div class="truth"><b>{}</b> {}{}</div>)",
+                     tr("Hidden truth of the simulation:"), text,
+                     tr(". This is not part of the measurement: evaluation never reads it."));
+}
+
+std::string truth_text(const record::SimulationTruth* truth,
+                       const std::optional<evaluation::Zone>& zone, record::Shape shape) {
   if (truth == nullptr) return {};
-  std::string text = fmt::format("<b>{}</b> {} {} µm", tr("Hidden truth of the simulation:"),
-                                 evaluation::symbol_of(shape), um(truth->cylt_mm));
+  std::string text = fmt::format("{} {} µm", evaluation::symbol_of(shape), um(truth->cylt_mm));
   if (zone) text += trf("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
-  return R"(<div class="truth">)" + text +
-         tr(". This is not part of the measurement: evaluation never reads it.") + "</div>";
+  return text;
+}
+
+/// Hidden truth of an analysis: the numbers that made its simulated series.
+std::string truth_text(const record::RunRecord& record, std::size_t index) {
+  std::string text;
+  for (const record::TruthValue& truth : record.truth_values) {
+    if (static_cast<std::size_t>(truth.feature) != index) continue;
+    text +=
+        fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", plain_words(truth.name), truth.value);
+  }
+  return text;
 }
 
 std::string key_numbers(const evaluation::FeatureResult& feature,
@@ -186,14 +203,32 @@ std::string key_numbers(const evaluation::FeatureResult& feature,
   return html + "</dl>";
 }
 
+/// Section of a feature whose shape is an analysis.
+std::string analysis_section(const record::RunRecord& record, std::size_t index,
+                             const evaluation::FeatureResult& feature) {
+  const record::Feature& asked = feature.feature;
+  std::string html = fmt::format(
+      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
+      trf("{}.", asked.shape == record::Shape::kRotaryAxes
+                     ? tr("Calibration of the fixture with balls that it carried")
+                     : trf("{}; data {}", capitalised(tr(record::name_of(asked.shape))),
+                           asked.points_file.empty()
+                               ? tr("simulated")
+                               : trf("from the file {}", isolated(asked.points_file)))));
+  html += messages(feature);
+  if (feature.analysis) {
+    const auto write = [&](const auto& found) {
+      return analysis_part(found, record, static_cast<int>(index));
+    };
+    html += std::visit(write, feature.analysis->found);
+  }
+  return html + truth_box(truth_text(record, index)) + "</section>";
+}
+
 }  // namespace
 
 std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
-}
-
-std::string spoken_caption(std::string_view html) {
-  return fmt::format(R"(<caption class="spoken screen-only">{}</caption>)", html);
 }
 
 std::string messages(const evaluation::FeatureResult& feature) {
@@ -233,7 +268,7 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
               : trf("pose search: {}", tr(record::name_of(asked.strategy)))));
   html += messages(feature);
   html += key_numbers(feature, zone);
-  html += truth_box(evaluation::truth_of(record, index), zone, feature.feature.shape);
+  html += truth_box(truth_text(evaluation::truth_of(record, index), zone, asked.shape));
   html += uncertainty_section(feature);
   if (zone)
     html +=

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -7,7 +6,6 @@
 #include "evaluation/harmonic_mask.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
-#include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 
@@ -16,33 +14,24 @@ namespace {
 
 using core::um;
 
-std::string exceeding_row(const evaluation::MaskedHarmonic& masked) {
-  return fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
-                     R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
-                     masked.harmonic.number, masked.harmonic.layer + 1,
-                     um(masked.harmonic.amplitude_mm), um(masked.limit_mm),
-                     um(masked.harmonic.amplitude_mm - masked.limit_mm));
-}
-
-/// What goes beyond a mask, or that nothing does.
+/// Table of the harmonics beyond a mask, or a note that there are none.
 std::string against_limits(const evaluation::FeatureResult& feature,
                            const record::Characteristic& asked) {
-  const std::vector<evaluation::MaskedHarmonic> all = against_mask(feature, asked);
-  std::string rows;
-  for (const evaluation::MaskedHarmonic& masked : all) {
-    if (masked.exceeds()) rows += exceeding_row(masked);
+  TableRows rows;
+  for (const evaluation::MaskedHarmonic& masked : against_mask(feature, asked)) {
+    if (!masked.exceeds()) continue;
+    rows.push_back({std::to_string(masked.harmonic.number),
+                    std::to_string(masked.harmonic.layer + 1), um(masked.harmonic.amplitude_mm),
+                    um(masked.limit_mm), um(masked.harmonic.amplitude_mm - masked.limit_mm)});
   }
   if (rows.empty()) {
-    return fmt::format(R"(<p class="note">{}</p>)",
-                       trf("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
+    return note(trf("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
   }
-  std::string html = fmt::format(R"(<table class="short"><caption>{}</caption><thead><tr>)",
-                                 trf("Harmonics beyond the limits of {}", isolated(asked.id)));
-  for (const std::string& name : {std::string("UPR"), tr("Layer"), tr("Amplitude / µm"),
-                                  tr("Limit / µm"), tr("Beyond by / µm")}) {
-    html += fmt::format(R"(<th scope="col" class="n">{}</th>)", name);
-  }
-  return html + "</tr></thead><tbody>" + rows + "</tbody></table>";
+  return table("short", "rrrrr",
+               fmt::format("<caption>{}</caption>",
+                           trf("Harmonics beyond the limits of {}", isolated(asked.id))),
+               {"UPR", tr("Layer"), tr("Amplitude / µm"), tr("Limit / µm"), tr("Beyond by / µm")},
+               rows);
 }
 
 }  // namespace
@@ -54,12 +43,9 @@ std::string harmonics_section(const evaluation::FeatureResult& feature) {
     bars.push_back({harmonic.number, harmonic.amplitude_mm / core::kMicrometre});
   }
   if (bars.empty()) return {};
-  std::vector<BarLimit> limits;
+  const std::vector<BarLimit> limits = limits_of(feature.feature.characteristics);
   std::string words;
   for (const record::Characteristic& asked : feature.feature.characteristics) {
-    for (const record::HarmonicLimit& line : asked.harmonic_limits) {
-      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
-    }
     if (!asked.harmonic_limits.empty()) words += against_limits(feature, asked);
   }
   const std::string note =

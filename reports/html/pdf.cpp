@@ -28,7 +28,7 @@ std::string page_mark(std::string_view html) {
   return fmt::format("{}{}", kDigestMark, record::sha256_hex(std::string(html)));
 }
 
-/// What a document states of its page. The last such text: what a name says stands before it. Up to
+/// The statement of a document about its page: the last such text, since a name may hold one. Up to
 /// version 0.2 it stood in the document information and ended with a parenthesis.
 std::string_view print_statement(std::string_view pdf) {
   const std::size_t at = pdf.rfind(kDigestMark);
@@ -76,10 +76,10 @@ std::string css_string(std::string_view text) {
   return out + "\"";
 }
 
-/// What the page cannot say itself: the paper, and what its sheets are told apart by.
+/// Style of the sheets: paper, and part, revision and run above each.
 std::string sheet_style(const record::Header& header, Paper paper) {
   const auto field = [](std::string_view place, std::string_view name, std::string_view value) {
-    constexpr std::size_t kMost = 44;  // columns: a third of a line, and a little more
+    constexpr std::size_t kMost = 44;  // columns: a little more than a third of a line
     const std::string text = value.empty() ? "\u2013" : shortened(core::printable(value), kMost);
     return fmt::format(
         "@top-{}{{content:{};font:8pt system-ui,sans-serif;color:#55616d;white-space:nowrap}}",
@@ -103,8 +103,8 @@ std::string file_url(const fs::path& file) {
   return out;
 }
 
-/// Nothing of a desktop is needed. What Chromium would keep at home goes with the folder; fonts
-/// that a user installed are found nevertheless.
+/// Chromium needs no desktop. Its home is the folder, which is removed afterwards; fonts that the
+/// user installed are found nevertheless.
 std::vector<std::string> print_environment(const PrintFolder& folder) {
   const std::string place = folder.path().string();
   std::vector<std::string> out = {"HOME=" + place, "TMPDIR=" + place, "LANG=C.UTF-8", "TZ=UTC",

@@ -13,7 +13,7 @@
 
 namespace rondure::reports {
 
-/// What report.pdf is printed on.
+/// Paper of report.pdf.
 enum class Paper { kA4, kLetter };
 
 /// "a4" or "letter"; nothing for any other name.

@@ -105,17 +105,25 @@ MapView view_of(const evaluation::FeatureResult& feature, const evaluation::Zone
   return view;
 }
 
-void draw_axes(Svg& svg, const MapView& view) {
-  svg.rect(kMapLeft, kMapTop, kMapRight - kMapLeft, view.bottom - kMapTop, "frame");
-  for (int tick = 0; tick <= 8; ++tick) {
-    tick_below(svg, view.x.at(45.0 * tick), view.bottom, std::to_string(45 * tick));
+/// Where the frame of a drawing over the angle ends; it begins at kMapLeft.
+struct MapFrame {
+  double right = kMapRight;
+  double top = kMapTop;
+  double bottom = 0.0;
+};
+
+/// Frame, ticks and titles of a drawing over the angle.
+void draw_frame(Svg& svg, const MapFrame& frame, const Scale& x, const std::string& x_title,
+                const Scale& y, int y_ticks, const std::string& y_title) {
+  svg.rect(kMapLeft, frame.top, frame.right - kMapLeft, frame.bottom - frame.top, "frame");
+  for (int angle = 0; angle <= 360; angle += 45) {
+    tick_below(svg, x.at(angle), frame.bottom, std::to_string(angle));
   }
-  svg.text(0.5 * (kMapLeft + kMapRight), view.bottom + 36.0, "middle", "title",
-           tr("angle about the axis / °"));
-  for (const double height : core::round_ticks(view.y.low, view.y.high, 5)) {
-    tick_beside(svg, kMapLeft, view.y.at(height), tick_label(height));
+  svg.text(0.5 * (kMapLeft + frame.right), frame.bottom + 36.0, "middle", "title", x_title);
+  for (const double value : core::round_ticks(y.low, y.high, y_ticks)) {
+    tick_beside(svg, kMapLeft, y.at(value), tick_label(value));
   }
-  svg.upward_text(14.0, 0.5 * (kMapTop + view.bottom), "title", tr("height / mm"));
+  svg.upward_text(14.0, 0.5 * (frame.top + frame.bottom), "title", y_title);
 }
 
 /// Three digits with their sign, short enough for a disc.
@@ -126,7 +134,7 @@ std::string disc_label(double deviation_mm) {
   return fmt::format("{}{}", value > 0.0 ? "+" : "", fixed(value, decimals));
 }
 
-/// Where a point is drawn: one that several poses touched stands beside itself.
+/// x of a disc: discs of one target in several poses stand side by side.
 double disc_x(const evaluation::CloudPoint& point, const evaluation::FeatureResult& feature,
               const MapView& view) {
   const double x = view.x.at(point.angle_rad / core::kDegree);
@@ -191,6 +199,57 @@ void draw_contacts(Svg& svg, const evaluation::FeatureResult& feature, const Map
   }
 }
 
+constexpr double kProfileHeight = 250.0;
+constexpr MapFrame kProfileFrame = {664.0, 12.0, 204.0};
+
+void draw_zone(Svg& svg, const Scale& y, double half_zone_um) {
+  const double right = kProfileFrame.right;
+  svg.rect(kMapLeft, y.at(half_zone_um), right - kMapLeft, y.at(-half_zone_um) - y.at(half_zone_um),
+           "band");
+  svg.line(kMapLeft, y.at(half_zone_um), right, y.at(half_zone_um), "zone-outer");
+  svg.line(kMapLeft, y.at(-half_zone_um), right, y.at(-half_zone_um), "zone-inner");
+  svg.line(kMapLeft, y.at(0.0), right, y.at(0.0), "mean");
+}
+
+std::string profile_path(const evaluation::Section& section, const Scale& x, const Scale& y) {
+  std::string d;
+  for (std::size_t i = 0; i < section.profile.size(); ++i) {
+    const evaluation::SectionPoint& point = section.profile[i];
+    const bool connected =
+        i > 0 && point.angle_rad - section.profile[i - 1].angle_rad <= section.widest_gap_rad;
+    d +=
+        fmt::format("{}{:.1f} {:.1f}", connected ? 'L' : 'M', x.at(point.angle_rad / core::kDegree),
+                    y.at(point.deviation_mm / core::kMicrometre));
+  }
+  return d;
+}
+
+/// Deviation of one section against the angle.
+std::string section_profile(const evaluation::FeatureResult& feature,
+                            const evaluation::Zone& zone) {
+  const std::vector<evaluation::Section> sections = sections_of(feature);
+  if (sections.empty()) return {};
+  const evaluation::Section& section = sections.front();
+  const double half_zone_um = std::max(0.5 * zone.deviation_mm / core::kMicrometre, 1e-2);
+  const Scale x{0.0, 360.0, kMapLeft, kProfileFrame.right};
+  const Scale y{-1.25 * half_zone_um, 1.25 * half_zone_um, kProfileFrame.bottom, kProfileFrame.top};
+  Svg svg(kMapWidth, kProfileHeight, "wide", tr("Deviation against the angle"));
+  draw_zone(svg, y, half_zone_um);
+  draw_frame(svg, kProfileFrame, x, tr("angle about the centre / °"), y, 6, tr("deviation / µm"));
+  svg.path(profile_path(section, x, y), section.rows.size() <= 40 ? "guide" : "profile");
+  const double size = !has_marks(section) ? 0.0 : section.rows.size() <= 60 ? 3.0 : 1.5;
+  for (const std::size_t row : section.rows) {
+    const evaluation::CloudPoint& point = feature.cloud[row];
+    draw_section_point(svg, x.at(point.angle_rad / core::kDegree),
+                       y.at(point.deviation_mm / core::kMicrometre), point, size);
+  }
+  return fmt::format(
+      R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)",
+      tr("Unrolled section"), svg.str(),
+      tr("Deviation from the middle of the zone (shaded); triangles touch the outer, squares the "
+         "inner circle."));
+}
+
 }  // namespace
 
 std::string deviation_map(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
@@ -200,7 +259,8 @@ std::string deviation_map(const evaluation::FeatureResult& feature, const evalua
   if (one_section) return section_profile(feature, zone);
   const MapView view = view_of(feature, zone);
   Svg svg(kMapWidth, view.bottom + 44.0, "wide", tr("Deviations on the unrolled surface"));
-  draw_axes(svg, view);
+  draw_frame(svg, {kMapRight, kMapTop, view.bottom}, view.x, tr("angle about the axis / °"), view.y,
+             5, tr("height / mm"));
   if (view.cells) {
     draw_cells(svg, feature, view);
   } else {

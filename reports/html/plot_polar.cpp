@@ -84,20 +84,11 @@ std::string profile_path(const evaluation::Section& section, const PolarView& vi
 
 void draw_points(Svg& svg, const evaluation::Section& section,
                  const evaluation::FeatureResult& feature, const PolarView& view) {
-  const bool marks = has_marks(section);
-  const double size = section.rows.size() <= 60 ? 3.0 : 1.6;
+  const double size = !has_marks(section) ? 0.0 : section.rows.size() <= 60 ? 3.0 : 1.6;
   for (const std::size_t row : section.rows) {
     const evaluation::CloudPoint& point = feature.cloud[row];
     const double r = view.radius(point.deviation_mm);
-    const double x = view.x(point.angle_rad, r);
-    const double y = view.y(point.angle_rad, r);
-    if (point.outer_contact) {
-      svg.triangle(x, y, 5.5, "outer");
-    } else if (point.inner_contact) {
-      svg.square(x, y, 5.0, "inner");
-    } else if (marks) {
-      svg.circle(x, y, size, "point");
-    }
+    draw_section_point(svg, view.x(point.angle_rad, r), view.y(point.angle_rad, r), point, size);
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 using core::fixed;
 using core::um;
 
-// The drawing is complete as it stands. What the script needs to draw it from another side stands
+// The drawing is complete as it stands. The script finds what it needs to draw another view
 // in data attributes: "p" is a place (angle, radius, height), "ring" a closed line (height, radii),
 // "body" and "cap" a radius, "h" a height. The n-th ring of the near group goes with the n-th of
 // the far group.
@@ -101,7 +101,7 @@ std::string point_marks(const SolidPoint& point, const evaluation::CloudPoint& m
                      place, x, y, disc, diverging_colour(measured.deviation_mm / half_zone_mm));
 }
 
-/// What the drawing is made of, far things before near ones.
+/// Markup of the drawing by depth: far things are drawn first.
 struct Layers {
   std::string far;
   std::string near;

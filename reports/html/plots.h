@@ -29,12 +29,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string deviation_map(const evaluation::FeatureResult& feature,
                                         const evaluation::Zone& zone);
 /// The cylinder with its zone and its points in three dimensions: complete as it stands, turned by
-/// the script of the page (html_script.h). Empty for a single section.
+/// the script of the page (html/internal/script.h). Empty for a single section.
 [[nodiscard]] std::string solid_view(const evaluation::FeatureResult& feature,
                                      const evaluation::Zone& zone);
-/// Deviation of one section against the angle.
-[[nodiscard]] std::string section_profile(const evaluation::FeatureResult& feature,
-                                          const evaluation::Zone& zone);
 /// f against the visit, and where the poses lie.
 [[nodiscard]] std::string pose_plots(const evaluation::FeatureResult& feature,
                                      const std::optional<evaluation::Zone>& zone);

@@ -1,9 +1,10 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "reports/escaping.h"
+#include "reports/history/earlier_results.h"
+#include "reports/history/history.h"
 #include "reports/html/sections.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/messages.h"
@@ -28,7 +29,7 @@ std::string mono(const std::string& text) {
 
 std::string text_or_dash(const std::string& text) { return text.empty() ? "–" : isolated(text); }
 
-/// Of a text that is the program's own.
+/// The same for a text of the program.
 std::string words_or_dash(const std::string& text) { return text.empty() ? "–" : worded(text); }
 
 /// A sentence that a journal holds stays as it is in English.
@@ -36,14 +37,6 @@ std::string decision_html(const record::Decision& decision) {
   const std::string english = english_sentence(decision);
   return in_sentence(language() == Language::kEnglish ? english : in_words(decision.message),
                      english);
-}
-
-std::string decision_row(const record::RunRecord& record, const record::Decision& decision) {
-  const auto index = static_cast<std::size_t>(decision.feature);
-  const bool known = decision.feature >= 0 && index < record.features.size();
-  return fmt::format(
-      R"(<tr><td class="n">{}</td><td>{}</td><td>{}</td></tr>)", fixed(decision.time_s, 1),
-      known ? isolated(record.features[index].id) : tr("run"), decision_html(decision));
 }
 
 std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {
@@ -99,24 +92,26 @@ std::string probe_section(const record::RunRecord& record,
 
 std::string decisions_section(const record::RunRecord& record) {
   if (record.decisions.empty()) return {};
-  std::string html = fmt::format(
-      R"(<section><h2>{}</h2><table>{}<thead><tr><th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
-      "</thead><tbody>",
-      tr("Decisions of the program"), spoken_caption(tr("Decisions of the program")),
-      tr("Machine time / s"), tr("Feature"), tr("Decision"));
+  TableRows rows;
   const std::size_t total = record.decisions.size();
   const bool all = total <= kMostDecisions;
   for (std::size_t i = 0; i < total; ++i) {
     if (!all && i == kEndDecisions) {
-      html += fmt::format(R"(<tr><td class="n">…</td><td></td><td>{}</td></tr>)",
-                          trf("{} left out; report.json has all",
-                              count(total - 2 * kEndDecisions, "decision", "decisions")));
+      rows.push_back({"…", "",
+                      trf("{} left out; report.json has all",
+                          count(total - 2 * kEndDecisions, "decision", "decisions"))});
     }
-    if (all || i < kEndDecisions || i + kEndDecisions >= total) {
-      html += decision_row(record, record.decisions[i]);
-    }
+    if (!all && i >= kEndDecisions && i + kEndDecisions < total) continue;
+    const record::Decision& decision = record.decisions[i];
+    const auto feature = static_cast<std::size_t>(decision.feature);
+    const bool known = decision.feature >= 0 && feature < record.features.size();
+    rows.push_back({fixed(decision.time_s, 1),
+                    known ? isolated(record.features[feature].id) : tr("run"),
+                    decision_html(decision)});
   }
-  return html + "</tbody></table></section>";
+  return fmt::format("<section><h2>{}</h2>{}</section>", tr("Decisions of the program"),
+                     table("", "rll", spoken_caption(tr("Decisions of the program")),
+                           {tr("Machine time / s"), tr("Feature"), tr("Decision")}, rows));
 }
 
 std::string provenance_section(const record::RunRecord& record) {
@@ -144,6 +139,30 @@ std::string provenance_section(const record::RunRecord& record) {
                    R"(<span class="mono">rondure verify RUN_DIR</span>)"));
   return fmt::format(R"(<section><h2>{}</h2><table class="props">{}{}</table></section>)",
                      tr("Provenance"), spoken_caption(tr("Provenance")), rows);
+}
+
+std::string history_section(const record::RunRecord& record,
+                            const evaluation::Evaluation& evaluation,
+                            const EarlierResults& earlier) {
+  std::string html;
+  for (const RunChart& chart : run_charts(record, evaluation, earlier)) {
+    const record::ArchiveResult& result = chart.results.back().result;
+    html += fmt::format(R"(<h3>{} · {}</h3><figure><div class="scroll">{}</div><figcaption>)",
+                        isolated(result.characteristic),
+                        trf("Feature {}", isolated(result.feature)), history_drawing(chart));
+    if (const std::string words = capability_in_words(chart); !words.empty()) {
+      html += "<b>" + in_sentence(words) + "</b> ";
+    }
+    for (const std::string& sentence : history_sentences(chart))
+      html += in_sentence(sentence) + " ";
+    html += "</figcaption></figure>";
+  }
+  if (html.empty()) return {};
+  return fmt::format(
+      R"(<section><h2>{}</h2><p class="note">{}</p>{}</section>)", tr("Earlier runs"),
+      tr("Results of the same characteristics from the archive, as it was when this run was "
+         "reported first; the last is this run."),
+      html);
 }
 
 }  // namespace rondure::reports

@@ -24,8 +24,7 @@ struct PagePart {
   std::string html;  ///< Begins with "<section".
 };
 
-/// Base64 (RFC 4648) of bytes that are given in hexadecimal; as many as fill whole groups or leave
-/// two over, as the 32 of a SHA-256 do.
+/// Base64 (RFC 4648) of the 32 bytes of a SHA-256, given in hexadecimal.
 std::string base64_of_sha256(std::string_view hex) {
   constexpr std::string_view kLetters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -63,7 +62,7 @@ std::string style() {
       kStyle, kDarkColours);
 }
 
-/// What stands above the page on a screen: the way past it, the contents, the switch of the theme.
+/// Head of the page on a screen: link to the result, contents, switch of the theme.
 std::string top_of(const std::vector<PagePart>& parts) {
   std::string links;
   for (const PagePart& part : parts) {
@@ -109,7 +108,7 @@ std::string write_html(const record::RunRecord& record, const evaluation::Evalua
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
       tag_of(language), policy(), escaped(printable(record.header.part_id)),
       escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(),
-      top_of(parts), head_section(record));
+      top_of(parts), head_section(record, tr("cylindricity report")));
   constexpr std::string_view kTag = "<section";
   for (const PagePart& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));

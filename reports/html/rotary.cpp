@@ -99,47 +99,35 @@ std::string with_u(double value, double u, int decimals) {
 
 /// Location and orientation of both axes: what does not depend on the angle.
 std::string location_table(const evaluation::RotaryResult& facts) {
-  std::string html = fmt::format(
-      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">{}</th><th scope="col">d x / µm</th><th scope="col">d y / µm</th>)"
-      R"(<th scope="col">d z / µm</th><th scope="col">e x / µrad</th><th scope="col">e y / µrad</th><th scope="col">e z / µrad</th></tr></thead>)"
-      "<tbody>",
-      spoken_caption(tr("Location and orientation of the axes")), tr("Axis"));
+  TableRows rows;
   for (const evaluation::AxisFacts& axis : axes_of(facts)) {
-    html += fmt::format("<tr><td>{}</td>", axis.key);
-    if (!axis.study->offset) {
-      html += fmt::format(R"(<td colspan="6">{}</td></tr>)",
-                          tr("the stations span less than 45°: not separated"));
-      continue;
+    std::vector<std::string> cells = {axis.key};
+    if (!axis.study->offset) cells.push_back(tr("the stations span less than 45°: not separated"));
+    for (Eigen::Index i = 0; axis.study->offset && i < 6; ++i) {
+      const fit::AxisOffset& o = *axis.study->offset;
+      cells.push_back(
+          i < 3 ? with_u(o.d_mm(i) / kMicrometre, o.d_u_mm(i) / kMicrometre, 2)
+                : with_u(o.e_rad(i - 3) / kMicroradian, o.e_u_rad(i - 3) / kMicroradian, 1));
     }
-    const fit::AxisOffset& o = *axis.study->offset;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      html +=
-          fmt::format("<td>{}</td>", with_u(o.d_mm(i) / kMicrometre, o.d_u_mm(i) / kMicrometre, 2));
-    }
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      html += fmt::format("<td>{}</td>",
-                          with_u(o.e_rad(i) / kMicroradian, o.e_u_rad(i) / kMicroradian, 1));
-    }
-    html += "</tr>";
+    rows.push_back(cells);
   }
-  return html + "</tbody></table></div>";
+  return scrolling(table(
+      "", "lllllll", spoken_caption(tr("Location and orientation of the axes")),
+      {tr("Axis"), "d x / µm", "d y / µm", "d z / µm", "e x / µrad", "e y / µrad", "e z / µrad"},
+      rows));
 }
 
 std::string combined_table(const evaluation::RotaryResult& facts) {
-  std::string html = fmt::format(
-      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
-      R"(<th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>)"
-      R"(<th scope="col">{}</th></tr></thead><tbody>)",
-      spoken_caption(tr("Combined poses")), tr("balls"), tr("before, rms / µm"),
-      tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad"));
+  TableRows rows;
   for (const evaluation::CombinedPose& pose : facts.combined) {
-    html += fmt::format(
-        "<tr><td>{}°</td><td>{}°</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
-        deg(pose.pose.alpha_rad, 2), deg(pose.pose.beta_rad, 2), pose.points,
-        um(pose.before_rms_mm), um(pose.rms_mm), um(pose.max_mm),
-        fixed(pose.tilt_rad / kMicroradian, 1));
+    rows.push_back({deg(pose.pose.alpha_rad, 2) + "°", deg(pose.pose.beta_rad, 2) + "°",
+                    std::to_string(pose.points), um(pose.before_rms_mm), um(pose.rms_mm),
+                    um(pose.max_mm), fixed(pose.tilt_rad / kMicroradian, 1)});
   }
-  return html + "</tbody></table></div>";
+  return scrolling(table("", "lllllll", spoken_caption(tr("Combined poses")),
+                         {"alpha", "beta", tr("balls"), tr("before, rms / µm"),
+                          tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad")},
+                         rows));
 }
 
 std::string key_numbers(const evaluation::RotaryResult& facts) {
@@ -169,14 +157,13 @@ std::string key_numbers(const evaluation::RotaryResult& facts) {
 
 }  // namespace
 
-std::string rotary_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
-                        int feature) {
+std::string analysis_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
+                          int feature) {
   std::string html = key_numbers(facts);
   html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
                       location_table(facts));
-  html += fmt::format(
-      R"(<p class="note">{}</p>)",
+  html += note(
       tr("Displacement d and tilt e of the real axis against the stated one, ± 2 u, as far as an "
          "axis beside its place explains the errors below. Compensation uses the whole errors."));
   const std::vector<evaluation::AxisFacts> axes = axes_of(facts);
@@ -187,10 +174,8 @@ std::string rotary_part(const evaluation::RotaryResult& facts, const record::Run
     html += axis_charts(axis, record.truth_series_of(feature, axis.key));
   }
   return html +
-         fmt::format(
-             R"(<p class="note">{}</p>)",
-             tr("Errors relative to the zero pose, at the axis. A dashed line, where there "
-                "is one, is the hidden truth of the simulation: evaluation never reads it."));
+         note(tr("Errors relative to the zero pose, at the axis. A dashed line, where there "
+                 "is one, is the hidden truth of the simulation: evaluation never reads it."));
 }
 
 }  // namespace rondure::reports

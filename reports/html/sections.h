@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
@@ -18,22 +19,22 @@ struct WheelResult;
 namespace rondure::reports {
 
 /// The parts of the page, in their order.
-[[nodiscard]] std::string head_section(const record::RunRecord& record);
+/// @param kind  Kind of page, printed after the name of the program.
+[[nodiscard]] std::string head_section(const record::RunRecord& record, const std::string& kind);
 [[nodiscard]] std::string verdict_section(const record::RunRecord& record,
                                           const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const evaluation::FeatureResult& feature);
-/// The section of a feature whose shape is an analysis.
-[[nodiscard]] std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                                           const evaluation::FeatureResult& feature);
-/// Its body: key numbers, drawings, tables. `record` for the hidden truth of a simulation.
-[[nodiscard]] std::string spindle_part(const evaluation::SpindleResult& facts,
-                                       const record::RunRecord& record, int feature);
-[[nodiscard]] std::string wheel_part(const evaluation::WheelResult& facts);
-[[nodiscard]] std::string contour_part(const evaluation::ContourResult& facts,
-                                       const record::RunRecord& record, int feature);
-[[nodiscard]] std::string rotary_part(const evaluation::RotaryResult& facts,
-                                      const record::RunRecord& record, int feature);
+/// The body of a feature whose shape is an analysis: key numbers, drawings, tables. `record` for
+/// the hidden truth of a simulation.
+[[nodiscard]] std::string analysis_part(const evaluation::SpindleResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::WheelResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::ContourResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::RotaryResult& facts,
+                                        const record::RunRecord& record, int feature);
 /// The rule behind the verdicts, in words, with its statements.
 [[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
@@ -59,8 +60,23 @@ namespace rondure::reports {
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 
+/// A paragraph in small print; HTML already.
+[[nodiscard]] std::string note(const std::string& html);
+/// In a box that scrolls on a narrow screen.
+[[nodiscard]] std::string scrolling(const std::string& html);
+
+using TableRows = std::vector<std::vector<std::string>>;
+/// A table; names and cells are HTML already. Of a row with fewer cells than columns the last one
+/// spans the columns that are left.
+/// @param css_class  May be empty.
+/// @param columns    A letter a column: 'l' text, 'r' numbers, which stand on the right.
+/// @param caption    A <caption>, as spoken_caption() gives it.
+[[nodiscard]] std::string table(std::string_view css_class, std::string_view columns,
+                                std::string_view caption, const std::vector<std::string>& names,
+                                const TableRows& rows);
 /// The name of a table for those who do not see the heading above it; HTML already.
 [[nodiscard]] std::string spoken_caption(std::string_view html);
+
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});

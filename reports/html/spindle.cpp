@@ -112,7 +112,7 @@ std::string motion_plot(const std::string& title, const std::vector<double>& alp
   return polar_chart(title, curves);
 }
 
-/// What the mean revolution leaves of every revolution.
+/// Every revolution without the mean revolution.
 std::string asynchronous_plot(const std::string& title, const std::vector<double>& alpha_rad,
                               const fit::AxisMotion& motion) {
   if (motion.turns_mm.size() < 2) return {};
@@ -134,29 +134,14 @@ std::string harmonic_plots(const evaluation::SpindleResult& facts,
     amplitudes.push_back({h.order, h.amplitude_mm / core::kMicrometre, !h.recovered});
     gains.push_back({h.order, h.recovered ? h.gain : 0.0, !h.recovered});
   }
-  std::vector<BarLimit> limits;
-  for (const record::Characteristic& characteristic : asked) {
-    for (const record::HarmonicLimit& line : characteristic.harmonic_limits)
-      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
-  }
   const std::string orders = tr("undulations per revolution");
   return fmt::format(
       R"(<h3>{}</h3><div class="scroll">{}{}</div>)", tr("Harmonics of the part"),
       bar_chart(tr("Amplitudes before the filter; lines: limits of the mask; crosses: not "
                    "recovered"),
-                orders, tr("amplitude in µm"), amplitudes, limits),
+                orders, tr("amplitude in µm"), amplitudes, limits_of(asked)),
       bar_chart(tr("Noise gain: how much the separation amplifies the noise of a probe"), orders,
                 tr("gain"), gains));
-}
-
-std::string harmonic_row(const fit::RecoveredHarmonic& h) {
-  return fmt::format(
-      R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
-      R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
-      h.order, h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
-      h.phase_rad ? deg(*h.phase_rad, 2) : "–",
-      h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
-      h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–");
 }
 
 /// The ten largest harmonics, and all that were lost.
@@ -166,21 +151,27 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
     return a.recovered != b.recovered ? b.recovered : a.amplitude_mm > b.amplitude_mm;
   });
   const std::size_t count = std::min(shown.size(), s.unrecovered.size() + 10);
-  std::string rows;
-  for (std::size_t i = 0; i < count; ++i) rows += harmonic_row(shown[i]);
-  return fmt::format(
-      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">UPR</th><th scope="col" class="n">)"
-      R"({}</th><th scope="col" class="n">{}</th><th scope="col" class="n">u µm</th><th scope="col" class="n">{}</th>)"
-      R"(<th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody></table></div><p class="note">{}</p>)",
-      spoken_caption(tr("Harmonics of the part")), tr("Amplitude µm"), tr("Phase °"), tr("Gain"),
-      tr("Attenuation"), rows,
-      tr("The ten largest, and those not recovered; all are in report.json."));
+  TableRows rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    const fit::RecoveredHarmonic& h = shown[i];
+    rows.push_back(
+        {std::to_string(h.order),
+         h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
+         h.phase_rad ? deg(*h.phase_rad, 2) : "–",
+         h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
+         h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–"});
+  }
+  return scrolling(table(
+             "short", "rrrrrr", spoken_caption(tr("Harmonics of the part")),
+             {"UPR", tr("Amplitude µm"), tr("Phase °"), "u µm", tr("Gain"), tr("Attenuation")},
+             rows)) +
+         note(tr("The ten largest, and those not recovered; all are in report.json."));
 }
 
 }  // namespace
 
-std::string spindle_part(const evaluation::SpindleResult& facts, const record::RunRecord& record,
-                         int feature) {
+std::string analysis_part(const evaluation::SpindleResult& facts, const record::RunRecord& record,
+                          int feature) {
   const fit::ThreeProbeResult& s = facts.separation;
   const record::Series* truth = record.truth_series_of(feature, "truth");
   std::string html = key_numbers(facts);

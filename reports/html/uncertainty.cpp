@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -17,7 +16,7 @@ using core::signed_um;
 using core::tiny_um;
 using core::um;
 
-/// What the letters of the formula stand for.
+/// Meaning of the letters in the formula of the rule.
 constexpr const char* kFormulaLetters = translatable(
     "T: the tolerance; y: the value corrected for noise (and, of the whole surface, for sparse "
     "sampling); [lo, hi]: its coverage interval; U: half its width. In the bars above: the line is "
@@ -68,7 +67,7 @@ std::string bias_entries(const evaluation::UncertaintyResult& u) {
   return html;
 }
 
-/// What the form model found in the cloud.
+/// Findings of the form model in the cloud.
 std::string finding_entry(const evaluation::UncertaintyResult& u) {
   const evaluation::FormFinding& found = u.finding;
   std::string note = tr("means over the draws; spots are form and are never smoothed away");
@@ -89,20 +88,17 @@ std::string finding_entry(const evaluation::UncertaintyResult& u) {
 }
 
 std::string declaration(const std::vector<evaluation::InfluenceStatement>& influences) {
-  std::string rows;
+  TableRows rows;
   for (const bool covered : {true, false}) {
     for (const evaluation::InfluenceStatement& influence : influences) {
       if (influence.covered != covered) continue;
-      rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", worded(influence.name),
-                          covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
-                          in_sentence(influence.text));
+      rows.push_back({worded(influence.name),
+                      covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
+                      in_sentence(influence.text)});
     }
   }
-  return fmt::format(
-      R"(<table class="short">{}<thead><tr><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
-      "</thead><tbody>{}</tbody></table>",
-      spoken_caption(tr("Influence")), tr("Influence"), tr("In the interval"), tr("As declared"),
-      rows);
+  return table("short", "lll", spoken_caption(tr("Influence")),
+               {tr("Influence"), tr("In the interval"), tr("As declared")}, rows);
 }
 
 std::string value_part(const evaluation::CharacteristicResult& result) {
@@ -138,7 +134,7 @@ std::string rule_section(const evaluation::Evaluation& evaluation) {
       in_sentence(rule_sentence(evaluation),
                   evaluation.rule ? std::string_view() : evaluation.rule.error().what);
   if (!evaluation.rule || !evaluation.rule->needs_interval()) {
-    return fmt::format(R"(<p class="note">{}</p>)", trf("Decision rule: {}.", sentence));
+    return note(trf("Decision rule: {}.", sentence));
   }
   return fmt::format(R"(<div class="rule"><b>{}</b> {}<div class="note">{}</div>{}</div>)",
                      tr("Decision rule."), trf("{}.", sentence), tr(kFormulaLetters),

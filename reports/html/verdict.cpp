@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/units.h"
 #include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
@@ -24,7 +23,7 @@ std::string css_name(evaluation::Verdict verdict) {
   return name;
 }
 
-/// Why the verdict is what it is, in one line.
+/// Reason for the verdict in one line.
 std::string sentence(const evaluation::Evaluation& evaluation) {
   std::size_t toleranced = 0;
   std::size_t conforming = 0;
@@ -69,7 +68,7 @@ std::string unfinished_banner(const record::RunRecord& record,
   return html + "</ul></div>";
 }
 
-/// The tolerance frame of a drawing: symbol, limit in mm.
+/// Tolerance frame: symbol, limit in mm.
 std::string tolerance_frame(const record::Characteristic& asked) {
   std::string limit;
   if (asked.tolerance_mm) limit = fmt::format("<span>{:g}</span>", *asked.tolerance_mm);
@@ -97,7 +96,7 @@ std::string value_cell(const evaluation::StatedValue& value) {
   return html;
 }
 
-/// A probability that was counted in trials, no finer than they tell.
+/// A probability counted in trials, no finer than one trial in their number.
 std::string percent(double share_1, double trials) {
   const double finest = std::pow(10.0, std::ceil(std::log10(100.0 / trials)));  // in percent
   if (share_1 * trials < 0.5) return trf("below {:g} %", finest);
@@ -179,11 +178,11 @@ std::string fact(std::string_view name, const std::string& text) {
   return text.empty() ? std::string() : entry(name, isolated(text));
 }
 
-std::string head_section(const record::RunRecord& record) {
+std::string head_section(const record::RunRecord& record, const std::string& kind) {
   const record::Header& header = record.header;
   std::string html = fmt::format(
-      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
-      tr("cylindricity report"), isolated(header.started_utc));
+      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)", kind,
+      isolated(header.started_utc));
   html += fmt::format("<h1>{}", isolated(header.part_id));
   if (!header.part_name.empty()) html += fmt::format(" {}", isolated(header.part_name));
   html += R"(</h1><dl class="facts">)";

@@ -1,11 +1,18 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/wheel/result.h"
+#include "reports/drawings/internal/plot_scale.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
-#include "reports/html/internal/plot_wheel.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 
@@ -16,6 +23,239 @@ using core::deg;
 using core::fixed;
 using core::signed_um;
 using core::um;
+
+constexpr double kEdgeSize = 340.0;
+constexpr double kEdgeCentre = 170.0;
+constexpr double kEdgeMean = 104.0;  ///< Radius of the mean circle as drawn.
+constexpr double kEdgeReach = 24.0;  ///< Largest deviation of a used point as drawn.
+constexpr double kMiddle = 64.0;     ///< Greatest radius of the drawing in the middle.
+constexpr std::size_t kMostCenters = 250;
+
+struct EdgeView {
+  const fit::WheelMeasurement& wheel;
+  double px_per_mm = 1.0;
+
+  [[nodiscard]] double radius(double deviation_mm) const {
+    return kEdgeMean + std::clamp(px_per_mm * deviation_mm, -1.3 * kEdgeReach, 1.3 * kEdgeReach);
+  }
+  [[nodiscard]] Eigen::Vector2d at(double angle_rad, double r) const {
+    return {kEdgeCentre + r * std::cos(angle_rad), kEdgeCentre - r * std::sin(angle_rad)};
+  }
+  /// A place near the wheel's centre, magnified alike; drawn to `kMiddle` at most.
+  [[nodiscard]] Eigen::Vector2d middle(const Eigen::Vector2d& p) const {
+    Eigen::Vector2d off = px_per_mm * (p - wheel.center_mm);
+    if (off.norm() > kMiddle) off *= kMiddle / off.norm();
+    return {kEdgeCentre + off.x(), kEdgeCentre - off.y()};
+  }
+};
+
+EdgeView edge_view(const fit::WheelMeasurement& wheel) {
+  double largest = 1e-6;
+  for (const std::size_t row : wheel.order.rows) {
+    largest = std::max(largest, std::abs(wheel.deviations_mm[row]));
+  }
+  return {wheel, kEdgeReach / largest};
+}
+
+void draw_angles(Svg& svg, const EdgeView& view) {
+  constexpr std::array<const char*, 4> kNames = {"0°", "90°", "180°", "270°"};
+  for (int tick = 0; tick < 12; ++tick) {
+    const double angle = tick * 30.0 * core::kDegree;
+    const double from = kEdgeMean + 1.3 * kEdgeReach + 3.0;
+    const Eigen::Vector2d a = view.at(angle, from);
+    const Eigen::Vector2d b = view.at(angle, from + (tick % 3 == 0 ? 7.0 : 4.0));
+    svg.line(a.x(), a.y(), b.x(), b.y(), "tick");
+    if (tick % 3 != 0) continue;
+    const Eigen::Vector2d place = view.at(angle, from + 20.0);
+    svg.text(place.x(), place.y() + 4.0, "middle", "label",
+             kNames[static_cast<std::size_t>(tick / 3)]);
+  }
+}
+
+void draw_edge(Svg& svg, const EdgeView& view) {
+  const auto& deviations = view.wheel.deviations_mm;
+  const auto& order = view.wheel.order;
+  double low = 0.0;
+  double high = 0.0;
+  std::string guide;
+  for (std::size_t k = 0; k < order.rows.size(); ++k) {
+    const double deviation = deviations[order.rows[k]];
+    low = std::min(low, deviation);
+    high = std::max(high, deviation);
+    const Eigen::Vector2d p = view.at(order.angles_rad[k], view.radius(deviation));
+    guide += fmt::format("{}{:.1f} {:.1f}", k == 0 ? 'M' : 'L', p.x(), p.y());
+  }
+  svg.circle(kEdgeCentre, kEdgeCentre, view.radius(high), "zone-outer");
+  svg.circle(kEdgeCentre, kEdgeCentre, view.radius(low), "zone-inner");
+  svg.circle(kEdgeCentre, kEdgeCentre, kEdgeMean, "mean");
+  svg.path(order.closed() ? guide + "z" : guide, "guide");
+}
+
+void draw_points(Svg& svg, const EdgeView& view, std::span<const Eigen::Vector2d> dropped_at) {
+  const auto& order = view.wheel.order;
+  const double size = order.rows.size() <= 60 ? 3.2 : 1.8;
+  for (std::size_t k = 0; k < order.rows.size(); ++k) {
+    const double deviation = view.wheel.deviations_mm[order.rows[k]];
+    const Eigen::Vector2d p = view.at(order.angles_rad[k], view.radius(deviation));
+    svg.circle(p.x(), p.y(), size, "point");
+  }
+  for (std::size_t i = 0; i < dropped_at.size(); ++i) {
+    const Eigen::Vector2d v = dropped_at[i] - view.wheel.center_mm;
+    const double deviation = view.wheel.deviations_mm[view.wheel.dropped[i].row];
+    const Eigen::Vector2d p = view.at(std::atan2(v.y(), v.x()), view.radius(deviation));
+    svg.cross(p.x(), p.y(), 5.0, "no-value");
+  }
+}
+
+void draw_middle(Svg& svg, const EdgeView& view) {
+  const auto& centers = view.wheel.centers.accepted;
+  const std::size_t shown = std::min(centers.size(), kMostCenters);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Eigen::Vector2d p = view.middle(centers[i * centers.size() / shown].center_mm);
+    svg.circle(p.x(), p.y(), 1.4, "trail");
+  }
+  svg.cross(kEdgeCentre, kEdgeCentre, 6.0, "scale");
+  if (!view.wheel.runout) return;
+  const Eigen::Vector2d axis = view.middle(view.wheel.runout->axis_mm);
+  svg.diamond(axis.x(), axis.y(), 6.0, "final");
+}
+
+void draw_scale_bar(Svg& svg, const EdgeView& view) {
+  const double length_um = core::round_below(36.0 / view.px_per_mm / core::kMicrometre);
+  const double length = length_um * core::kMicrometre * view.px_per_mm;
+  scale_bar(svg, 323, length, length_um);
+}
+
+struct SideView {
+  Eigen::Vector2d low;
+  Eigen::Vector2d high;
+  double px_per_mm = 1.0;
+  double left = 64.0;
+  double bottom = 0.0;
+
+  [[nodiscard]] Eigen::Vector2d at(const Eigen::Vector2d& p) const {
+    return {left + px_per_mm * (p.x() - low.x()), bottom - px_per_mm * (p.y() - low.y())};
+  }
+};
+
+constexpr double kViewWidth = 700.0;
+constexpr double kMostViewHeight = 380.0;
+constexpr double kViewTop = 12.0;
+constexpr double kRightMargin = 16.0;
+
+SideView side_view(const fit::WheelPath& path) {
+  SideView view;
+  view.low = path.rows.front().center_mm;
+  view.high = view.low;
+  const auto take = [&](const Eigen::Vector2d& p) {
+    view.low = view.low.cwiseMin(p);
+    view.high = view.high.cwiseMax(p);
+  };
+  const Eigen::Vector2d reach(path.radius_mm, path.radius_mm);
+  for (const fit::WheelPathRow& row : path.rows) {
+    take(row.center_mm - reach);
+    take(row.center_mm + reach);
+    take({row.x_mm, row.surface.height_mm});
+  }
+  const Eigen::Vector2d air = 0.03 * (view.high - view.low);
+  view.low -= air;
+  view.high += air;
+  const Eigen::Vector2d size = view.high - view.low;
+  view.px_per_mm =
+      std::min((kViewWidth - view.left - kRightMargin) / size.x(), kMostViewHeight / size.y());
+  // A tall view is narrower than the page: in its middle.
+  view.left = std::max(view.left, 0.5 * (kViewWidth - view.px_per_mm * size.x()));
+  view.bottom = kViewTop + view.px_per_mm * size.y();
+  return view;
+}
+
+void draw_axes(Svg& svg, const SideView& view) {
+  const Eigen::Vector2d corner = view.at(view.high);
+  for (const double x : core::round_ticks(view.low.x(), view.high.x(), 8)) {
+    const double px = view.at({x, view.low.y()}).x();
+    svg.line(px, kViewTop, px, view.bottom, "grid");
+    tick_below(svg, px, view.bottom, tick_label(x));
+  }
+  for (const double z : core::round_ticks(view.low.y(), view.high.y(), 6)) {
+    const double py = view.at({view.low.x(), z}).y();
+    svg.line(view.left, py, corner.x(), py, "grid");
+    label_beside(svg, view.left, py, tick_label(z), 7.0);
+  }
+  svg.rect(view.left, kViewTop, corner.x() - view.left, view.bottom - kViewTop, "frame");
+  svg.text(0.5 * (view.left + corner.x()), view.bottom + 36.0, "middle", "title", "x / mm");
+  svg.upward_text(view.left - 50.0, 0.5 * (kViewTop + view.bottom), "title", "z / mm");
+}
+
+/// The line through places of all rows, thinned to some 700.
+template <class Place>
+std::string line_of(const fit::WheelPath& path, const SideView& view, const Place& place) {
+  const std::size_t step = std::max<std::size_t>(1, path.rows.size() / 700);
+  std::string d;
+  for (std::size_t i = 0; i < path.rows.size(); i += step) {
+    const Eigen::Vector2d p = view.at(place(path.rows[i]));
+    d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', p.x(), p.y());
+  }
+  const Eigen::Vector2d last = view.at(place(path.rows.back()));
+  return d + fmt::format("L{:.1f} {:.1f}", last.x(), last.y());
+}
+
+void draw_wheel(Svg& svg, const SideView& view, const fit::WheelPathRow& row, double radius_mm) {
+  const Eigen::Vector2d c = view.at(row.center_mm);
+  const Eigen::Vector2d contact = view.at({row.x_mm, row.surface.height_mm});
+  svg.circle(c.x(), c.y(), view.px_per_mm * radius_mm, "mean");
+  svg.line(c.x(), c.y(), contact.x(), contact.y(), "guide");
+  svg.circle(contact.x(), contact.y(), 3.0, "point");
+}
+
+/// The edge of a wheel: deviations of its points about the mean circle, magnified; in its middle,
+/// at the same magnification, the centres of the quadruples and the spindle axis.
+std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
+                            std::span<const Eigen::Vector2d> points_mm) {
+  const EdgeView view = edge_view(wheel);
+  Svg svg(kEdgeSize, kEdgeSize, "polar", tr("Edge of the wheel: deviations about the mean circle"));
+  draw_angles(svg, view);
+  draw_edge(svg, view);
+  draw_middle(svg, view);
+  std::vector<Eigen::Vector2d> dropped;
+  for (const fit::DroppedPoint& point : wheel.dropped) dropped.push_back(points_mm[point.row]);
+  draw_points(svg, view, dropped);
+  draw_scale_bar(svg, view);
+  return fmt::format(
+      "<figure>{}<figcaption>{}</figcaption></figure>", svg.str(),
+      trf("Deviations about the mean circle, magnified {}×; the line guides the eye only. Orange "
+          "and blue: farthest and nearest point. In the middle, magnified alike: centres of the "
+          "quadruples (grey), the centre (cross){}{}.",
+          fixed(view.px_per_mm * wheel.radius_mm / kEdgeMean, 0),
+          wheel.runout ? tr(", the spindle axis (orange; drawn at the edge when farther off)")
+                       : std::string(),
+          wheel.dropped.empty() ? std::string() : tr("; crosses on the edge: dropped points")));
+}
+
+/// Side view of a path, x and z at one scale: the surface, the path of the wheel's centre, the
+/// wheel at both ends and halfway.
+std::string wheel_path_plot(const fit::WheelPath& path) {
+  const SideView view = side_view(path);
+  Svg svg(kViewWidth, view.bottom + 46.0, "wide", tr("Surface, wheel and the way of its centre"));
+  draw_axes(svg, view);
+  const std::string surface = line_of(path, view, [](const fit::WheelPathRow& row) {
+    return Eigen::Vector2d(row.x_mm, row.surface.height_mm);
+  });
+  const double right = view.at({path.rows.back().x_mm, 0.0}).x();
+  const double left = view.at({path.rows.front().x_mm, 0.0}).x();
+  svg.path(
+      surface + fmt::format("L{:.1f} {:.1f}L{:.1f} {:.1f}z", right, view.bottom, left, view.bottom),
+      "band");
+  svg.path(surface, "profile");
+  for (const std::size_t row : {std::size_t{0}, path.rows.size() / 2, path.rows.size() - 1}) {
+    draw_wheel(svg, view, path.rows[row], path.radius_mm);
+  }
+  svg.path(line_of(path, view, [](const fit::WheelPathRow& row) { return row.center_mm; }),
+           "zone-inner");
+  return fmt::format(
+      R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", svg.str(),
+      tr("x and z at one scale. Black: the surface, material shaded; blue: way of the wheel's "
+         "centre; dashed: the wheel at both ends and half way, with the line to its contact."));
+}
 
 std::string radius_entries(const evaluation::WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
@@ -92,8 +332,7 @@ std::string path_text(const fit::WheelPath& path, fit::RadiusChoice choice) {
             fixed(path.load.load, 4), fixed(path.load.x_mm, 3),
             fixed(path.load.concave_radius_mm(path.radius_mm), 3));
   }
-  return fmt::format(
-      R"(<p class="note">{}</p>)",
+  return note(
       trf("{} places for the {} radius {} mm, {} mm apart in x; cusps up to {} µm between passes. "
           "{} The wheel was looked for inside the surface at every place: nowhere.",
           path.rows.size(), tr(fit::name_of(choice)), fixed(path.radius_mm, 6),
@@ -141,10 +380,8 @@ std::string load_chart(const fit::WheelPath& path, double limit) {
     load.y.push_back(row.load);
   }
   Curve line{tr("limit"), "zone-outer", {load.x.front(), load.x.back()}, {limit, limit}};
-  return R"(<div class="scroll">)" +
-         line_chart(tr("Wheel radius over concave radius of curvature"), "x / mm", "R k_s",
-                    {load, line}) +
-         "</div>";
+  return scrolling(line_chart(tr("Wheel radius over concave radius of curvature"), "x / mm",
+                              "R k_s", {load, line}));
 }
 
 std::string path_part(const evaluation::WheelResult& facts) {
@@ -157,8 +394,7 @@ std::string path_part(const evaluation::WheelResult& facts) {
   }
   html += path_text(*e.path, e.radius);
   if (e.radius == fit::RadiusChoice::kMean && e.wheel.runout) {
-    html += fmt::format(
-        R"(<p class="note">{}</p>)",
+    html += note(
         trf("The path is for the mean radius: the farthest point from the axis cuts {} µm deeper.",
             (e.wheel.runout->bound_because.empty() ? "" : "≥ ") +
                 um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm)));
@@ -169,7 +405,8 @@ std::string path_part(const evaluation::WheelResult& facts) {
 
 }  // namespace
 
-std::string wheel_part(const evaluation::WheelResult& facts) {
+std::string analysis_part(const evaluation::WheelResult& facts, const record::RunRecord& /*record*/,
+                          int /*feature*/) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return R"(<dl class="keys">)" + radius_entries(facts) + runout_entry(m) + center_entries(m) +
          fmt::format(R"(</dl><h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +

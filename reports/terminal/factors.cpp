@@ -1,22 +1,17 @@
 #include "reports/terminal/factors.h"
 
-#include <algorithm>
 #include <iterator>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
 
-using core::printable;
 using core::signed_um;
 using core::um;
 
@@ -24,34 +19,12 @@ constexpr std::size_t kLabel = 34;
 constexpr std::size_t kNumber = 9;  ///< Of a reference.
 constexpr std::size_t kChange = 10;
 
-/// Lines of at most 80 columns, the first behind `head`, the others below its end.
-std::string wrapped(std::string_view head, std::string_view text) {
-  const std::string indent(columns(head), ' ');
-  std::string out;
-  std::string line(head);
-  bool fresh = true;
-  const std::string clean = printable(text);
-  for (std::string_view rest = clean; !rest.empty();) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string word = shortened(rest.substr(0, end), kTerminalColumns - indent.size());
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (!fresh && columns(line) + 1 + columns(word) > kTerminalColumns) {
-      out += line + "\n";
-      line = indent;
-      fresh = true;
-    }
-    line += (fresh ? "" : " ") + word;
-    fresh = false;
-  }
-  return out + line + "\n";
-}
-
 using Combination = std::array<std::size_t, 4>;
 
 /// A row: one combination of the last three factors, a column a reference.
 struct CombinationRow {
   const evaluation::FactorStudy& study;
-  Combination combination;  ///< Its reference is not looked at.
+  Combination combination;  ///< Its reference is ignored.
 
   [[nodiscard]] const evaluation::FactorCell& cell(std::size_t reference) const {
     Combination c = combination;

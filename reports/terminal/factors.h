@@ -6,8 +6,8 @@
 
 namespace rondure::reports {
 
-/// What a comparison shows on a terminal, at most 80 columns.
-/// @param all  Also every combination that has a value.
+/// A comparison as text of at most 80 columns.
+/// @param all  Lists every combination that has a value, too.
 [[nodiscard]] std::string comparison_text(const std::string& run_id,
                                           const evaluation::RunComparison& comparison, bool all);
 

@@ -118,23 +118,9 @@ using core::tiny_um;
 
 constexpr std::size_t kValueColumn = 15;  ///< Where the values of labelled lines start.
 
-/// Appends `text` wrapped to lines of at most 80 columns, the first one after `head`
-/// (`kValueColumn` columns or less), the others indented below it.
+/// Appends a line of the summary; `head` has kValueColumn columns or less.
 void add_wrapped(std::string& out, std::string_view head, std::string_view text) {
-  std::string line = padded(head, kValueColumn);
-  bool fresh = true;
-  for (const LinePiece& piece : line_pieces(printable(text))) {
-    const std::string word = shortened(piece.text, kTerminalColumns - kValueColumn);
-    const std::size_t space = piece.after_space && !fresh ? 1 : 0;
-    if (!fresh && columns(line) + space + columns(word) > kTerminalColumns) {
-      out += line + "\n";
-      line = std::string(kValueColumn, ' ');
-      fresh = true;
-    }
-    line += (piece.after_space && !fresh ? " " : "") + word;
-    fresh = false;
-  }
-  out += line + "\n";
+  out += wrapped(padded(head, kValueColumn), text, LineBreaks::kAtWideCharacters);
 }
 
 /// An error of another room: the title of its code, then its English sentence.

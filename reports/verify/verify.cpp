@@ -1,9 +1,12 @@
 #include "reports/verify/verify.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/utf8.h"
 #include "core/version.h"
 #include "evaluation/evaluate.h"
@@ -17,7 +20,6 @@
 #include "reports/verify/internal/compare_text.h"
 #include "reports/verify/internal/compare_values.h"
 #include "reports/verify/internal/files.h"
-#include "reports/verify/internal/results.h"
 #include "reports/verify/stored_results.h"
 
 namespace rondure::reports {
@@ -27,6 +29,68 @@ using core::printable;
 
 namespace fs = std::filesystem;
 using State = ListedFiles::State;
+
+/// How exactly this program can repeat what the run's program computed.
+struct Exactness {
+  bool same_processor = true;
+  bool same_version = true;
+
+  /// Numbers of another kind of processor or of another version may differ by this: mm, um, deg
+  /// alike.
+  [[nodiscard]] double tolerance() const { return same_processor && same_version ? 0.0 : 1e-9; }
+};
+
+/// One result by its name: as stored, and as the touches give it now.
+struct Pair {
+  std::optional<double> stored;
+  std::optional<double> now;
+};
+
+/// The difference between both, in one sentence; nothing when they agree.
+std::optional<std::string> compare_result(const std::string& name, const Pair& pair,
+                                          const Exactness& exactness) {
+  if (!pair.stored || !pair.now) {
+    if (!exactness.same_version) return std::nullopt;
+    return pair.now ? fmt::format("result {} is not stored; the touches give {}", name,
+                                  core::shortest(*pair.now))
+                    : fmt::format("stored result {} = {} has no counterpart", name,
+                                  core::shortest(*pair.stored));
+  }
+  if (*pair.stored == *pair.now || std::abs(*pair.stored - *pair.now) <= exactness.tolerance()) {
+    return std::nullopt;
+  }
+  return fmt::format("result {} no longer follows: stored {}, the touches give {}", name,
+                     core::shortest(*pair.stored), core::shortest(*pair.now));
+}
+
+/// Compares the results that a run stored with those that its touches give now, by name. A result
+/// of one side only is a difference unless another version measured: versions may give more or
+/// fewer numbers. Adds the first difference, and how many others there are.
+/// @return How many were compared: stored and computed now.
+std::size_t compare_results(const std::vector<record::StoredResult>& stored,
+                            const std::vector<record::StoredResult>& now,
+                            const Exactness& exactness, Verification& out) {
+  std::map<std::string, Pair> pairs;
+  std::vector<std::string> order;  // of the report, so that the first difference is the highest
+  const auto pair_of = [&](const std::string& name) -> Pair& {
+    if (!pairs.contains(name)) order.push_back(name);
+    return pairs[name];
+  };
+  for (const record::StoredResult& result : now) pair_of(result.name).now = result.value;
+  for (const record::StoredResult& result : stored) pair_of(result.name).stored = result.value;
+  std::size_t compared = 0;
+  std::vector<std::string> differences;
+  for (const std::string& name : order) {
+    const Pair& pair = pairs[name];
+    compared += pair.stored && pair.now ? 1 : 0;
+    if (auto found = compare_result(name, pair, exactness)) differences.push_back(*found);
+  }
+  if (differences.empty()) return compared;
+  out.differences.push_back(differences.front());
+  if (differences.size() > 1)
+    out.differences.back() += fmt::format(" (and {} more)", differences.size() - 1);
+  return compared;
+}
 
 std::optional<std::string> compare_export(const Export& what, const std::string& expected,
                                           const std::string& found, const Exactness& exactness) {
@@ -38,8 +102,8 @@ std::optional<std::string> compare_export(const Export& what, const std::string&
     return "it was printed from another page than the journal gives";
   }
   if (!exactness.same_version) {
-    if (what.format == "json") return compare_json_values(expected, found, tolerance).difference;
-    if (what.format == "csv") return compare_csv_values(expected, found, tolerance).difference;
+    if (what.format == "json") return compare_json_values(expected, found, tolerance);
+    if (what.format == "csv") return compare_csv_values(expected, found, tolerance);
     return std::nullopt;  // its words are those of the other version; SHA256SUMS holds them
   }
   if (what.format == "json") return first_json_difference(expected, found, tolerance);
@@ -72,7 +136,8 @@ bool was_written(const Export& what, const record::RunRecord& record, const List
   return usual && applies(what, record);
 }
 
-/// Compares each export that exists; gives their names.
+/// Compares each export that exists.
+/// @return Their names.
 core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
                                           const evaluation::Evaluation& evaluation,
@@ -104,7 +169,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   return (names.empty() ? "none" : names) + absent;
 }
 
-/// What the journal and the list of digests say before anything is computed.
+/// Adds the damage of journal and list that shows before anything is computed.
 void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Verification& out) {
   const record::RunRecord& record = read.record;
   for (const record::BrokenTable& broken : read.broken) {
@@ -168,7 +233,7 @@ std::string how_exactly(const record::Header& header, const VerifyOptions& optio
   return words.empty() ? "bit for bit (same kind of processor)" : words;
 }
 
-/// What an answer leaves open without being a difference.
+/// Limits of the answer that are no differences.
 std::vector<std::string> notes_on(const record::ReadJournal& read, const ListedFiles& listed) {
   std::vector<std::string> out;
   const record::Header& header = read.record.header;
@@ -206,7 +271,8 @@ std::vector<std::string> signed_files() {
   return files;
 }
 
-/// Checks the signature when there is a key; says what of it was checked.
+/// Checks the signature when there is a key.
+/// @return The end of the sentence: how far the signature was checked.
 core::Result<std::string> about_signature(const fs::path& directory, const VerifyOptions& options,
                                           const ListedFiles& listed, Verification& out) {
   if (!options.public_key_pem) {
@@ -252,12 +318,9 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   }
   const Exactness exactness{record.header.processor == options.processor,
                             record.header.version == core::kVersion};
-  std::size_t results = 0;
-  if (record.sealed) {
-    const auto compared = compare_results(record.results, stored_results(*evaluation), exactness);
-    results = compared.results;
-    if (compared.difference) out.differences.push_back(*compared.difference);
-  }
+  const std::size_t results =
+      record.sealed ? compare_results(record.results, stored_results(*evaluation), exactness, out)
+                    : 0;
   const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
   if (!names) return core::fail(names.error());
   out.what_was_compared = fmt::format(

@@ -11,26 +11,26 @@
 
 namespace rondure::reports {
 
-/// Who verifies.
+/// Settings of verify_run().
 struct VerifyOptions {
-  std::string processor;                      ///< Of this machine, as app spells it in the journal.
+  std::string processor;                      ///< Of this machine, spelled as in the journal.
   std::optional<std::string> public_key_pem;  ///< Checks the signature too, when given.
   /// Whether a record can be evaluated: plans::check_record(), which this room does not see.
   std::function<core::Result<void>(const record::RunRecord&)> check = {};
 };
 
-/// What verifying a run directory found.
+/// Result of verify_run().
 struct Verification {
   std::vector<std::string> differences;  ///< In words, place first; empty: everything follows.
   std::string what_was_compared;         ///< One sentence: part, serial, verdict, and how exactly.
-  /// What limits the answer and is no difference, one sentence each: another version, no list.
+  /// Limits of the answer that are no differences, one sentence each: another version, no list.
   std::vector<std::string> notes;
 };
 
 /// Recomputes a run from its journal and compares: the chain over the journal's rows, the digests
 /// of its tables, the SHA-256 of the files (SHA256SUMS), every stored result, and every export that
-/// stands in the directory. Changes nothing, and evaluates nothing behind a journal that is not as
-/// it was written.
+/// stands in the directory. Changes nothing, and evaluates no journal that is not as it was
+/// written.
 ///
 /// Bits must be equal for the version and the kind of processor that measured. On another
 /// processor, where the last bit of sin and atan2 differs, numbers may differ by 1e-9. When another

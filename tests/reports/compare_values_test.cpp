@@ -13,14 +13,12 @@ TEST(CompareJsonValues, PassOverWordsAndKeysOfOneVersion) {
                              "list": [1, 2, 3], "verdict": "conforms", "then": 3})";
   const std::string old = R"({"schema_version": 1, "a": {"um": 1.5, "text": "otherwise"},
                              "verdict": "conforms", "list": [1, 2], "old": 9, "then": null})";
-  const auto compared = compare_json_values(now, old, 0.0);
-  EXPECT_EQ(compared.difference.value_or(""), "");
-  EXPECT_EQ(compared.numbers, 3U);
+  EXPECT_EQ(compare_json_values(now, old, 0.0).value_or(""), "");
 }
 
 TEST(CompareJsonValues, NameTheFirstNumberThatDiffers) {
   const auto first = [](const std::string& expected, const std::string& found, double tolerance) {
-    return compare_json_values(expected, found, tolerance).difference.value_or("");
+    return compare_json_values(expected, found, tolerance).value_or("");
   };
   EXPECT_EQ(first(R"({"a": [{"um": 1.5}]})", R"({"a": [{"um": 1.25}]})", 1e-9),
             "/a/0/um: the file says 1.25, the journal gives 1.5");
@@ -36,11 +34,10 @@ TEST(CompareJsonValues, NameTheFirstNumberThatDiffers) {
 
 TEST(CompareCsvValues, GoByTheNamesOfTheColumns) {
   const std::string now = "# version 2\nid,x_mm,new,y_mm\n1,0.5,9,a\n2,1.5,9,\"b,c\"\n";
-  EXPECT_EQ(compare_csv_values(now, "# v1\nid,y_mm,x_mm\n1,a,0.50\n2,\"b,c\",1.5\n", 0.0).numbers,
-            4U);
   const auto first = [&](const std::string& found) {
-    return compare_csv_values(now, found, 1e-9).difference.value_or("");
+    return compare_csv_values(now, found, 1e-9).value_or("");
   };
+  EXPECT_EQ(first("# v1\nid,y_mm,x_mm\n1,a,0.50\n2,\"b,c\",1.5\n"), "");
   EXPECT_EQ(first("id,y_mm,x_mm\r\n1,a,0.5\r\n2,\"b,c\",1.5\r\n"), "");
   EXPECT_EQ(first("id,x_mm\n1,0.5\n2,1.6\n"),
             "row 2, column x_mm: the file says 1.6, the journal gives 1.5");

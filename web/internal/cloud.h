@@ -6,18 +6,16 @@
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
-// Private to the room: a cloud while it is being touched.
-
 namespace rondure::web {
 
-/// A cloud of more touches than this is looked at through every k-th point of its layers.
+/// Of a cloud with more touches only every k-th point of a layer is evaluated.
 inline constexpr std::size_t kMostLiveTouches = 2000;
 
 /// The cloud of one pose as far as it is on record, evaluated as a final cloud is, without verdicts
 /// and without uncertainty: what the drawings of the report need.
 struct LiveCloud {
   evaluation::FeatureResult result;
-  std::size_t every = 1;  ///< Only every so many-th point was looked at.
+  std::size_t every = 1;  ///< Only every `every`-th point was evaluated.
 };
 
 /// @return  kNoPoints and the other codes of a fit: the touches do not define the feature yet;

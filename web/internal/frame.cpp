@@ -20,13 +20,16 @@ namespace rondure::web {
 namespace {
 
 using core::well_formed;
+using reports::isolated;
+using reports::tr;
+using reports::trf;
 
 /// The strategy by which f of a single pose is found.
 record::Strategy strategy_of(const record::RunRecord& record, const record::PoseVisit& visit) {
   return record.features[static_cast<std::size_t>(visit.feature)].strategy;
 }
 
-/// Whether every target of a pose was touched: before, f is of another cloud than in other poses.
+/// Whether every target of a pose was touched; until then its f is not comparable with the others.
 bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
   const record::Feature& feature = record.features[static_cast<std::size_t>(visit.feature)];
   const int targets = feature.layers * feature.points_per_layer;
@@ -115,9 +118,8 @@ void LivePainter::paint_cloud(const record::PoseVisit& visit) {
   look_at_poses(visit);
   const evaluation::FeatureResult feature = with_poses(record_, visit, poses_);
   const std::string plots = reports::pose_plots(feature, std::nullopt);
-  put("poses", plots.empty()
-                   ? plots
-                   : fmt::format("<h2>{}</h2>", reports::tr("Search for the pose")) + plots);
+  put("poses",
+      plots.empty() ? plots : fmt::format("<h2>{}</h2>", tr("Search for the pose")) + plots);
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
@@ -132,7 +134,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
       present != nullptr &&
       !record::is_analysis(record_.features[static_cast<std::size_t>(present->feature)].shape);
   if (fresh) {
-    put("head", live_head(record_));
+    put("head", reports::head_section(record_, tr("live view")));
     if (cloud) paint_cloud(*present);
     put("touches", live_touches(record_));
     put("decisions", reports::decisions_section(record_));
@@ -151,7 +153,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
   if (record_.ending.empty())
     now.left_s = time_left_s(stages_, *first_, touches, elapsed_s - first_s_);
   put("now", live_numbers(record_, now));
-  put("announce", live_sentence(record_, now));
+  put("announce", live_doing(record_, now) + ".");
   frame_.title = fmt::format("{} / {} {}", touches,
                              std::max<std::size_t>(now.expected, record_.touches.size()),
                              record_.header.part_id);
@@ -162,11 +164,11 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
                                                            const evaluation::Evaluation& evaluation,
                                                            std::string_view report) {
   const reports::LanguageScope scope(language_);
-  put("head", live_head(record));
+  put("head", reports::head_section(record, tr("live view")));
   put("now", live_over(record, report));
   put("result", reports::verdict_section(record, evaluation));
-  put("announce", fmt::format("{} {}.", reports::tr("The run is over. Verdict:"),
-                              reports::tr(name_of(evaluation.verdict))));
+  put("announce",
+      fmt::format("{} {}.", tr("The run is over. Verdict:"), tr(name_of(evaluation.verdict))));
   put("touches", live_touches(record));
   put("decisions", reports::decisions_section(record));
   std::string drawings;  // under a heading that says of which feature
@@ -174,8 +176,8 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     const auto zone = zone_of(feature);
     if (record::is_analysis(feature.feature.shape)) continue;
-    const std::string heading = fmt::format(
-        "<h2>{}</h2>", reports::trf("Feature {}", reports::isolated(feature.feature.id)));
+    const std::string heading =
+        fmt::format("<h2>{}</h2>", trf("Feature {}", isolated(feature.feature.id)));
     if (zone)
       drawings +=
           heading + reports::polar_plots(feature, *zone) + reports::deviation_map(feature, *zone);
@@ -183,8 +185,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
   }
   put("drawing", std::move(drawings));
   put("poses", std::move(searches));
-  frame_.title =
-      fmt::format("{}: {}", reports::tr(name_of(evaluation.verdict)), record.header.part_id);
+  frame_.title = fmt::format("{}: {}", tr(name_of(evaluation.verdict)), record.header.part_id);
   frame_.ended = true;
   changed_ = true;
   return frame();
@@ -193,9 +194,9 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
 std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why) {
   const reports::LanguageScope scope(language_);
   put("now", fmt::format(R"(<h2 class="doing">{}</h2><div class="banner alarm">{}</div>)",
-                         reports::tr("No result"), reports::isolated(why)));
-  put("announce", fmt::format("{}: {}", reports::tr("No result"), reports::isolated(why)));
-  frame_.title = reports::tr("No result");
+                         tr("No result"), isolated(why)));
+  put("announce", fmt::format("{}: {}", tr("No result"), isolated(why)));
+  frame_.title = tr("No result");
   frame_.ended = true;
   changed_ = true;
   return frame();

@@ -14,8 +14,6 @@
 #include "reports/words/language.h"
 #include "web/time.h"
 
-// Private to the room: what a live page shows, as HTML by part.
-
 namespace rondure::web {
 
 /// One part of the page: the element with this id holds this HTML.
@@ -33,7 +31,7 @@ struct LiveFrame {
   std::vector<LivePart> parts;
 };
 
-/// What a page is sent that has seen version `since` of this session: the parts that changed, as
+/// Answer to a page that has version `since` of this session: the parts that changed since, as
 /// JSON {"session", "version", "ended", "title", "parts": {id: html}}.
 [[nodiscard]] std::string answer_of(const LiveFrame& frame, std::string_view session,
                                     std::uint64_t since);
@@ -58,7 +56,7 @@ class LivePainter {
  private:
   void put(std::string_view id, std::string html);
   void paint_cloud(const record::PoseVisit& visit);
-  /// f of the poses of a feature: of those left behind once, of the present one each time.
+  /// Evaluates f of the poses of a feature: of finished ones once, of the present one each time.
   void look_at_poses(const record::PoseVisit& present);
   [[nodiscard]] std::shared_ptr<const LiveFrame> frame();
 
@@ -67,10 +65,10 @@ class LivePainter {
   reports::Language language_;
   record::RunRecord record_;
   std::map<int, evaluation::PoseValue> poses_;  ///< By PoseVisit::id.
-  int grew_ = -1;                  ///< The pose that was present when they were looked at last.
-  std::optional<double> zone_mm_;  ///< Of the present cloud.
-  std::optional<int> first_;       ///< Touches on record when this start made its first.
-  double first_s_ = 0.0;           ///< And when that was.
+  int grew_ = -1;                               ///< The present pose at the last evaluation.
+  std::optional<double> zone_mm_;               ///< Of the present cloud.
+  std::optional<int> first_;  ///< Touches on record when this start made its first.
+  double first_s_ = 0.0;      ///< And when that was.
   LiveFrame frame_;
   bool changed_ = false;
 };

@@ -5,18 +5,16 @@
 #include <string>
 #include <string_view>
 
-// Private to the room: who may look at a live page, and who may stop the run.
-
 namespace rondure::web {
 
-/// What guards the page of one run.
+/// Settings that guard the page of one run.
 struct LiveGate {
   std::uint16_t port = 0;
   bool control = false;
   std::string token;  ///< Of this start of the program; empty without control.
 };
 
-/// What a browser says about a request. Fields it did not send are empty.
+/// Headers of a request. Those that the browser did not send are empty.
 struct LiveRequest {
   std::string host;
   std::string origin;

@@ -19,6 +19,12 @@ using core::deg;
 using core::f_um;
 using core::fixed;
 using core::um;
+using reports::entry;
+using reports::isolated;
+using reports::note;
+using reports::tr;
+using reports::trf;
+using reports::with_note;
 
 constexpr std::size_t kTouchRows = 10;
 
@@ -49,37 +55,33 @@ std::string angles_of(const core::Pose& pose) {
 
 std::string touches_entry(const record::RunRecord& record, const LiveNow& now) {
   const std::size_t done = record.touches.size();
-  if (now.expected == 0)
-    return reports::entry(reports::tr("Touches"), std::to_string(done), "lead");
+  if (now.expected == 0) return entry(tr("Touches"), std::to_string(done), "lead");
   const std::size_t all = std::max(now.expected, done);
-  return reports::entry(
-      reports::tr("Touches"),
-      reports::with_note(reports::trf("{} of {}", done, all),
+  return entry(tr("Touches"),
+               with_note(trf("{} of {}", done, all),
                          fmt::format(R"(<progress value="{}" max="{}" aria-label="{}"></progress>)",
-                                     done, all, reports::tr("Touches made"))),
-      "lead");
+                                     done, all, tr("Touches made"))),
+               "lead");
 }
 
 std::string time_entries(const LiveNow& now) {
   const std::string left = now.left_s ? clock_text(*now.left_s) : "–";
-  return reports::entry(
-             reports::tr("Time left"),
-             reports::with_note(
-                 left, reports::tr("as the plan's time model predicts, at the pace so far")),
-             "lead") +
-         reports::entry(reports::tr("Time so far"), clock_text(now.elapsed_s));
+  return entry(tr("Time left"),
+               with_note(left, tr("as the plan's time model predicts, at the pace so far")),
+               "lead") +
+         entry(tr("Time so far"), clock_text(now.elapsed_s));
 }
 
 std::string purpose_of(const record::Touch& touch) {
   switch (touch.purpose) {
     case record::Touch::Purpose::kQualification:
-      return reports::tr("qualification");
+      return tr("qualification");
     case record::Touch::Purpose::kLocate:
-      return reports::tr("location");
+      return tr("location");
     case record::Touch::Purpose::kMeasure:
-      return reports::tr("measurement");
+      return tr("measurement");
     case record::Touch::Purpose::kCheck:
-      return reports::tr("check");
+      return tr("check");
   }
   return {};
 }
@@ -100,82 +102,54 @@ std::string touch_row(const record::RunRecord& record, const record::Touch& touc
 
 }  // namespace
 
-std::string live_head(const record::RunRecord& record) {
-  const record::Header& header = record.header;
-  std::string html = fmt::format(
-      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
-      reports::tr("live view"), reports::isolated(header.started_utc));
-  html += fmt::format("<h1>{}", reports::isolated(header.part_id));
-  if (!header.part_name.empty()) html += fmt::format(" {}", reports::isolated(header.part_name));
-  html += R"(</h1><dl class="facts">)";
-  html += reports::fact(reports::tr("Serial"), header.serial) +
-          reports::fact(reports::tr("Drawing"), header.drawing) +
-          reports::fact(reports::tr("Plan"), header.plan_name) +
-          reports::fact(reports::tr("Revision"), header.plan_revision) +
-          reports::fact(reports::tr("Operator"), header.operator_name) +
-          reports::fact(reports::tr("Run"), header.run_id) + "</dl></header>";
-  return html;
-}
-
 std::string live_doing(const record::RunRecord& record, const LiveNow& now) {
-  if (!record.ending.empty()) return reports::tr("All touches are made; evaluating");
-  if (record.header.version.empty()) return reports::tr("Starting");
-  if (now.pose == nullptr) return reports::tr("Qualifying the probe");
+  if (!record.ending.empty()) return tr("All touches are made; evaluating");
+  if (record.header.version.empty()) return tr("Starting");
+  if (now.pose == nullptr) return tr("Qualifying the probe");
   const bool locating = !record.touches.empty() && record.touches.back().pose == now.pose->id &&
                         record.touches.back().purpose == record::Touch::Purpose::kLocate;
-  const std::string feature = reports::isolated(id_of(record, *now.pose));
+  const std::string feature = isolated(id_of(record, *now.pose));
   const std::size_t number = number_of(record, *now.pose);
-  return locating ? reports::trf("Locating {}, pose {}", feature, number)
-                  : reports::trf("Measuring {}, pose {}", feature, number);
+  return locating ? trf("Locating {}, pose {}", feature, number)
+                  : trf("Measuring {}, pose {}", feature, number);
 }
 
 std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
   std::string html;
   if (record.header.simulated) {
-    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", reports::tr("Simulated:"),
-                        reports::tr("no real part is measured."));
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", tr("Simulated:"),
+                        tr("no real part is measured."));
   }
   html += fmt::format(R"(<h2 class="doing">{}</h2><dl class="keys">)", live_doing(record, now));
   html += touches_entry(record, now) + time_entries(now);
   if (now.pose != nullptr) {
-    html += reports::entry(reports::tr("Pose"),
-                           reports::with_note(std::to_string(number_of(record, *now.pose)),
-                                              angles_of(now.pose->reached)));
+    html += entry(tr("Pose"), with_note(std::to_string(number_of(record, *now.pose)),
+                                        angles_of(now.pose->reached)));
   }
   if (now.f) {
-    html += reports::entry(
-        reports::tr("f of this pose"),
-        now.f->valid
-            ? reports::with_note(f_um(now.f->f_mm) + " µm", reports::tr("of the touches so far"))
-            : reports::with_note("–", reports::isolated(now.f->ending)));
+    html += entry(tr("f of this pose"),
+                  now.f->valid ? with_note(f_um(now.f->f_mm) + " µm", tr("of the touches so far"))
+                               : with_note("–", isolated(now.f->ending)));
   }
   if (now.zone_mm)
-    html += reports::entry(
-        reports::tr("Minimum zone"),
-        reports::with_note(um(*now.zone_mm) + " µm", reports::tr("of the touches so far")));
+    html +=
+        entry(tr("Minimum zone"), with_note(um(*now.zone_mm) + " µm", tr("of the touches so far")));
   return html + "</dl>";
-}
-
-std::string live_sentence(const record::RunRecord& record, const LiveNow& now) {
-  return live_doing(record, now) + ".";
 }
 
 std::string live_drawings(const core::Result<LiveCloud>& cloud) {
   if (!cloud) {
-    return fmt::format(
-        R"(<p class="note">{}</p>)",
-        reports::tr("The drawings begin when the touches of this pose define the feature."));
+    return note(tr("The drawings begin when the touches of this pose define the feature."));
   }
   const auto zone = zone_of(cloud->result);
   if (!zone) return {};
-  std::string html = fmt::format("<h2>{}</h2>", reports::tr("The present cloud"));
+  std::string html = fmt::format("<h2>{}</h2>", tr("The present cloud"));
   html += reports::polar_plots(cloud->result, *zone) + reports::deviation_map(cloud->result, *zone);
   if (cloud->every > 1) {
     html +=
-        fmt::format(R"(<p class="note">{}</p>)",
-                    reports::trf("Every {}th point is drawn while the run is at work; the report "
-                                 "has all of them.",
-                                 cloud->every));
+        note(trf("Every {}th point is drawn while the run is at work; the report "
+                 "has all of them.",
+                 cloud->every));
   }
   return html;
 }
@@ -187,32 +161,29 @@ std::string live_touches(const record::RunRecord& record) {
       R"(<thead><tr><th class="n">{}</th><th>{}</th><th class="n">{}</th><th class="n">{}</th>)"
       R"(<th class="n">{}</th><th class="n">x / mm</th><th class="n">y / mm</th>)"
       R"(<th class="n">z / mm</th></tr></thead><tbody>)",
-      reports::tr("Last touches"), reports::tr("Last touches"), reports::tr("Touch"),
-      reports::tr("Purpose"), reports::tr("Pose"), reports::tr("Layer"), reports::tr("Point"));
+      tr("Last touches"), tr("Last touches"), tr("Touch"), tr("Purpose"), tr("Pose"), tr("Layer"),
+      tr("Point"));
   const std::size_t rows = std::min(kTouchRows, record.touches.size());
   for (std::size_t i = 0; i < rows; ++i) {
     html += touch_row(record, record.touches[record.touches.size() - 1 - i]);
   }
   return html +
-         fmt::format(
-             R"(</tbody></table></div><p class="note">{}</p>)",
-             reports::tr("Centres of the tip in the machine frame, the newest first. Each is on "
-                         "disk before the next is made."));
+         fmt::format(R"(</tbody></table></div><p class="note">{}</p>)",
+                     tr("Centres of the tip in the machine frame, the newest first. Each is on "
+                        "disk before the next is made."));
 }
 
 std::string live_over(const record::RunRecord& record, std::string_view report) {
-  std::string html =
-      fmt::format(R"(<h2 class="doing">{}</h2>)",
-                  record.ending == "finished" ? reports::tr("Run finished")
-                  : record.ending == "stopped"
-                      ? reports::tr("Run stopped; it can go on with rondure run --resume")
-                      : reports::tr("Run ended by a fault"));
+  std::string html = fmt::format(R"(<h2 class="doing">{}</h2>)",
+                                 record.ending == "finished" ? tr("Run finished")
+                                 : record.ending == "stopped"
+                                     ? tr("Run stopped; it can go on with rondure run --resume")
+                                     : tr("Run ended by a fault"));
   if (!report.empty()) {
-    html += fmt::format(R"(<p>{} <span class="mono">{}</span></p>)",
-                        reports::tr("The report is in"), reports::isolated(report));
+    html += fmt::format(R"(<p>{} <span class="mono">{}</span></p>)", tr("The report is in"),
+                        isolated(report));
   }
-  return html + fmt::format(R"(<p class="note">{}</p>)",
-                            reports::tr("The program has ended; this page stays as it is."));
+  return html + note(tr("The program has ended; this page stays as it is."));
 }
 
 }  // namespace rondure::web

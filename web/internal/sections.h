@@ -9,11 +9,10 @@
 #include "record/run_record.h"
 #include "web/internal/cloud.h"
 
-// Private to the room: the parts of the live page. Every text of the record is escaped.
-
 namespace rondure::web {
 
-/// Where a run stands.
+/// The state of a run, from which the parts of the page are made. Every text of the record is
+/// escaped.
 struct LiveNow {
   const record::PoseVisit* pose = nullptr;  ///< The present one; none before the first.
   std::optional<evaluation::PoseValue> f;   ///< Of the present pose, of its touches so far.
@@ -23,19 +22,15 @@ struct LiveNow {
   std::optional<double> left_s;
 };
 
-/// Part, serial number, plan and run, and that a simulation measures no real part.
-[[nodiscard]] std::string live_head(const record::RunRecord& record);
-/// "Measuring feature bore, pose 3": what the run does, in words.
+/// "Measuring feature bore, pose 3": changes with the pose and the state only.
 [[nodiscard]] std::string live_doing(const record::RunRecord& record, const LiveNow& now);
 /// The numbers of the moment.
 [[nodiscard]] std::string live_numbers(const record::RunRecord& record, const LiveNow& now);
-/// One sentence for a screen reader, which changes with the pose and the state only.
-[[nodiscard]] std::string live_sentence(const record::RunRecord& record, const LiveNow& now);
 /// The drawings of the report, of the present cloud.
 [[nodiscard]] std::string live_drawings(const core::Result<LiveCloud>& cloud);
 /// The last touches, the newest first.
 [[nodiscard]] std::string live_touches(const record::RunRecord& record);
-/// What the page says when the run is over, above the verdict.
+/// Heading of the page when the run is over, above the verdict.
 [[nodiscard]] std::string live_over(const record::RunRecord& record, std::string_view report);
 
 }  // namespace rondure::web

@@ -21,7 +21,7 @@ namespace rondure::web {
 namespace {
 
 constexpr std::size_t kThreads = 8;
-constexpr int kWaiting = 128;      ///< Connections that were not looked at yet.
+constexpr int kWaiting = 128;      ///< Connections that were not accepted yet.
 constexpr int kMostAccepted = 64;  ///< Connections that wait for a thread; more are closed.
 constexpr std::size_t kMostBody_bytes = 1024;
 constexpr auto kConnection = std::chrono::milliseconds(2000);  ///< For a request and its answer.
@@ -73,8 +73,8 @@ class QuietThreads {
 /// In the thread that accepts: the connection of the task at hand is one too many.
 thread_local bool one_too_many = false;
 
-/// The library's threads with an end to what waits for them: connections that say nothing would
-/// else take every file the process may open, and the run needs some. The library cannot be told
+/// The library's threads with a limit on waiting connections: silent ones would otherwise use up
+/// the files that the process may open, and the run needs some. The library cannot be told
 /// no: a task too many is done at once, and closes its connection unread.
 class BoundedQueue final : public httplib::TaskQueue {
  public:

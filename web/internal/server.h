@@ -10,11 +10,9 @@
 #include "core/result.h"
 #include "web/internal/guard.h"
 
-// Private to the room: HTTP on this computer only.
-
 namespace rondure::web {
 
-/// What the server hands out and takes. Called from its threads.
+/// Answers of the program to the server, which calls them from its threads.
 struct LiveHandlers {
   /// JSON for a page that has seen a version; `client` is the page's name for itself.
   std::function<std::string(std::uint64_t since, const std::string& client)> state;
@@ -31,7 +29,7 @@ class LiveServer {
  public:
   /// @param port      0: any free one.
   /// @param gate      Its port is filled in.
-  /// @param page      What "/" gives (live_page()).
+  /// @param page      The answer to "/": live_page().
   /// @return  kFile when the port cannot be had: `what` says what to do.
   [[nodiscard]] static core::Result<std::unique_ptr<LiveServer>> start(std::uint16_t port,
                                                                        LiveGate gate,

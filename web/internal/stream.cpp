@@ -13,7 +13,7 @@ namespace {
 /// A browser's request has one or two kB. The library bounds a line, but neither their number nor
 /// a body that comes in chunks.
 constexpr std::size_t kMostRequest_bytes = 32'768;
-constexpr std::size_t kMostRest_bytes = 262'144;  ///< Of what a refused request still sends.
+constexpr std::size_t kMostRest_bytes = 262'144;  ///< Read after a refused request.
 
 }  // namespace
 

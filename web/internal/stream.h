@@ -8,8 +8,6 @@
 
 #include <httplib.h>
 
-// Private to the room: one connection of a browser, which can neither last nor hold up the end.
-
 namespace rondure::web {
 
 /// A connected socket for one request and its answer, within a time for both together: a client

@@ -8,8 +8,6 @@
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
 
-// Private to the room: what report.json spells alike everywhere.
-
 namespace rondure::evaluation {
 struct RotaryResult;
 }  // namespace rondure::evaluation
@@ -25,16 +23,19 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
-[[nodiscard]] Json optional_um(const std::optional<double>& length_mm);
-[[nodiscard]] Json error_json(const core::Error& error);
+[[nodiscard]] inline Json optional_um(const std::optional<double>& length_mm) {
+  return length_mm ? Json(in_um(*length_mm)) : Json(nullptr);
+}
+[[nodiscard]] inline Json error_json(const core::Error& error) {
+  return {{"code", core::code_name(error.code)}, {"what", error.what}, {"where", error.where}};
+}
+[[nodiscard]] inline Json optional_json(const std::optional<core::Error>& error) {
+  return error ? error_json(*error) : Json(nullptr);
+}
 [[nodiscard]] Json characteristic_json(const evaluation::CharacteristicResult& result);
 /// A feature whose shape is an analysis.
 [[nodiscard]] Json analysis_json(const evaluation::FeatureResult& feature);
 [[nodiscard]] Json rotary_json(const evaluation::RotaryResult& facts);
-/// Intervals, bias, budget and declaration of a value; null without an interval.
-[[nodiscard]] Json uncertainty_json(const evaluation::CharacteristicResult& result);
-/// What the rule compared, its limits and risks; null where it decided nothing.
-[[nodiscard]] Json decision_json(const evaluation::CharacteristicResult& result);
 /// The decision rule of a run with its parameters and statements; null when it is not known.
 [[nodiscard]] Json rule_json(const evaluation::Evaluation& evaluation);
 

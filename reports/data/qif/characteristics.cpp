@@ -32,22 +32,6 @@ std::string element(Family family, const char* kind) {
   return fmt::format("{}Characteristic{}", kNames[static_cast<std::size_t>(family)], kind);
 }
 
-const char* status_of(evaluation::Verdict verdict) {
-  switch (verdict) {
-    case evaluation::Verdict::kConforms:
-      return "PASS";
-    case evaluation::Verdict::kDoesNotConform:
-      return "FAIL";
-    case evaluation::Verdict::kUndecided:
-      return "INDETERMINATE";
-    case evaluation::Verdict::kNotToleranced:
-      return "NOT_ANALYZED";
-    case evaluation::Verdict::kVoid:
-      break;
-  }
-  return "UNDEFINED";
-}
-
 /// "RONt about LSCI", "dR".
 std::string symbol_words(const record::Characteristic& asked) {
   const std::string reference = evaluation::reference_of(asked);
@@ -58,7 +42,7 @@ bool has_reference(const record::Characteristic& asked) {
   return !evaluation::reference_of(asked).empty();
 }
 
-/// One characteristic on its way through the document.
+/// One characteristic, with the ids of its elements once they are written.
 struct PlacedResult {
   const evaluation::CharacteristicResult& result;
   const evaluation::FeatureResult& feature;
@@ -70,10 +54,9 @@ struct PlacedResult {
 
 void add_definition(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
-  pugi::xml_node node =
-      add(draft.lists.characteristic_definitions, element(placed.family, "Definition").c_str());
-  const int id = draft.ids.next();
-  node.append_attribute("id").set_value(id);
+  pugi::xml_node node = add_numbered(draft, draft.lists.characteristic_definitions,
+                                     element(placed.family, "Definition"));
+  const int definition = id_of(node);
   add(node, "Name", asked.id);
   if (placed.family == Family::kUserDefined) {
     if (asked.tolerance_mm) {
@@ -88,10 +71,10 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
     add(node, "ToleranceValue", decimal(*asked.tolerance_mm));
   }
 
-  node = add(draft.lists.characteristic_nominals, element(placed.family, "Nominal").c_str());
-  placed.nominal = draft.ids.next();
-  node.append_attribute("id").set_value(placed.nominal);
-  add(node, "CharacteristicDefinitionId", id);
+  node =
+      add_numbered(draft, draft.lists.characteristic_nominals, element(placed.family, "Nominal"));
+  placed.nominal = id_of(node);
+  add(node, "CharacteristicDefinitionId", definition);
   if (placed.places.whole) {
     add_references(node, "FeatureNominalIds", {placed.places.whole->nominal});
   }
@@ -100,9 +83,8 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
 void add_item(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   pugi::xml_node node =
-      add(draft.lists.characteristic_items, element(placed.family, "Item").c_str());
-  placed.item = draft.ids.next();
-  node.append_attribute("id").set_value(placed.item);
+      add_numbered(draft, draft.lists.characteristic_items, element(placed.family, "Item"));
+  placed.item = id_of(node);
   add_attributes(node,
                  {{"feature", placed.feature.feature.id}, {"drawing_zone", asked.drawing_zone}});
   add(node, "Name", asked.id);
@@ -168,7 +150,7 @@ void add_circle_zone(pugi::xml_node node, const PlacedResult& placed) {
   }
 }
 
-/// What the attribute of that name is, which QIF leaves open; empty without one.
+/// Meaning of `combinedUncertainty`, which QIF leaves open; empty without an interval.
 std::string uncertainty_words(const evaluation::CharacteristicResult& result) {
   const evaluation::UncertaintyStatement* known =
       result.value ? result.value->statement() : nullptr;
@@ -181,16 +163,15 @@ std::string uncertainty_words(const evaluation::CharacteristicResult& result) {
 void add_measured(QifDraft& draft, const PlacedResult& placed) {
   const evaluation::CharacteristicResult& result = placed.result;
   const record::Characteristic& asked = result.characteristic;
-  pugi::xml_node node =
-      add(draft.lists.measured_characteristics, element(placed.family, "Measurement").c_str());
-  node.append_attribute("id").set_value(draft.ids.next());
+  pugi::xml_node node = add_numbered(draft, draft.lists.measured_characteristics,
+                                     element(placed.family, "Measurement"));
   add_attributes(node, {{"verdict", std::string(name_of(result.verdict))},
                         {"verification_operator",
                          result.value ? result.value->operator_text() : std::string()},
                         {"stated", result.value ? result.value->sentence() : std::string()},
                         {"combinedUncertainty", uncertainty_words(result)}});
   if (!result.reason.empty()) add(node, "Description", result.reason);
-  add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict));
+  add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict).of_characteristic);
   add(node, "CharacteristicItemId", placed.item);
   add_references(node, "FeatureMeasurementIds", measured_shapes(placed));
   if (has_reference(asked)) add_algorithm(node, asked.reference);

@@ -4,6 +4,7 @@
 
 #include "core/numbers.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
 #include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
 
@@ -67,37 +68,36 @@ std::vector<Associated> circles_of(const evaluation::FeatureResult& feature,
   return out;
 }
 
+/// Location and normal of a circle, or the axis of a cylinder.
+void add_place(pugi::xml_node node, bool circle, const std::string& point,
+               const std::string& direction) {
+  const pugi::xml_node place = circle ? node : add(node, "Axis");
+  add(place, circle ? "Location" : "AxisPoint", point);
+  add(place, circle ? "Normal" : "Direction", direction);
+}
+
 /// Definition, nominal and item of a cylinder, or of a circle at a height above the origin.
 QifShape add_shape(QifDraft& draft, const record::Feature& asked, bool circle, double height_mm,
                    const std::string& name) {
   QifShape shape;
   shape.circle = circle;
-  const int definition = draft.ids.next();
-  pugi::xml_node node = add(draft.lists.feature_definitions,
-                            circle ? "CircleFeatureDefinition" : "CylinderFeatureDefinition");
-  node.append_attribute("id").set_value(definition);
+  const auto add_node = [&](pugi::xml_node list, std::string_view kind) {
+    return add_numbered(draft, list,
+                        fmt::format("{}Feature{}", circle ? "Circle" : "Cylinder", kind));
+  };
+  pugi::xml_node node = add_node(draft.lists.feature_definitions, "Definition");
+  const int definition = id_of(node);
   add(node, "InternalExternal", asked.side == record::Side::kOutside ? "EXTERNAL" : "INTERNAL");
   add(node, "Diameter", decimal(asked.nominal_diameter_mm));
 
-  shape.nominal = draft.ids.next();
-  node =
-      add(draft.lists.feature_nominals, circle ? "CircleFeatureNominal" : "CylinderFeatureNominal");
-  node.append_attribute("id").set_value(shape.nominal);
+  node = add_node(draft.lists.feature_nominals, "Nominal");
+  shape.nominal = id_of(node);
   add_attributes(node, {{"frame", "part: axis along z"}});
   add(node, "FeatureDefinitionId", definition);
-  const std::string place = text_of({0.0, 0.0, height_mm});
-  if (circle) {
-    add(node, "Location", place);
-    add(node, "Normal", "0 0 1");
-  } else {
-    const pugi::xml_node axis = add(node, "Axis");
-    add(axis, "AxisPoint", place);
-    add(axis, "Direction", "0 0 1");
-  }
+  add_place(node, circle, text_of({0.0, 0.0, height_mm}), "0 0 1");
 
-  shape.item = draft.ids.next();
-  node = add(draft.lists.feature_items, circle ? "CircleFeatureItem" : "CylinderFeatureItem");
-  node.append_attribute("id").set_value(shape.item);
+  node = add_node(draft.lists.feature_items, "Item");
+  shape.item = id_of(node);
   add(node, "FeatureNominalId", shape.nominal);
   add(node, "FeatureName", name);
   add(add(node, "DeterminationMode"), "Checked");
@@ -123,12 +123,10 @@ void add_point_list(pugi::xml_node parent, const PointRange& points) {
 
 void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
                      const PointRange& points) {
-  pugi::xml_node node =
-      add(draft.lists.measured_features,
-          shape.circle ? "CircleFeatureMeasurement" : "CylinderFeatureMeasurement");
-  const int id = draft.ids.next();
-  shape.measured[static_cast<std::size_t>(found.reference)] = id;
-  node.append_attribute("id").set_value(id);
+  const pugi::xml_node node =
+      add_numbered(draft, draft.lists.measured_features,
+                   shape.circle ? "CircleFeatureMeasurement" : "CylinderFeatureMeasurement");
+  shape.measured[static_cast<std::size_t>(found.reference)] = id_of(node);
   add_attributes(
       node, {{"frame", draft.frame},
              {"reference",
@@ -138,23 +136,78 @@ void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   add_point_list(node, points);
   add_algorithm(node, found.reference);
-  if (shape.circle) {
-    add(node, "Location", text_of(found.axis.point_mm));
-    add(node, "Normal", text_of(found.axis.direction));
-  } else {
-    const pugi::xml_node axis = add(node, "Axis");
-    add(axis, "AxisPoint", text_of(found.axis.point_mm));
-    add(axis, "Direction", text_of(found.axis.direction));
-  }
+  add_place(node, shape.circle, text_of(found.axis.point_mm), text_of(found.axis.direction));
   add(node, "Diameter", decimal(2.0 * found.radius_mm));
   add(node, "Form", decimal(found.deviation_mm));
 }
 
-/// The rows of a layer as a range, where they stand one behind the other.
+/// The rows of a layer as a range; empty where they are not consecutive.
 PointRange point_range(std::optional<int> set, const std::vector<std::size_t>& rows) {
   if (rows.empty() || rows.back() - rows.front() + 1 != rows.size()) return {};
   if (!std::is_sorted(rows.begin(), rows.end())) return {};
   return {set, std::pair{rows.front(), rows.back()}};
+}
+
+/// The axis that angles and deviations of the cloud are about, where there is a zone.
+std::optional<fit::Axis> zone_axis(const evaluation::FeatureResult& feature) {
+  if (feature.mz_cylinder) return feature.mz_cylinder->axis;
+  if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
+  const evaluation::LayerResult& section = feature.layers.front();
+  if (!section.mz) return {};
+  return section_axis(feature, section, section.mz->center_mm);
+}
+
+void append(std::string& list, const std::string& item) {
+  if (!list.empty()) list += ' ';
+  list += item;
+}
+
+/// Unit vectors out of the material, one for each point.
+std::string normals_of(const evaluation::FeatureResult& feature, const fit::Axis& axis) {
+  const double sign = feature.feature.side == record::Side::kOutside ? 1.0 : -1.0;
+  const Eigen::Vector3d unit = axis.direction.normalized();
+  std::string text;
+  for (const evaluation::CloudPoint& point : feature.cloud) {
+    const Eigen::Vector3d arm = point.tip_mm - axis.point_mm;
+    Eigen::Vector3d radial = arm - arm.dot(unit) * unit;
+    const double length_mm = radial.norm();
+    radial = length_mm > 0.0 ? Eigen::Vector3d(radial / length_mm)
+                             : Eigen::Vector3d(fit::across(unit).col(0));
+    append(text, text_of(sign * radial));
+  }
+  return text;
+}
+
+/// Writes the points that were evaluated: means of repeated touches, as tip centres where the tip
+/// is known, with normals out of the material and deviations where there is a zone.
+/// @return The id of the set; nothing without points.
+std::optional<int> add_points(QifDraft& draft, const evaluation::FeatureResult& feature) {
+  if (feature.cloud.empty()) return {};
+  const auto axis = zone_axis(feature);
+  pugi::xml_node node = add(draft.lists.point_sets, "MeasuredPointSet");
+  const int id = draft.ids.next();
+  node.append_attribute("count").set_value(static_cast<unsigned long long>(feature.cloud.size()));
+  node.append_attribute("id").set_value(id);
+  add_attributes(node,
+                 {{"frame", draft.frame},
+                  {"points", !feature.tip_radius_mm         ? "as given; the tip is not known"
+                             : passes_of(feature.cloud) > 1 ? "tip centres; all passes"
+                                                            : "tip centres; means of repeated "
+                                                              "touches"},
+                  {"temperature", feature.thermal ? "brought to 20 degC" : "as measured"}});
+  std::string points;
+  std::string deviations;
+  for (const evaluation::CloudPoint& point : feature.cloud) {
+    append(points, text_of(point.tip_mm));
+    append(deviations, core::shortest(point.deviation_mm));
+  }
+  add(node, "Points", points);
+  if (axis) add(node, "Normals", normals_of(feature, *axis));
+  add(node, "Compensated", feature.tip_radius_mm ? "false" : "true");
+  if (feature.tip_radius_mm) add(node, "ProbeRadius", decimal(*feature.tip_radius_mm));
+  if (draft.device) add(node, "MeasurementDeviceId", *draft.device);
+  if (axis) add(node, "Deviations", deviations);
+  return id;
 }
 
 }  // namespace
@@ -165,7 +218,7 @@ QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& fea
   if (record::is_analysis(asked.shape)) return out;
   draft.frame = feature.merged ? "body, of several poses" : "machine, final pose";
   const bool circle = asked.shape == record::Shape::kCircle;
-  const std::optional<int> set = add_qif_points(draft, feature);
+  const std::optional<int> set = add_points(draft, feature);
   out.whole = add_shape(draft, asked, circle, 0.0, asked.id);
   if (circle) {
     if (feature.layers.empty()) return out;

@@ -20,22 +20,6 @@ std::string document_id(const record::Header& header) {
                      hex.substr(17, 3), hex.substr(20, 12));
 }
 
-const char* inspection_status(evaluation::Verdict verdict) {
-  switch (verdict) {
-    case evaluation::Verdict::kConforms:
-      return "PASS";
-    case evaluation::Verdict::kDoesNotConform:
-      return "FAIL";
-    case evaluation::Verdict::kUndecided:
-      return "UNKNOWN";
-    case evaluation::Verdict::kNotToleranced:
-      return "NOT_CALCULATED";
-    case evaluation::Verdict::kVoid:
-      break;
-  }
-  return "UNDEFINED";
-}
-
 pugi::xml_node add_root(QifDraft& draft, const record::Header& header) {
   pugi::xml_node declaration = draft.document.append_child(pugi::node_declaration);
   declaration.append_attribute("version").set_value("1.0");
@@ -63,14 +47,12 @@ pugi::xml_node add_root(QifDraft& draft, const record::Header& header) {
 
 int add_standard(QifDraft& draft, pugi::xml_node list, const char* designator, const char* year,
                  const char* title) {
-  pugi::xml_node node = add(list, "Standard");
-  const int id = draft.ids.next();
-  node.append_attribute("id").set_value(id);
+  const pugi::xml_node node = add_numbered(draft, list, "Standard");
   add(add(node, "Organization"), "StandardsOrganizationEnum", "ISO");
   add(node, "Designator", designator);
   add(node, "Year", year);
   add(node, "Title", title);
-  return id;
+  return id_of(node);
 }
 
 /// Standards, software, units. Returns the id of the standard that the characteristics follow.
@@ -79,9 +61,9 @@ int add_definitions(QifDraft& draft, pugi::xml_node root, const record::Header& 
   const int formal = add_standard(draft, standards, "ISO 1101", "2017", "Geometrical tolerancing");
   add_standard(draft, standards, "ISO 12180-1", "2011", "Cylindricity: vocabulary and parameters");
   add_standard(draft, standards, "ISO 12181-1", "2011", "Roundness: vocabulary and parameters");
-  pugi::xml_node software = add(add_list(root, "SoftwareDefinitions"), "Software");
-  draft.software = draft.ids.next();
-  software.append_attribute("id").set_value(draft.software);
+  const pugi::xml_node software =
+      add_numbered(draft, add_list(root, "SoftwareDefinitions"), "Software");
+  draft.software = id_of(software);
   add(software, "VendorName", "Rondure");
   add(software, "ApplicationName", "rondure");
   add(software, "Version", header.version);
@@ -104,11 +86,9 @@ void add_resources(QifDraft& draft, pugi::xml_node root, const record::Header& h
   if (header.machine.empty() && header.fixture.empty()) return;
   const pugi::xml_node resources = add(root, "MeasurementResources");
   const auto add_resource = [&](const char* list, const char* element, const std::string& name) {
-    pugi::xml_node node = add(add_list(resources, list), element);
-    const int id = draft.ids.next();
-    node.append_attribute("id").set_value(id);
+    const pugi::xml_node node = add_numbered(draft, add_list(resources, list), element);
     add(node, "Name", name);
-    return id;
+    return id_of(node);
   };
   if (!header.fixture.empty()) (void)add_resource("Fixtures", "Fixture", header.fixture);
   if (!header.machine.empty()) {
@@ -118,8 +98,7 @@ void add_resources(QifDraft& draft, pugi::xml_node root, const record::Header& h
 
 void add_part(QifDraft& draft, pugi::xml_node root, const record::Header& header) {
   const pugi::xml_node product = add(root, "Product");
-  pugi::xml_node part = add(add_list(product, "PartSet"), "Part");
-  part.append_attribute("id").set_value(draft.ids.next());
+  const pugi::xml_node part = add_numbered(draft, add_list(product, "PartSet"), "Part");
   add_attributes(part, {{"drawing", header.drawing}});
   add(add(part, "Header"), "Name", header.part_name);
   add(part, "ModelNumber", header.part_id);
@@ -165,12 +144,11 @@ void add_traceability(const QifDraft& draft, pugi::xml_node results,
 void add_actual_component(QifDraft& draft, pugi::xml_node root_results,
                           const record::Header& header, evaluation::Verdict verdict) {
   if (header.serial.empty()) return;
-  pugi::xml_node component =
-      add(add_list(add_list(root_results, "ActualComponentSets"), "ActualComponentSet"),
-          "ActualComponent");
-  component.append_attribute("id").set_value(draft.ids.next());
+  const pugi::xml_node component = add_numbered(
+      draft, add_list(add_list(root_results, "ActualComponentSets"), "ActualComponentSet"),
+      "ActualComponent");
   add(component, "SerialNumber", header.serial);
-  add(add(component, "Status"), "InspectionStatusEnum", inspection_status(verdict));
+  add(add(component, "Status"), "InspectionStatusEnum", status_of(verdict).of_part);
 }
 
 }  // namespace
@@ -184,15 +162,14 @@ std::string write_qif(const record::RunRecord& record, const evaluation::Evaluat
   const pugi::xml_node all_results = add_lists(draft, root, formal_standard);
 
   pugi::xml_node results =
-      add(add_list(all_results, "MeasurementResultsSet"), "MeasurementResults");
-  results.append_attribute("id").set_value(draft.ids.next());
+      add_numbered(draft, add_list(all_results, "MeasurementResultsSet"), "MeasurementResults");
   add_traceability(draft, results, record);
   draft.lists.measured_features = add_list(results, "MeasuredFeatures");
   draft.lists.point_sets = add_list(results, "MeasuredPointSets");
   const pugi::xml_node characteristics = add(results, "MeasuredCharacteristics");
   draft.lists.measured_characteristics = add_list(characteristics, "CharacteristicMeasurements");
   add(add(results, "InspectionStatus"), "InspectionStatusEnum",
-      inspection_status(evaluation.verdict));
+      status_of(evaluation.verdict).of_part);
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     add_qif_characteristics(draft, add_qif_feature(draft, feature), feature);
   }

@@ -48,6 +48,17 @@ void draw_polar_axes(Svg& svg, const PolarAxes& axes) {
   svg.text(middle, middle + axes.above + 9.0, "middle", "label", "270°");
 }
 
+void draw_section_point(Svg& svg, double x, double y, const evaluation::CloudPoint& point,
+                        double radius) {
+  if (point.outer_contact) {
+    svg.triangle(x, y, 5.5, "outer");
+  } else if (point.inner_contact) {
+    svg.square(x, y, 5.0, "inner");
+  } else if (radius > 0.0) {
+    svg.circle(x, y, radius, "point");
+  }
+}
+
 void deviation_scale(Svg& svg, double x, double top, double bottom, double half_zone_mm) {
   constexpr int kSteps = 41;
   constexpr double kBar = 14.0;

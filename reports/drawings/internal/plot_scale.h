@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "evaluation/results/evaluation.h"
 #include "reports/drawings/internal/svg.h"
 
 namespace rondure::reports {
@@ -13,7 +14,8 @@ void tick_beside(Svg& svg, double left, double y, std::string_view label, double
 /// The label alone, for a line of a grid.
 void label_beside(Svg& svg, double left, double y, std::string_view label, double gap = 8.0);
 
-/// The length of so many um as drawn, at the left below a drawing; `top` is that of its strokes.
+/// A bar at the left below a drawing, `length` px long, which stands for `length_um`.
+/// @param top  Upper end of its strokes.
 void scale_bar(Svg& svg, int top, double length, double length_um);
 
 /// Ticks every 30 deg round a polar drawing, with lines and labels every 90 deg.
@@ -26,6 +28,11 @@ struct PolarAxes {
   double above = 0.0;          ///< Label of 90 deg.
 };
 void draw_polar_axes(Svg& svg, const PolarAxes& axes);
+
+/// A point of a section: a triangle or a square where it touches the zone, else a disc of that
+/// radius; 0: none.
+void draw_section_point(Svg& svg, double x, double y, const evaluation::CloudPoint& point,
+                        double radius);
 
 /// The colours of deviations beside a drawing, from minus to plus half the zone, with their values
 /// in um; 60 px wide.

@@ -2,12 +2,11 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace rondure::reports {
 
 /// One inline drawing. Lengths are in its own units (CSS px at its natural width); classes are
-/// those of html_style.h; texts are escaped here.
+/// those of html/style.h; texts are escaped here.
 class Svg {
  public:
   Svg(double width, double height, std::string_view css_class, std::string_view label);
@@ -28,7 +27,7 @@ class Svg {
   void diamond(double x, double y, double r, std::string_view css_class);
   void cross(double x, double y, double r, std::string_view css_class);
 
-  /// What a screen reader says after the label.
+  /// Description that a screen reader reads after the label.
   void describe(std::string_view text);
   /// Markup that was made elsewhere.
   void add(std::string_view markup) { body_ += markup; }

@@ -187,6 +187,15 @@ std::string line_chart(std::string_view title, std::string_view x_title, std::st
   return figure(svg, title, curves);
 }
 
+std::vector<BarLimit> limits_of(const std::vector<record::Characteristic>& asked) {
+  std::vector<BarLimit> out;
+  for (const record::Characteristic& characteristic : asked) {
+    for (const record::HarmonicLimit& line : characteristic.harmonic_limits)
+      out.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
+  }
+  return out;
+}
+
 std::string bar_chart(std::string_view title, std::string_view x_title, std::string_view y_title,
                       const std::vector<Bar>& bars, const std::vector<BarLimit>& limits) {
   if (bars.empty()) return {};

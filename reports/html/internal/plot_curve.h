@@ -4,9 +4,11 @@
 #include <string_view>
 #include <vector>
 
+#include "record/run_record.h"
+
 namespace rondure::reports {
 
-/// One line of a drawing of an analysis. `css_class` is one of html_style.h: "profile" (black),
+/// One line of a drawing of an analysis. `css_class` is one of html/style.h: "profile" (black),
 /// "zone-outer" (orange), "zone-inner" (blue), "guide" (dotted), "mean" (dashed).
 struct Curve {
   std::string name;
@@ -38,6 +40,8 @@ struct BarLimit {
   int last = 0;
   double value = 0.0;
 };
+/// The limits that the masks of characteristics set [um].
+[[nodiscard]] std::vector<BarLimit> limits_of(const std::vector<record::Characteristic>& asked);
 [[nodiscard]] std::string bar_chart(std::string_view title, std::string_view x_title,
                                     std::string_view y_title, const std::vector<Bar>& bars,
                                     const std::vector<BarLimit>& limits = {});

@@ -20,7 +20,6 @@ constexpr int kSolidCellRows = 24;
 constexpr std::size_t kRingSteps = 120;  ///< 3 deg.
 constexpr std::size_t kMostSections = 24;
 
-/// Scales of the drawing.
 struct Scales {
   double middle_mm = 0.0;  ///< Height that is drawn at 0.
   double px_per_height_mm = 1.0;

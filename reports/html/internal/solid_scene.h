@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "evaluation/results/evaluation.h"
@@ -50,7 +49,7 @@ inline constexpr std::size_t kMostSolidPoints = 1200;
                                         const evaluation::Zone& zone);
 
 /// From where it is seen: turned about the axis, then tilted towards the reader; parallel
-/// projection. html_script.h says the same in the page.
+/// projection. html/internal/script.h repeats it.
 struct SolidCamera {
   double yaw_deg = -60.0;
   double pitch_deg = 22.0;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/utf8.h"
 
@@ -33,6 +34,42 @@ bool opens(std::string_view letter) {
   return kMarks.find(letter) != std::string_view::npos;
 }
 
+/// A piece that is never broken: a word, or a wide character with the punctuation that belongs to
+/// it.
+struct LinePiece {
+  std::string text;
+  bool after_space = false;  ///< A space, or several, stood before it.
+};
+
+std::vector<LinePiece> line_pieces(std::string_view text, LineBreaks breaks) {
+  std::vector<LinePiece> out;
+  bool space = true;   // the text begins a line
+  bool joins = false;  // the next character belongs to the piece before it
+  bool wide_before = false;
+  while (!text.empty()) {
+    const core::Utf8Character c = core::next_character(text);
+    const std::string_view letter = text.substr(0, c.bytes);
+    text.remove_prefix(c.bytes);
+    if (letter == " ") {
+      if (space) out.push_back({"", !out.empty()});  // each space more stands for itself
+      space = true;
+      continue;
+    }
+    const bool wide = is_wide(c.code);
+    const bool ends = breaks == LineBreaks::kAtWideCharacters && (wide || wide_before) && !joins &&
+                      !closes(letter);
+    if (space || out.empty() || ends) {
+      out.push_back({std::string(letter), space && !out.empty()});
+    } else {
+      out.back().text += letter;
+    }
+    space = false;
+    wide_before = wide;
+    joins = opens(letter);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::size_t columns(std::string_view text) {
@@ -50,34 +87,6 @@ std::string padded(std::string_view text, std::size_t width) {
   return std::string(text) + std::string(taken < width ? width - taken : 0, ' ');
 }
 
-std::vector<LinePiece> line_pieces(std::string_view text) {
-  std::vector<LinePiece> out;
-  bool space = true;   // the text begins a line
-  bool joins = false;  // the next character belongs to the piece before it
-  bool wide_before = false;
-  while (!text.empty()) {
-    const core::Utf8Character c = core::next_character(text);
-    const std::string_view letter = text.substr(0, c.bytes);
-    text.remove_prefix(c.bytes);
-    if (letter == " ") {
-      if (space) out.push_back({"", !out.empty()});  // each space more stands for itself
-      space = true;
-      continue;
-    }
-    const bool wide = is_wide(c.code);
-    const bool breaks = (wide || wide_before) && !joins && !closes(letter);
-    if (space || out.empty() || breaks) {
-      out.push_back({std::string(letter), space && !out.empty()});
-    } else {
-      out.back().text += letter;
-    }
-    space = false;
-    wide_before = wide;
-    joins = opens(letter);
-  }
-  return out;
-}
-
 std::string shortened(std::string_view text, std::size_t limit) {
   if (columns(text) <= limit) return std::string(text);
   std::string result;
@@ -90,6 +99,25 @@ std::string shortened(std::string_view text, std::size_t limit) {
     text.remove_prefix(c.bytes);
   }
   return result + "...";
+}
+
+std::string wrapped(std::string_view head, std::string_view text, LineBreaks breaks) {
+  const std::size_t indent = columns(head);
+  std::string out;
+  std::string line(head);
+  bool fresh = true;
+  for (const LinePiece& piece : line_pieces(core::printable(text), breaks)) {
+    const std::string word = shortened(piece.text, kTerminalColumns - indent);
+    const std::size_t space = piece.after_space && !fresh ? 1 : 0;
+    if (!fresh && columns(line) + space + columns(word) > kTerminalColumns) {
+      out += line + "\n";
+      line = std::string(indent, ' ');
+      fresh = true;
+    }
+    line += (piece.after_space && !fresh ? " " : "") + word;
+    fresh = false;
+  }
+  return out + line + "\n";
 }
 
 }  // namespace rondure::reports

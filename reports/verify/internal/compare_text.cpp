@@ -85,7 +85,7 @@ std::optional<std::pair<std::size_t, std::size_t>> first_difference(std::string_
                    b == right.end() ? found.size() : b->at);
 }
 
-/// A few words of a line around a place, on one line, in quotes.
+/// A few quoted words around a place of a line; control characters as \x1b.
 std::string excerpt(std::string_view line, std::size_t at) {
   constexpr std::size_t kBefore = 20;
   constexpr std::size_t kLength = 60;

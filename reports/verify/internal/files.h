@@ -33,7 +33,7 @@ struct ListedFiles {
 
 /// Checks the signature of SHA256SUMS with a public key, and that the list covers `files`: those
 /// that are there are listed, those that are listed are there.
-/// @param differences  Gets what does not hold, in words.
+/// @param differences  Gets a line for each check that fails.
 /// @return kBadOption for a key of another kind, kFile for a file that cannot be read.
 [[nodiscard]] core::Result<void> check_signature(const std::filesystem::path& directory,
                                                  const std::string& public_key_pem,

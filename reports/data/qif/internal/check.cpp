@@ -38,7 +38,7 @@ std::vector<double> numbers_in(std::string_view text) {
   return out;
 }
 
-/// What an element may refer to, by the end of the target's name. Empty: no reference.
+/// End of the name that the target of a reference must have; empty: no reference.
 std::string_view stem_of(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kStems = {
       {{"FeatureDefinitionId", "FeatureDefinition"},

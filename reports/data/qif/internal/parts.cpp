@@ -34,6 +34,22 @@ std::string text_of(const Eigen::Vector3d& v) {
                      core::shortest(v.z()));
 }
 
+QifStatus status_of(evaluation::Verdict verdict) {
+  switch (verdict) {
+    case evaluation::Verdict::kConforms:
+      return {"PASS", "PASS"};
+    case evaluation::Verdict::kDoesNotConform:
+      return {"FAIL", "FAIL"};
+    case evaluation::Verdict::kUndecided:
+      return {"INDETERMINATE", "UNKNOWN"};
+    case evaluation::Verdict::kNotToleranced:
+      return {"NOT_ANALYZED", "NOT_CALCULATED"};
+    case evaluation::Verdict::kVoid:
+      break;
+  }
+  return {"UNDEFINED", "UNDEFINED"};
+}
+
 void add_references(pugi::xml_node parent, const char* name, const std::vector<int>& ids) {
   if (ids.empty()) return;
   pugi::xml_node list = add_list(parent, name);
@@ -69,6 +85,14 @@ pugi::xml_node add(pugi::xml_node parent, const char* name, std::string_view tex
 pugi::xml_node add(pugi::xml_node parent, const char* name, int number) {
   return add(parent, name, std::to_string(number));
 }
+
+pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const std::string& name) {
+  pugi::xml_node node = add(parent, name.c_str());
+  node.append_attribute("id").set_value(draft.ids.next());
+  return node;
+}
+
+int id_of(const pugi::xml_node& node) { return node.attribute("id").as_int(); }
 
 void set(pugi::xml_node node, const char* name, std::string_view text) {
   node.append_attribute(name).set_value(clean(text).c_str());

@@ -12,15 +12,19 @@
 
 #include "evaluation/results/evaluation.h"
 
-// Private to the room: what the parts of a QIF document share.
-
 namespace rondure::reports {
+
+struct QifDraft;
 
 /// A new last child. Text passes clean(): XML 1.0 forbids most control characters even as entities,
 /// which pugixml would write.
 pugi::xml_node add(pugi::xml_node parent, const char* name);
 pugi::xml_node add(pugi::xml_node parent, const char* name, std::string_view text);
 pugi::xml_node add(pugi::xml_node parent, const char* name, int number);
+
+/// A new last child with the next id of the document, and that id.
+pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const std::string& name);
+[[nodiscard]] int id_of(const pugi::xml_node& node);
 
 /// A new attribute, its text cleaned in the same way.
 void set(pugi::xml_node node, const char* name, std::string_view text);
@@ -58,7 +62,7 @@ struct QifDraft {
   QifLists lists = {};
   int software = 0;
   std::optional<int> device = {};  ///< None where points came from a file.
-  std::string frame = {};          ///< Of the feature that is written: where its points lie.
+  std::string frame = {};          ///< Frame of the points of the present feature.
 };
 
 /// References in the order of record::Reference.
@@ -72,17 +76,11 @@ struct QifShape {
   std::array<std::optional<int>, kReferences> measured = {};
 };
 
-/// What stands for one feature of the plan; nothing for an analysis of series.
+/// The shapes of one feature of the plan; none for an analysis of series.
 struct QifFeature {
   std::optional<QifShape> whole = {};
-  std::vector<QifShape> sections = {};  ///< Of a cylinder: a circle a layer, in their order.
+  std::vector<QifShape> sections = {};  ///< Of a cylinder: a circle for each layer.
 };
-
-/// Writes the points that were evaluated: means of repeated touches, as tip centres where the tip
-/// is known, with normals out of the material and deviations where there is a zone.
-/// @return The id of the set; nothing without points.
-[[nodiscard]] std::optional<int> add_qif_points(QifDraft& draft,
-                                                const evaluation::FeatureResult& feature);
 
 /// Writes definition, nominal, item, point set and measurements of one feature.
 [[nodiscard]] QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& feature);
@@ -90,6 +88,13 @@ struct QifFeature {
 /// Writes definition, nominal, item and measurement of each characteristic of a feature.
 void add_qif_characteristics(QifDraft& draft, const QifFeature& places,
                              const evaluation::FeatureResult& feature);
+
+/// The words of QIF for a verdict.
+struct QifStatus {
+  const char* of_characteristic;
+  const char* of_part;
+};
+[[nodiscard]] QifStatus status_of(evaluation::Verdict verdict);
 
 /// A list with `n`, which finish_lists() sets.
 pugi::xml_node add_list(pugi::xml_node parent, const char* name);

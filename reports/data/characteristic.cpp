@@ -1,3 +1,4 @@
+#include "evaluation/results/feature_values.h"
 #include "reports/data/internal/json_parts.h"
 #include "reports/words/internal/facts.h"
 
@@ -40,8 +41,7 @@ Json prior_json(const std::optional<evaluation::Prior>& prior) {
           {"standard_deviation_um", in_um(prior->standard_deviation_mm)}};
 }
 
-}  // namespace
-
+/// Intervals, bias, budget and declaration of a value; null without an interval.
 Json uncertainty_json(const evaluation::CharacteristicResult& result) {
   if (!result.value || !result.value->uncertainty().result()) return nullptr;
   const evaluation::UncertaintyResult& u = *result.value->uncertainty().result();
@@ -59,6 +59,7 @@ Json uncertainty_json(const evaluation::CharacteristicResult& result) {
           {"influences", list_json(u.declaration, influence_json)}};
 }
 
+/// The compared value, the limits of the rule and risks; null where it decided nothing.
 Json decision_json(const evaluation::CharacteristicResult& result) {
   if (!result.outcome) return nullptr;
   const evaluation::RuleOutcome& o = *result.outcome;
@@ -70,6 +71,29 @@ Json decision_json(const evaluation::CharacteristicResult& result) {
           {"specific_risk", optional_json(o.specific_risk_1())},
           {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},
           {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
+}
+
+}  // namespace
+
+Json characteristic_json(const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  return {{"id", asked.id},
+          {"form", record::name_of(asked.form)},
+          {"symbol", evaluation::symbol_of(asked)},
+          {"reference", evaluation::reference_of(asked)},
+          {"value_um", optional_um(result.value_mm())},
+          {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
+          {"tolerance_um", optional_um(asked.tolerance_mm)},
+          {"verdict", name_of(result.verdict)},
+          {"reason", result.reason},
+          {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
+          {"drawing_zone", asked.drawing_zone},
+          {"stated", result.value ? Json(result.value->sentence()) : Json(nullptr)},
+          {"uncertainty", uncertainty_json(result)},
+          {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
+                                         ? Json(result.value->uncertainty().why())
+                                         : Json(nullptr)},
+          {"decision", decision_json(result)}};
 }
 
 Json rule_json(const evaluation::Evaluation& evaluation) {
