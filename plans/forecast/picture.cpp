@@ -38,7 +38,7 @@ struct View {
   }
 };
 
-struct Shape {
+struct DrawnShape {
   std::vector<Vector3d> points_W;  ///< Their convex hull is drawn.
   const char* fill = "";
   bool framed = true;  ///< Whether it affects the size of the window.
@@ -109,8 +109,8 @@ std::vector<Vector3d> ball(const Vector3d& center, double radius_mm) {
 }
 
 /// Part, ring, rim and sphere. Bodies without a size in the plan are not drawn.
-std::vector<Shape> shapes_of(const Plan& plan, const ForecastStage& stage) {
-  std::vector<Shape> out;
+std::vector<DrawnShape> shapes_of(const Plan& plan, const ForecastStage& stage) {
+  std::vector<DrawnShape> out;
   const FixturePlan& fixture = *plan.fixture;
   const Vector3d axis = vector3(fixture.axis_point_mm);
   if (fixture.rim_diameter_mm > 0.0) {
@@ -161,14 +161,14 @@ Polyline low_path(const Plan& plan, const ForecastStage& stage) {
   return out;
 }
 
-void fit_window(View& view, const std::vector<Shape>& shapes, const Polyline& path) {
+void fit_window(View& view, const std::vector<DrawnShape>& shapes, const Polyline& path) {
   Vector2d low = Vector2d::Constant(1e9);
   Vector2d high = Vector2d::Constant(-1e9);
   const auto take = [&](const Vector3d& p) {
     low = low.cwiseMin(view.flat(p));
     high = high.cwiseMax(view.flat(p));
   };
-  for (const Shape& shape : shapes) {
+  for (const DrawnShape& shape : shapes) {
     if (!shape.framed) continue;
     for (const Vector3d& p : shape.points_W) take(p);
   }
@@ -184,7 +184,7 @@ std::string points_of(const std::vector<Vector2d>& points) {
   return out;
 }
 
-std::string panel(const View& view, const std::vector<Shape>& shapes, const Polyline& path,
+std::string panel(const View& view, const std::vector<DrawnShape>& shapes, const Polyline& path,
                   const ForecastStage& stage, const char* title, const char* up) {
   const double x = view.origin_px.x();
   const double y = view.origin_px.y() - kPanel_px;
@@ -195,7 +195,7 @@ std::string panel(const View& view, const std::vector<Shape>& shapes, const Poly
       "<rect x=\"{0:.0f}\" y=\"{3:.0f}\" width=\"{4:.0f}\" height=\"{4:.0f}\" fill=\"#ffffff\" "
       "stroke=\"#999999\"/>\n",
       x, y - 8.0, title, y, kPanel_px);
-  for (const Shape& shape : shapes) {
+  for (const DrawnShape& shape : shapes) {
     std::vector<Vector2d> flat;
     for (const Vector3d& p : shape.points_W) flat.push_back(view.px(p));
     out += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"#555555\"/>\n",
@@ -221,7 +221,7 @@ double bar_mm(double px_per_mm) { return core::round_below(0.2 * kPanel_px / px_
 }  // namespace
 
 std::string forecast_picture(const Plan& plan, const ForecastStage& stage) {
-  const std::vector<Shape> shapes = shapes_of(plan, stage);
+  const std::vector<DrawnShape> shapes = shapes_of(plan, stage);
   const Polyline path = low_path(plan, stage);
   View side{0, 2};
   View top{0, 1};
