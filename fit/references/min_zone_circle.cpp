@@ -20,20 +20,12 @@ double certify(PlanePoints points, const Eigen::Vector2d& center, MinZoneCircle&
   double size = 0.0;
   for (const Eigen::Vector2d& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
   const double round_off = distance_round_off(size);
-  const CenterFrame<2> frame(Eigen::Vector2d::Zero());
-  const auto proven = prove_zone(points, center, frame, kMinimumZone, round_off);
-  out.center_mm = center;
-  out.inner_radius_mm = proven.zone.low;
-  out.outer_radius_mm = proven.zone.high;
-  out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
-  out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
-  out.certificate =
-      certify_local<2>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  const double growth = state_zone<2>(points, center, round_off, out);
   // All points are on one circle to round-off. This is global, as no zone is narrower than 0.
   if (out.width_mm() <= 16.0 * round_off) {
     out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
   }
-  return proven.proof.growth;
+  return growth;
 }
 
 /// Branch and bound over all centres; every better centre that it finds becomes the new start.

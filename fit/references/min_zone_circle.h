@@ -11,18 +11,22 @@
 
 namespace rondure::fit {
 
-/// Two concentric circles that hold all points between them with the least radial gap (MZCI).
-struct MinZoneCircle {
-  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
+/// Two concentric circles (D = 2, MZCI) or spheres (D = 3, MZSP) that hold all points between them
+/// with the least radial gap.
+template <int D>
+struct MinZoneCenter {
+  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
   double inner_radius_mm = 0.0;
   double outer_radius_mm = 0.0;
-  std::vector<Contact> outer;  ///< Points on the outer circle that carry the minimum.
+  std::vector<Contact> outer;  ///< Points on the outer circle or sphere that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  bool exact_fit = false;  ///< Three distinct points: the deviation is 0 by construction.
+  bool exact_fit = false;  ///< A circle of three distinct points: 0 by construction.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
+using MinZoneCircle = MinZoneCenter<2>;
+using MinZoneSphere = MinZoneCenter<3>;
 
 /// Finds the minimum-zone circle of one plane section.
 ///

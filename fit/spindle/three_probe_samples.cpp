@@ -21,32 +21,32 @@ constexpr double kMostSamples = 1e7;
 
 core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOptions& options) {
   const std::size_t rows = readings.alpha_rad.size();
-  const auto refuse = [](Code code, std::string what) { return core::fail(code, std::move(what)); };
   for (std::size_t i = 0; i < 3; ++i) {
     if (readings.h_mm[i].size() == rows) continue;
-    return refuse(Code::kSampling,
-                  fmt::format("probe {} has {} readings, there are {} angles; every "
-                              "column needs the same length",
-                              i + 1, readings.h_mm[i].size(), rows));
+    return core::fail(Code::kSampling,
+                      fmt::format("probe {} has {} readings, there are {} angles; every "
+                                  "column needs the same length",
+                                  i + 1, readings.h_mm[i].size(), rows));
   }
   if (!readings.beta_rad.empty() && readings.beta_rad.size() != rows) {
-    return refuse(Code::kSampling, fmt::format("{} swing angles and {} work angles; every column "
-                                               "needs the same length",
-                                               readings.beta_rad.size(), rows));
+    return core::fail(Code::kSampling,
+                      fmt::format("{} swing angles and {} work angles; every column "
+                                  "needs the same length",
+                                  readings.beta_rad.size(), rows));
   }
   const std::size_t needed = 2 * static_cast<std::size_t>(options.highest) + 2;
   if (rows < needed) {
-    return refuse(Code::kSampling,
-                  fmt::format("{} readings do not carry {} undulations; at least {} are needed",
-                              rows, options.highest, needed));
+    return core::fail(Code::kSampling,
+                      fmt::format("{} readings do not carry {} undulations; at least {} are needed",
+                                  rows, options.highest, needed));
   }
   for (std::size_t m = 0; m < rows; ++m) {
     bool finite = core::is_measurable(readings.alpha_rad[m]);
     for (const auto& h : readings.h_mm) finite = finite && core::is_measurable(h[m]);
     if (!readings.beta_rad.empty()) finite = finite && core::is_measurable(readings.beta_rad[m]);
     if (!finite)
-      return refuse(Code::kNotFinite, fmt::format("row {} holds no finite number up to {:g}", m,
-                                                  core::kGreatestNumber));
+      return core::fail(Code::kNotFinite, fmt::format("row {} holds no finite number up to {:g}", m,
+                                                      core::kGreatestNumber));
   }
   return {};
 }

@@ -49,21 +49,15 @@ core::Result<SurfaceSamples> sample_of(const WheelSurface& surface,
                               options.surface_to_mm.value_or(options.to_mm));
 }
 
-WheelLoad load_of(const SurfaceSamples& samples, double radius_mm) {
-  WheelLoad out;
-  const SurfaceSamples::Place worst = samples.greatest_curvature();
-  out.x_mm = worst.x_mm;
-  out.load = worst.value * radius_mm;
-  out.least_curvature_per_mm = samples.least_curvature_per_mm();
-  return out;
-}
-
 /// Rounds x for a message: no "-0", no digits of round-off.
 double shown(double x_mm) { return std::round(x_mm * 1e4) / 1e4 + 0.0; }
 
-core::Result<void> check_load(const WheelLoad& load, double radius_mm,
-                              const WheelPathOptions& options) {
-  if (load.load <= options.load_limit) return {};
+/// The load of a surface; kGouge above the limit of the options.
+core::Result<WheelLoad> load_of(const SurfaceSamples& samples, double radius_mm,
+                                const WheelPathOptions& options) {
+  const SurfaceSamples::Place worst = samples.greatest_curvature();
+  const WheelLoad load{worst.value * radius_mm, worst.x_mm, samples.least_curvature_per_mm()};
+  if (load.load <= options.load_limit) return load;
   const double concave = load.concave_radius_mm(radius_mm);
   if (load.load >= 1.0) {
     return core::fail(
@@ -160,11 +154,7 @@ core::Result<WheelLoad> wheel_load(const WheelSurface& surface, double radius_mm
   if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
   const auto samples = sample_of(surface, options);
   if (!samples) return core::fail(samples.error());
-  const WheelLoad load = load_of(*samples, radius_mm);
-  if (auto checked = check_load(load, radius_mm, options); !checked) {
-    return core::fail(checked.error());
-  }
-  return load;
+  return load_of(*samples, radius_mm, options);
 }
 
 core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm,
@@ -172,13 +162,12 @@ core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm
   if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
   const auto samples = sample_of(surface, options);
   if (!samples) return core::fail(samples.error());
+  const auto load = load_of(*samples, radius_mm, options);
+  if (!load) return core::fail(load.error());
   WheelPath path;
   path.radius_mm = radius_mm;
   path.lowest_point = options.lowest_point;
-  path.load = load_of(*samples, radius_mm);
-  if (auto checked = check_load(path.load, radius_mm, options); !checked) {
-    return core::fail(checked.error());
-  }
+  path.load = *load;
   const double relief = 1.0 / radius_mm - path.load.least_curvature_per_mm;
   path.step_mm = options.cusp_mm ? std::sqrt(8.0 * *options.cusp_mm / relief) : options.step_mm;
   if (auto filled = fill_rows(surface, options, path); !filled) return core::fail(filled.error());

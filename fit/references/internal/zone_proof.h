@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "fit/references/min_zone_circle.h"
 #include "fit/zone/descent.h"
 #include "fit/zone/local_certificate.h"
 
@@ -24,5 +25,23 @@ template <class Frame>
 [[nodiscard]] ProvenZone<Frame> prove_zone(std::span<const typename Frame::Point> points,
                                            const typename Frame::Point& origin, const Frame& frame,
                                            const ZoneWeights& weights, double round_off);
+
+/// States the minimum zone about a centre: radii, contacts, and the local certificate.
+/// @return The first-order growth there.
+template <int D>
+double state_zone(std::span<const Eigen::Matrix<double, D, 1>> points,
+                  const Eigen::Matrix<double, D, 1>& center, double round_off,
+                  MinZoneCenter<D>& out) {
+  const CenterFrame<D> frame(Eigen::Matrix<double, D, 1>::Zero());
+  const auto proven = prove_zone(points, center, frame, kMinimumZone, round_off);
+  out.center_mm = center;
+  out.inner_radius_mm = proven.zone.low;
+  out.outer_radius_mm = proven.zone.high;
+  out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
+  out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
+  out.certificate =
+      certify_local<D>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  return proven.proof.growth;
+}
 
 }  // namespace rondure::fit
