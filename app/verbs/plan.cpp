@@ -41,11 +41,11 @@ core::Result<double> length_from(std::string_view word) {
         core::Code::kBadOption,
         fmt::format("\"{}\" {}; write a length as 1um, 0.001mm or 1000nm", word, why));
   };
-  constexpr std::array<std::pair<std::string_view, double>, 3> kUnits = {
+  constexpr std::array<std::pair<std::string_view, double>, 3> kLengthUnits = {
       {{"um", 1e-3}, {"mm", 1.0}, {"nm", 1e-6}}};
   const std::string_view text = trimmed(word);
   if (core::parse_number(text)) return refuse("has no unit");
-  for (const auto& [unit, unit_mm] : kUnits) {
+  for (const auto& [unit, unit_mm] : kLengthUnits) {
     if (!text.ends_with(unit)) continue;
     const auto number = core::parse_number(trimmed(text.substr(0, text.size() - unit.size())));
     if (!number) return refuse("is no number with a unit");

@@ -273,8 +273,9 @@ core::Result<fit::WheelSurface> take_removal(const fit::WheelSurface& surface,
 using Points = std::vector<Eigen::Vector2d>;
 
 core::Result<Points> load_wheel(const std::string& file) {
-  constexpr std::array<record::WantedColumn, 3> kColumns = {{{"x"}, {"z", false}, {"y", false}}};
-  const auto table = read_table(file, kColumns);
+  constexpr std::array<record::WantedColumn, 3> kWheelColumns = {
+      {{"x"}, {"z", false}, {"y", false}}};
+  const auto table = read_table(file, kWheelColumns);
   if (!table) return core::fail(table.error());
   const auto z = table->column("z");
   const auto y = table->column("y");
