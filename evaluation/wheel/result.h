@@ -21,8 +21,8 @@ struct WheelResult {
                                                    const record::Characteristic& characteristic);
 [[nodiscard]] ValueOperator operator_of(const WheelResult& result,
                                         const record::Characteristic& characteristic,
-                                        const std::string& temperature);
-[[nodiscard]] std::string filter_text(const WheelResult& result);
-[[nodiscard]] std::string sampling_text(const WheelResult& result);
+                                        const core::Phrase& temperature);
+[[nodiscard]] core::Phrase filter_text(const WheelResult& result);
+[[nodiscard]] core::Phrase sampling_text(const WheelResult& result);
 
 }  // namespace rondure::evaluation

@@ -28,11 +28,11 @@ double certify(PlanePoints points, const Eigen::Vector2d& center, MinZoneCircle&
   out.outer_radius_mm = proven.zone.high;
   out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
   out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
-  out.certificate =
-      certify_local<2>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  out.certificate = certify_local<2>(proven.proof, out.width_mm(), round_off,
+                                     core::Phrase("next to the least-squares centre"));
   // All points are on one circle to round-off. This is global, as no zone is narrower than 0.
   if (out.width_mm() <= 16.0 * round_off) {
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
+    out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), out.width_mm(), {}};
   }
   return proven.proof.growth;
 }
@@ -50,7 +50,8 @@ void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
       continue;
     }
     const double gap = std::max(out.certificate.gap_mm, out.width_mm() - search.lower_mm);
-    if (search.proven) out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+    if (search.proven)
+      out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), gap, {}};
     out.certificate.reason = search.reason;
     return;
   }
@@ -70,11 +71,11 @@ void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle
   if (out.certificate.kind == Certificate::Kind::kNone) return;
   if (all.complete) {
     const double gap = std::max(out.certificate.gap_mm, out.width_mm() - all.width_mm);
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+    out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), gap, {}};
   } else {
-    out.certificate.reason = fmt::format(
+    out.certificate.reason = core::Phrase(fmt::format(
         "a strip of {:.9g} mm holds the points: the narrowest zone may have its centre at infinity",
-        all.strip_mm);
+        all.strip_mm));
   }
 }
 
@@ -84,7 +85,7 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
   out.center_mm = circle.center_mm;
   out.inner_radius_mm = out.outer_radius_mm = circle.radius_mm;
   out.exact_fit = true;
-  out.certificate = {Certificate::Kind::kGlobal, "all centres", 0.0, ""};
+  out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), 0.0, {}};
   return out;
 }
 

@@ -19,8 +19,8 @@ core::Result<MinZoneSphere> min_zone_sphere(std::span<const Eigen::Vector3d> poi
   out.outer_radius_mm = proven.zone.high;
   out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
   out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
-  out.certificate =
-      certify_local<3>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  out.certificate = certify_local<3>(proven.proof, out.width_mm(), round_off,
+                                     core::Phrase("next to the least-squares centre"));
   return out;
 }
 

@@ -210,11 +210,12 @@ std::pair<double, double> reach_of(std::span<const Eigen::Vector2d> points_mm,
 void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
                  const WheelOptions& options, WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
-    out.runout_absent = "envelope mode: the points lie on the circle swept about the axis";
+    out.runout_absent =
+        core::phrase("envelope mode: the points lie on the circle swept about the axis");
     return;
   }
   if (!options.axis_mm) {
-    out.runout_absent = "the spindle axis is not given: roundness only";
+    out.runout_absent = core::phrase("the spindle axis is not given: roundness only");
     return;
   }
   const auto [low, high] = reach_of(used, *options.axis_mm);
@@ -227,13 +228,13 @@ void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
   found.fim_with_dropped_mm = highest - lowest;
   found.effective_radius_with_dropped_mm = highest;
   if (!out.sees_whole_turn()) {
-    found.bound_because = fmt::format(
+    found.bound_because = core::phrase(
         "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "
         "{:.3f} um; measure the whole turn",
         out.order.largest_gap_rad / core::kDegree, kUnseen / core::kDegree,
         found.fim_mm / core::kMicrometre);
   } else if (found.fim_with_dropped_mm > found.fim_mm) {
-    found.bound_because = fmt::format(
+    found.bound_because = core::phrase(
         "run-out is {:.3f} um without the points that were dropped and {:.3f} um with them: a "
         "proud point is run-out; clean the wheel there and measure it again",
         found.fim_mm / core::kMicrometre, found.fim_with_dropped_mm / core::kMicrometre);

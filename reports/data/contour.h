@@ -19,8 +19,8 @@ namespace rondure::reports {
 
 /// What the indices say of the sources, one sentence each; fewer than 4 parts: that they say
 /// nothing yet.
-[[nodiscard]] std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
-                                                        const fit::StabilityLimits& limits);
+[[nodiscard]] std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study,
+                                                         const fit::StabilityLimits& limits);
 
 /// The curves of all parts as CSV: beta_deg, then t, f, n (and the main journal) of each part in
 /// um.

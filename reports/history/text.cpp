@@ -199,7 +199,7 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   if (const std::string words = capability_in_words(chart); !words.empty()) {
     out.append("\n").append(broken_lines(words, ""));
   }
-  for (const std::string& note : chart.notes) out += broken_lines(note, "note: ");
+  for (const core::Phrase& note : chart.notes) out += broken_lines(note.english(), "note: ");
   return out;
 }
 

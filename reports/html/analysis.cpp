@@ -13,8 +13,8 @@ std::string truth_box(const record::RunRecord& record, std::size_t index) {
   std::string text;
   for (const record::TruthValue& truth : record.truth_values) {
     if (static_cast<std::size_t>(truth.feature) != index) continue;
-    text +=
-        fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", plain_words(truth.name), truth.value);
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ",
+                        plain_words(core::Phrase(truth.name)), truth.value);
   }
   if (text.empty()) return {};
   return fmt::format(R"(<div class="truth"><b>{}</b> {}{}</div>)",

@@ -17,10 +17,10 @@ std::string history_section(const record::RunRecord& record,
     html += fmt::format(R"(<h3>{} · {}</h3><figure><div class="scroll">{}</div><figcaption>)",
                         isolated(result.characteristic),
                         trf("Feature {}", isolated(result.feature)), history_drawing(chart));
-    if (const std::string words = capability_in_words(chart); !words.empty()) {
+    if (const core::Phrase words = capability_in_words(chart); !words.empty()) {
       html += "<b>" + in_sentence(words) + "</b> ";
     }
-    for (const std::string& sentence : history_sentences(chart))
+    for (const core::Phrase& sentence : history_sentences(chart))
       html += in_sentence(sentence) + " ";
     html += "</figcaption></figure>";
   }

@@ -66,7 +66,7 @@ std::string merged_section(const evaluation::MergedPoses& merged) {
           count(merged.solved->shared, "target was", "targets were"), fixed(merged.solved->chi2, 1),
           merged.solved->chi2_freedom, fixed(merged.solved->chi2_limit, 1)));
   html += R"(<ul class="warnings">)";
-  for (const std::string& statement : merged.solved->statements)
+  for (const core::Phrase& statement : merged.solved->statements)
     html += fmt::format("<li>{}</li>", trf("{}.", opening_sentence(statement)));
   return html + "</ul>";
 }

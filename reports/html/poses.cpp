@@ -50,12 +50,13 @@ std::string pose_table(const evaluation::FeatureResult& feature) {
     }
     expected = i + 1;
     const evaluation::PoseValue& pose = poses[i];
-    html += fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td )"
-                        R"(class="n">{}</td><td>{}</td><td>{}{}</td></tr>)",
-                        i + 1, deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
-                        pose.valid ? f_um(pose.f_mm) : tr("none"), worded(pose.ending),
-                        pose.physical ? tr("physical") : tr("software"),
-                        pose.final_pose ? fmt::format(", <b>{}</b>", tr("final")) : "");
+    html +=
+        fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td )"
+                    R"(class="n">{}</td><td>{}</td><td>{}{}</td></tr>)",
+                    i + 1, deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
+                    pose.valid ? f_um(pose.f_mm) : tr("none"), worded(core::Phrase(pose.ending)),
+                    pose.physical ? tr("physical") : tr("software"),
+                    pose.final_pose ? fmt::format(", <b>{}</b>", tr("final")) : "");
   }
   html += "</tbody></table></div>";
   if (shown.size() < poses.size()) {

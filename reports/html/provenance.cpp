@@ -29,7 +29,9 @@ std::string mono(const std::string& text) {
 std::string text_or_dash(const std::string& text) { return text.empty() ? "–" : isolated(text); }
 
 /// Of a text that is the program's own.
-std::string words_or_dash(const std::string& text) { return text.empty() ? "–" : worded(text); }
+std::string words_or_dash(const std::string& text) {
+  return text.empty() ? "–" : worded(core::Phrase(text));
+}
 
 /// A sentence that a journal holds stays as it is in English.
 std::string decision_html(const record::Decision& decision) {
@@ -70,7 +72,7 @@ std::string calibration_row(const std::optional<evaluation::FixtureUse>& use) {
       um(use->residual_rms_mm), um(use->residual_max_mm), fixed(use->residual_tilt_rad * 1e6, 1));
   if (use->invalid) {
     text += fmt::format("; <b>{}</b> {}{}", tr("it does not hold:"), titled(use->invalid->code),
-                        in_sentence(use->invalid->what));
+                        in_sentence(use->invalid->said()));
   }
   return property(tr("Calibration of the fixture"), text);
 }

@@ -30,7 +30,7 @@ class SearchRows {
 
 /// States why a search that reached its limit proves nothing: "12 squares of centres were left
 /// after 40; lower bound 0.0123 mm, 0.0001 mm from the value found".
-[[nodiscard]] std::string left_open(std::string_view boxes, std::size_t left, int after,
-                                    double lower_mm, double value_mm, const ZoneWeights& weights);
+[[nodiscard]] core::Phrase left_open(std::string_view boxes, std::size_t left, int after,
+                                     double lower_mm, double value_mm, const ZoneWeights& weights);
 
 }  // namespace rondure::fit
