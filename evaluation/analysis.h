@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "core/result.h"
 #include "evaluation/analysis_value.h"

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/harmonic_mask.h"

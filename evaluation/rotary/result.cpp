@@ -1,7 +1,5 @@
 #include "evaluation/rotary/result.h"
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "evaluation/analysis_value.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"

@@ -2,8 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "evaluation/internal/deviation.h"
 #include "evaluation/measured_cloud.h"
 #include "evaluation/uncertainty/internal/declared.h"

@@ -1,8 +1,6 @@
 #include <cmath>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/analysis.h"

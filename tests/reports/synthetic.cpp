@@ -343,7 +343,7 @@ Case unfinished_case() {
   feature.characteristics.push_back({second.characteristics.front(),
                                      {},
                                      evaluation::Verdict::kVoid,
-                                     "There is no value.",
+                                     core::Phrase("There is no value."),
                                      {},
                                      {}});
   made.evaluation.features.push_back(feature);

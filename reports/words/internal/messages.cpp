@@ -1,7 +1,5 @@
 #include "reports/words/internal/messages.h"
 
-#include <fmt/format.h>
-
 #include "reports/words/language.h"
 
 namespace rondure::reports {
