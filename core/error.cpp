@@ -87,6 +87,11 @@ std::string_view code_name(Code code) {
   return at < kCodes.size() ? kCodes[at].name : "internal";
 }
 
+Error error_of(Code code, Phrase said, std::string where) {
+  std::string what = said.english();
+  return {code, std::move(what), std::move(where), std::move(said)};
+}
+
 std::string to_line(const Error& error) {
   if (error.where.empty()) return fmt::format("{} [{}]", error.what, code_name(error.code));
   return fmt::format("{}: {} [{}]", error.where, error.what, code_name(error.code));

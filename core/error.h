@@ -2,6 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "core/phrase.h"
 
 namespace rondure::core {
 
@@ -82,12 +85,21 @@ struct Error {
   Code code = Code::kInternal;
   std::string what;        ///< One sentence with number, unit and limit.
   std::string where = {};  ///< JSON pointer into the plan, "file.csv:12", or empty.
+  /// `what` as data, for reports in another language; empty where only its English is known.
+  Phrase phrase = {};
 
   /// Returns this error with `where` set to `place`.
-  [[nodiscard]] Error at(std::string place) const { return {code, what, std::move(place)}; }
+  [[nodiscard]] Error at(std::string place) const { return {code, what, std::move(place), phrase}; }
+  /// `what` as a phrase; of one piece where only its English is known.
+  [[nodiscard]] Phrase said() const { return phrase.empty() ? Phrase(what) : phrase; }
 
-  friend bool operator==(const Error&, const Error&) = default;
+  friend bool operator==(const Error& a, const Error& b) {
+    return a.code == b.code && a.what == b.what && a.where == b.where;
+  }
 };
+
+/// Makes an error whose sentence is data.
+[[nodiscard]] Error error_of(Code code, Phrase said, std::string where = {});
 
 /// Returns the error as one line of text for the operator: "where: what [code]".
 [[nodiscard]] std::string to_line(const Error& error);

@@ -20,6 +20,11 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(Error{code, std::move(what), std::move(where)});
 }
 
+/// The same with a sentence that is data.
+[[nodiscard]] inline tl::unexpected<Error> fail(Code code, Phrase said, std::string where = {}) {
+  return tl::unexpected<Error>(error_of(code, std::move(said), std::move(where)));
+}
+
 /// Passes an error on unchanged.
 [[nodiscard]] inline tl::unexpected<Error> fail(Error error) {
   return tl::unexpected<Error>(std::move(error));

@@ -15,10 +15,6 @@
 namespace rondure::evaluation {
 namespace {
 
-std::string joined(const std::string& detail) {
-  return detail.empty() ? std::string() : fmt::format(" ({})", detail);
-}
-
 /// The limit that stands when there is no value: of a mask its first line.
 std::optional<double> nominal_limit(const record::Characteristic& asked) {
   if (!asked.harmonic_limits.empty()) return asked.harmonic_limits.front().amplitude_mm;
@@ -31,33 +27,34 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
   asked.tolerance_mm = nominal_limit(asked);
   out.verdict = Verdict::kVoid;
   if (!result.analysis) {
-    out.reason = result.failure ? result.failure->what : "there is no result";
+    out.reason = result.failure ? result.failure->said() : core::phrase("there is no result");
     return;
   }
   const auto value = value_of(*result.analysis, asked);
   if (!value) {
-    out.reason = value.error().what;
+    out.reason = value.error().said();
     return;
   }
   if (!std::isfinite(value->value_mm)) {
-    out.reason = "the computation gave no finite number";
+    out.reason = core::phrase("the computation gave no finite number");
     return;
   }
-  out.value.emplace(symbol_of(asked), value->value_mm,
-                    operator_of(*result.analysis, asked, temperature_words(result)),
-                    UncertaintyStatus::none("intervals are computed of touches and points only"));
+  out.value.emplace(
+      symbol_of(asked), value->value_mm,
+      operator_of(*result.analysis, asked, temperature_words(result)),
+      UncertaintyStatus::none(core::phrase("intervals are computed of touches and points only")));
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
   if (value->void_because && !proves) {
     out.reason = *value->void_because;
   } else if (record.ending != "finished") {
-    out.reason = "the run did not finish";
+    out.reason = core::phrase("the run did not finish");
   } else if (auto fault = temperature_fault(record, result)) {
     out.reason = *std::move(fault);
   } else {
     apply(rule, out);
-    out.reason += joined(value->detail);
+    if (!value->detail.empty()) out.reason = core::phrase("{} ({})", out.reason, value->detail);
   }
 }
 
@@ -81,17 +78,17 @@ core::Result<AnalysisValue> value_of(const AnalysisResult& result,
 
 ValueOperator operator_of(const AnalysisResult& result,
                           const record::Characteristic& characteristic,
-                          const std::string& temperature) {
+                          const core::Phrase& temperature) {
   return std::visit(
       [&](const auto& found) { return operator_of(found, characteristic, temperature); },
       result.found);
 }
 
-std::string filter_text(const AnalysisResult& result) {
+core::Phrase filter_text(const AnalysisResult& result) {
   return std::visit([](const auto& found) { return filter_text(found); }, result.found);
 }
 
-std::string sampling_text(const AnalysisResult& result) {
+core::Phrase sampling_text(const AnalysisResult& result) {
   return std::visit([](const auto& found) { return sampling_text(found); }, result.found);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
@@ -22,10 +21,10 @@ struct AnalysisResult;  // analysis_result.h
 /// How that value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
 [[nodiscard]] ValueOperator operator_of(const AnalysisResult& result,
                                         const record::Characteristic& characteristic,
-                                        const std::string& temperature);
+                                        const core::Phrase& temperature);
 /// The filter, and what was recorded, as the archive keeps them.
-[[nodiscard]] std::string filter_text(const AnalysisResult& result);
-[[nodiscard]] std::string sampling_text(const AnalysisResult& result);
+[[nodiscard]] core::Phrase filter_text(const AnalysisResult& result);
+[[nodiscard]] core::Phrase sampling_text(const AnalysisResult& result);
 
 /// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
 /// bits.

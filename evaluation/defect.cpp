@@ -43,8 +43,8 @@ class Lines {
     out_ += "\n";
   }
   void certificate(const fit::Certificate& c) {
-    text("certificate", fmt::format("{}; {}; gap {:.17g} mm; {}", fit::name_of(c.kind), c.scope,
-                                    c.gap_mm, c.reason));
+    text("certificate", fmt::format("{}; {}; gap {:.17g} mm; {}", fit::name_of(c.kind),
+                                    c.scope.english(), c.gap_mm, c.reason.english()));
   }
   [[nodiscard]] std::string take() { return std::move(out_); }
 

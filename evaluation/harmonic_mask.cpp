@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include <fmt/format.h>
-
 namespace rondure::evaluation {
 namespace {
 
@@ -61,16 +59,16 @@ core::Result<MaskedHarmonic> nearest_to_mask(const FeatureResult& feature,
   for (const record::HarmonicLimit& line : asked.harmonic_limits) {
     if (line.last <= highest) continue;
     return core::fail(core::Code::kSampling,
-                      fmt::format("the mask reaches to harmonic {}, the points of the sections "
-                                  "carry {}; harmonics need full sections of at least 350 points",
-                                  line.last, highest));
+                      core::phrase("the mask reaches to harmonic {}, the points of the sections "
+                                   "carry {}; harmonics need full sections of at least 350 points",
+                                   line.last, highest));
   }
   const std::vector<MaskedHarmonic> all = against_mask(feature, asked);
   const auto nearest = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.harmonic.amplitude_mm / a.limit_mm < b.harmonic.amplitude_mm / b.limit_mm;
   });
   if (nearest == all.end()) {
-    return core::fail(core::Code::kSampling, "the mask names no harmonic");
+    return core::fail(core::Code::kSampling, core::phrase("the mask names no harmonic"));
   }
   return *nearest;
 }

@@ -78,25 +78,28 @@ std::string foreign(std::string_view text) {
   return fmt::format(R"(<bdi lang="en">{}</bdi>)", escaped(text));
 }
 
-std::string worded(std::string_view text) {
-  const auto known = told(text);
-  return known ? isolated(*known) : foreign(text);
+std::string worded(const core::Phrase& phrase) {
+  const auto known = in_words(phrase);
+  return known ? isolated(*known) : foreign(phrase.english());
 }
 
-std::string plain_words(std::string_view text) {
-  const auto known = told(text);
-  return known ? escaped(*known) : foreign(text);
+std::string plain_words(const core::Phrase& phrase) {
+  const auto known = in_words(phrase);
+  return known ? escaped(*known) : foreign(phrase.english());
 }
 
-std::string in_sentence(std::string_view text) { return in_sentence(told(text), text); }
+std::string in_sentence(const core::Phrase& phrase) {
+  return in_sentence(in_words(phrase), phrase.english());
+}
 
 std::string in_sentence(const std::optional<std::string>& words, std::string_view english) {
   return words ? isolated(with_signs(*words)) : foreign(with_signs(english));
 }
 
-std::string opening_sentence(std::string_view text) {
-  const auto known = told(text);
-  return known ? isolated(with_signs(capitalised(*known))) : foreign(with_signs(capitalised(text)));
+std::string opening_sentence(const core::Phrase& phrase) {
+  const auto known = in_words(phrase);
+  return known ? isolated(with_signs(capitalised(*known)))
+               : foreign(with_signs(capitalised(phrase.english())));
 }
 
 std::string titled(core::Code code) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/phrase.h"
 
 namespace rondure::reports {
 
@@ -27,18 +28,18 @@ namespace rondure::reports {
 /// another room, a device's name): escaped, isolated and, in a report that is not English, marked
 /// as English.
 [[nodiscard]] std::string foreign(std::string_view text);
-/// Words that evaluation or another room chose ("finished", "guided"), as told() knows them, else
+/// Words that evaluation or another room chose ("finished", "guided"), as in_words() has them, else
 /// foreign().
-[[nodiscard]] std::string worded(std::string_view text);
+[[nodiscard]] std::string worded(const core::Phrase& phrase);
 /// The same, not isolated where the words are known: of words that no user can write.
-[[nodiscard]] std::string plain_words(std::string_view text);
+[[nodiscard]] std::string plain_words(const core::Phrase& phrase);
 /// worded() of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
-[[nodiscard]] std::string in_sentence(std::string_view text);
+[[nodiscard]] std::string in_sentence(const core::Phrase& phrase);
 /// The same of words that are known already, or of their English where they are not.
 [[nodiscard]] std::string in_sentence(const std::optional<std::string>& words,
                                       std::string_view english);
 /// in_sentence() that begins with an upper-case letter.
-[[nodiscard]] std::string opening_sentence(std::string_view text);
+[[nodiscard]] std::string opening_sentence(const core::Phrase& phrase);
 /// What stands before the sentence of an error: the title of its code; empty in English.
 [[nodiscard]] std::string titled(core::Code code);
 

@@ -87,12 +87,12 @@ Json certificate_json(const fit::Certificate& certificate) {
 }
 
 std::string certificate_text(const fit::Certificate& certificate) {
-  std::string out =
-      fmt::format("certificate {}, {}", fit::name_of(certificate.kind), certificate.scope);
+  std::string out = fmt::format("certificate {}, {}", fit::name_of(certificate.kind),
+                                certificate.scope.english());
   if (certificate.kind != fit::Certificate::Kind::kNone) {
     out += fmt::format(", gap {:.1e} mm", certificate.gap_mm);
   }
-  return certificate.reason.empty() ? out : out + "; " + certificate.reason;
+  return certificate.reason.empty() ? out : out + "; " + certificate.reason.english();
 }
 
 std::string wrapped(std::string_view text, std::string line, const std::string& indent,

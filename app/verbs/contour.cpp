@@ -103,8 +103,8 @@ std::string contour_table(const fit::ContourStudy& study, const fit::ContourStud
   std::string out = head(study, options);
   for (std::size_t i = 0; i < study.parts.size(); ++i) out += part_lines(study.parts[i], names[i]);
   out += stability_table(study, options.limits);
-  for (const std::string& verdict : reports::contour_verdicts(study, options.limits)) {
-    out += fmt::format("  {}\n", verdict);
+  for (const core::Phrase& verdict : reports::contour_verdicts(study, options.limits)) {
+    out += fmt::format("  {}\n", verdict.english());
   }
   for (const core::Error& w : study.warnings) {
     out += fmt::format("  warning: {}{}{} [{}]\n", w.where, w.where.empty() ? "" : ": ", w.what,

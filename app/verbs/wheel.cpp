@@ -77,8 +77,8 @@ std::string center_lines(const fit::WheelMeasurement& m) {
 }
 
 std::string runout_line(const fit::WheelMeasurement& m) {
-  if (!m.runout) return fmt::format("  run-out   not stated: {}\n", m.runout_absent);
-  const std::string& bound = m.runout->bound_because;
+  if (!m.runout) return fmt::format("  run-out   not stated: {}\n", m.runout_absent.english());
+  const std::string bound = m.runout->bound_because;
   const std::string_view at_least = bound.empty() ? "" : "at least ";
   const std::string out = fmt::format(
       "  run-out   FIM {}{:.3f} um about the axis ({:.6f}, {:.6f}) mm; eccentricity {:.3f} um; "

@@ -98,7 +98,7 @@ core::Result<AnalysisValue> deviation_value(const ContourResult& facts) {
     const double range = facts.study.parts[i].pin.contour.peak_to_valley_mm;
     if (i > 0 && range <= out.value_mm) continue;
     out.value_mm = range;
-    out.detail = fmt::format("part {}", facts.names[i]);
+    out.detail = core::phrase("part {}", facts.names[i]);
   }
   return out;
 }
@@ -109,7 +109,7 @@ core::Result<AnalysisValue> spread_value(const ContourResult& facts) {
   }
   AnalysisValue out;
   out.value_mm = facts.study.total->spread;
-  out.detail = fmt::format("stability index {:.4f}", facts.study.total->index.value_or(0.0));
+  out.detail = core::phrase("stability index {:.4f}", facts.study.total->index.value_or(0.0));
   return out;
 }
 
@@ -127,8 +127,8 @@ core::Result<AnalysisValue> mask_value(const ContourResult& facts,
         worst = share;
         out.value_mm = h.amplitude_mm;
         out.limit_mm = line.amplitude_mm;
-        out.detail =
-            fmt::format("harmonic {} of part {} is nearest to its limit", h.number, facts.names[i]);
+        out.detail = core::phrase("harmonic {} of part {} is nearest to its limit", h.number,
+                                  facts.names[i]);
       }
     }
   }
@@ -152,32 +152,36 @@ core::Result<AnalysisValue> value_of(const ContourResult& facts,
   }
 }
 
-std::string filter_text(const ContourResult& facts) {
+core::Phrase filter_text(const ContourResult& facts) {
   const fit::FilterOptions& filter = facts.options.error.filter;
-  if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
+  if (filter.filter == fit::ProfileFilter::kNone) {
+    return core::phrase("unfiltered");
+  }
   return facts.options.prefiltered
-             ? fmt::format("gaussian low pass {:g} UPR by the gauge", filter.cutoff_upr)
-             : fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
+             ? core::phrase("gaussian low pass {:g} UPR by the gauge", filter.cutoff_upr)
+             : core::phrase("gaussian low pass {:g} UPR", filter.cutoff_upr);
 }
 
-std::string sampling_text(const ContourResult& facts) {
+core::Phrase sampling_text(const ContourResult& facts) {
   const std::size_t parts = facts.study.parts.size();
-  return fmt::format("{} {} of {} points", parts, parts == 1 ? "part" : "parts",
-                     facts.options.samples);
+  return core::phrase("{} of {} points",
+                      parts == 1 ? core::phrase("{} part", parts) : core::phrase("{} parts", parts),
+                      facts.options.samples);
 }
 
 ValueOperator operator_of(const ContourResult& facts, const record::Characteristic& asked,
-                          const std::string& temperature) {
-  const std::string what = asked.form == Form::kContourSpread
-                               ? "standard deviation of the parts about their mean contour"
-                           : asked.form == Form::kHarmonicLimits
-                               ? "amplitudes of the filtered contours"
-                               : "peak to valley, greatest of all parts";
-  const char* base =
-      facts.options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric";
-  return {ReferenceTerm(fmt::format("{}; base circle {}", what, base)),
+                          const core::Phrase& temperature) {
+  const core::Phrase what =
+      asked.form == Form::kContourSpread
+          ? core::phrase("standard deviation of the parts about their mean contour")
+      : asked.form == Form::kHarmonicLimits ? core::phrase("amplitudes of the filtered contours")
+                                            : core::phrase("peak to valley, greatest of all parts");
+  const core::Phrase base = facts.options.error.base == fit::BaseCircle::kLimacon
+                                ? core::phrase("limacon")
+                                : core::phrase("geometric");
+  return {ReferenceTerm(core::phrase("{}; base circle {}", what, base)),
           FilterTerm(filter_text(facts)), SamplingTerm(sampling_text(facts)),
-          TipTerm("readings as given"), TemperatureTerm(temperature)};
+          TipTerm(core::phrase("readings as given")), TemperatureTerm(temperature)};
 }
 
 core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, int index,

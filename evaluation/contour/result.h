@@ -27,8 +27,8 @@ struct ContourResult {
                                                    const record::Characteristic& characteristic);
 [[nodiscard]] ValueOperator operator_of(const ContourResult& result,
                                         const record::Characteristic& characteristic,
-                                        const std::string& temperature);
-[[nodiscard]] std::string filter_text(const ContourResult& result);
-[[nodiscard]] std::string sampling_text(const ContourResult& result);
+                                        const core::Phrase& temperature);
+[[nodiscard]] core::Phrase filter_text(const ContourResult& result);
+[[nodiscard]] core::Phrase sampling_text(const ContourResult& result);
 
 }  // namespace rondure::evaluation

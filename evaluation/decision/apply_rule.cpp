@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/decision/internal/risks.h"
@@ -15,7 +13,7 @@ namespace {
 using core::fixed;
 using core::micrometres;
 
-tl::unexpected<core::Error> no_verdict(std::string why) {
+tl::unexpected<core::Error> no_verdict(core::Phrase why) {
   return core::fail(core::Code::kMeaning, std::move(why));
 }
 
@@ -74,86 +72,91 @@ std::string in_digits(const KnownValue& value, double length_mm) {
 }
 
 /// "7.958 um is within the tolerance of 12 um by 4.042 um".
-std::string simple_sentence(const std::string& text, const KnownValue& value, const Limits& limits,
-                            double tolerance_mm) {
+core::Phrase simple_sentence(const core::Phrase& text, const KnownValue& value,
+                             const Limits& limits, double tolerance_mm) {
   const bool within = limits.compared_mm <= tolerance_mm;
-  return fmt::format("{} is {} the tolerance of {:g} um by {} um", text,
-                     within ? "within" : "above", micrometres(tolerance_mm),
-                     in_digits(value, std::abs(tolerance_mm - limits.compared_mm)));
+  return core::phrase("{} is {} the tolerance of {:g} um by {} um", text,
+                      within ? core::phrase("within") : core::phrase("above"),
+                      micrometres(tolerance_mm),
+                      in_digits(value, std::abs(tolerance_mm - limits.compared_mm)));
 }
 
-std::string corrected_value(const KnownValue& value, const Limits& limits) {
-  return fmt::format("the corrected value {} um", in_digits(value, limits.compared_mm));
+core::Phrase corrected_value(const KnownValue& value, const Limits& limits) {
+  return core::phrase("the corrected value {} um", in_digits(value, limits.compared_mm));
 }
 
-std::string guarded_sentence(const KnownValue& known, const Limits& limits, double tolerance_mm,
-                             Verdict verdict) {
-  const std::string value = corrected_value(known, limits);
+core::Phrase guarded_sentence(const KnownValue& known, const Limits& limits, double tolerance_mm,
+                              Verdict verdict) {
+  const core::Phrase value = corrected_value(known, limits);
   const std::string acceptance = in_digits(known, limits.acceptance_mm);
   const std::string rejection = in_digits(known, limits.rejection_mm);
   if (verdict == Verdict::kConforms) {
-    return fmt::format(
+    return core::phrase(
         "{} is within the acceptance limit of {} um (tolerance {:g} um, guard "
         "band {} um)",
         value, acceptance, micrometres(tolerance_mm),
         in_digits(known, tolerance_mm - limits.acceptance_mm));
   }
   if (verdict == Verdict::kDoesNotConform) {
-    return fmt::format(
+    return core::phrase(
         "{} is above the rejection limit of {} um (tolerance {:g} um, guard "
         "band {} um)",
         value, rejection, micrometres(tolerance_mm),
         in_digits(known, limits.rejection_mm - tolerance_mm));
   }
-  return fmt::format(
+  return core::phrase(
       "{} lies between the acceptance limit of {} um and the rejection limit of "
       "{} um about the tolerance of {:g} um: neither is proven",
       value, acceptance, rejection, micrometres(tolerance_mm));
 }
 
-std::string probability_sentence(const DecisionRule& rule, double p_1, Verdict verdict) {
-  const std::string value = fmt::format("the probability of conformance is {:.4g} %", 100.0 * p_1);
+core::Phrase probability_sentence(const DecisionRule& rule, double p_1, Verdict verdict) {
+  const core::Phrase value =
+      core::phrase("the probability of conformance is {:.4g} %", 100.0 * p_1);
   const double accept = 100.0 * (1.0 - rule.consumer_risk_1);
   const double reject = 100.0 * rule.producer_risk_1;
-  if (verdict == Verdict::kConforms) return fmt::format("{}, at least {:g} %", value, accept);
+  if (verdict == Verdict::kConforms) return core::phrase("{}, at least {:g} %", value, accept);
   if (verdict == Verdict::kDoesNotConform) {
-    return fmt::format("{}, at most {:g} %", value, reject);
+    return core::phrase("{}, at most {:g} %", value, reject);
   }
-  return fmt::format("{}, between {:g} % and {:g} %", value, reject, accept);
+  return core::phrase("{}, between {:g} % and {:g} %", value, reject, accept);
 }
 
 /// Why a rule cannot be applied, or nothing.
-std::optional<std::string> obstacle(const DecisionRule& rule, const KnownValue& value,
-                                    double tolerance_mm) {
+std::optional<core::Phrase> obstacle(const DecisionRule& rule, const KnownValue& value,
+                                     double tolerance_mm) {
   if (!rule.needs_interval()) return std::nullopt;
   if (!value.statement) {
-    return fmt::format("the rule {} needs the interval {}, which was not computed",
-                       name_of(rule.kind), name_of(rule.measurand));
+    return core::phrase("the rule {} needs the interval {}, which was not computed",
+                        core::Phrase(name_of(rule.kind)), core::Phrase(name_of(rule.measurand)));
   }
   const double width_mm = value.statement->high_mm - value.statement->low_mm;
   if (rule.kind == DecisionRule::Kind::kNToOne && !(tolerance_mm >= rule.ratio * width_mm)) {
-    return fmt::format(
+    return core::phrase(
         "the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
         "{:.3f} um",
         rule.ratio, micrometres(tolerance_mm), tolerance_mm / width_mm, micrometres(width_mm));
   }
   if (rule.kind == DecisionRule::Kind::kJcgm106 &&
       !conformance(*value.statement, rule.prior, 0.0, tolerance_mm)) {
-    return rule.prior ? "the stated prior leaves the measured value no weight: it speaks of other "
-                        "parts than this one"
-                      : "the interval came without its distribution";
+    return rule.prior ? core::phrase(
+                            "the stated prior leaves the measured value no weight: it speaks of "
+                            "other parts than this one")
+                      : core::phrase("the interval came without its distribution");
   }
   return std::nullopt;
 }
 
-std::string verdict_sentence(const DecisionRule& rule, const KnownValue& value,
-                             const Limits& limits, double tolerance_mm,
-                             const RuleOutcome& outcome) {
+core::Phrase verdict_sentence(const DecisionRule& rule, const KnownValue& value,
+                              const Limits& limits, double tolerance_mm,
+                              const RuleOutcome& outcome) {
   switch (rule.kind) {
-    case DecisionRule::Kind::kSimpleAcceptance:
-      return simple_sentence(fmt::format("{}{} um", value.statement ? "the value as read, " : "",
-                                         in_digits(value, limits.compared_mm)),
+    case DecisionRule::Kind::kSimpleAcceptance: {
+      const std::string read = in_digits(value, limits.compared_mm);
+      return simple_sentence(value.statement ? core::phrase("the value as read, {} um", read)
+                                             : core::phrase("{} um", read),
                              value, limits, tolerance_mm);
+    }
     case DecisionRule::Kind::kNToOne:
       return simple_sentence(corrected_value(value, limits), value, limits, tolerance_mm);
     case DecisionRule::Kind::kJcgm106:
@@ -216,7 +219,7 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
   const bool read_above = value.measured_mm > tolerance_mm && !rule.judge_corrected;
   if (rule.needs_interval() && read_above && out.verdict == Verdict::kConforms) {
     out.verdict = Verdict::kUndecided;
-    out.sentence = fmt::format(
+    out.sentence = core::phrase(
         "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
         "below: neither is proven",
         in_digits(value, value.measured_mm), micrometres(tolerance_mm),
@@ -225,7 +228,7 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
   }
   out.sentence = verdict_sentence(rule, value, limits, tolerance_mm, out);
   if (rule.needs_interval() && rule.judge_corrected) {
-    out.sentence += "; corrected values are judged, by agreement";
+    out.sentence = core::phrase("{}; corrected values are judged, by agreement", out.sentence);
   }
   return out;
 }

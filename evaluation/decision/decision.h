@@ -71,7 +71,7 @@ struct GlobalRisks {
 /// What a rule makes of a value.
 struct RuleOutcome {
   Verdict verdict = Verdict::kUndecided;  ///< Never void: that is an error.
-  std::string sentence;                   ///< Why, with numbers.
+  core::Phrase sentence;                  ///< Why, with numbers.
   double compared_mm = 0.0;    ///< The measured value (simple acceptance) or the corrected one.
   double acceptance_mm = 0.0;  ///< A value up to this conforms; T minus the guard band.
   double rejection_mm = 0.0;   ///< A value above this does not; T plus the guard band.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/interval/internal/form_interval.h"
@@ -30,80 +28,86 @@ core::Result<Deviation> value_of(const FeatureResult& result,
              : cylinder_deviation(result, characteristic.reference);
 }
 
-std::string sampling_words(const FeatureResult& result,
-                           const record::Characteristic& characteristic) {
+core::Phrase sampling_words(const FeatureResult& result,
+                            const record::Characteristic& characteristic) {
   const record::Feature& feature = result.feature;
-  std::string text = feature.layers > 0
-                         ? fmt::format("{} x {} points", feature.layers, feature.points_per_layer)
-                         : fmt::format("{} points", result.cloud.size());
-  if (feature.word("sampling_method") == "scan") text += ", scanned";
+  core::Phrase text = feature.layers > 0
+                          ? core::phrase("{} x {} points", feature.layers, feature.points_per_layer)
+                          : core::phrase("{} points", result.cloud.size());
+  if (feature.word("sampling_method") == "scan") text = core::phrase("{}, scanned", text);
   if (result.merged) {
-    text += fmt::format(" in {} poses, merged {}", result.merged->poses.size(),
-                        result.merged->joint ? "with their errors solved for" : "by kinematics");
+    text = core::phrase("{} in {} poses, merged {}", text, result.merged->poses.size(),
+                        result.merged->joint ? core::phrase("with their errors solved for")
+                                             : core::phrase("by kinematics"));
   }
   if (characteristic.form != Form::kCylindricity && result.layers.size() > 1)
-    text += "; worst layer";
+    text = joined(text, core::phrase("worst layer"));
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
-    text += fmt::format("; mean of {} touches a point", result.cloud.front().repeats);
-  } else if (const int passes = passes_of(result.cloud); passes > 1) {
-    text += fmt::format("; {} passes at places of their own, not averaged", passes);
+    return joined(text, core::phrase("mean of {} touches a point", result.cloud.front().repeats));
+  }
+  if (const int passes = passes_of(result.cloud); passes > 1) {
+    return joined(text, core::phrase("{} passes at places of their own, not averaged", passes));
   }
   return text;
 }
 
-std::string tip_words(const FeatureResult& result) {
-  return result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
-                              : "r_tip unknown";
+core::Phrase tip_words(const FeatureResult& result) {
+  return result.tip_radius_mm ? core::phrase("r_tip {:.4f} mm", *result.tip_radius_mm)
+                              : core::phrase("r_tip unknown");
 }
 
 /// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
 ValueOperator operator_of(const FeatureResult& result,
                           const record::Characteristic& characteristic) {
-  return {ReferenceTerm(reference_of(characteristic)), FilterTerm("unfiltered"),
+  return {ReferenceTerm(core::as_it_is(reference_of(characteristic))),
+          FilterTerm(core::phrase("unfiltered")),
           SamplingTerm(sampling_words(result, characteristic)), TipTerm(tip_words(result)),
           TemperatureTerm(temperature_words(result))};
 }
 
 /// Why the probe cannot vouch for a touched feature.
-std::optional<std::string> probe_fault(const record::RunRecord& record,
-                                       const std::optional<fit::ProbeTip>& probe) {
+std::optional<core::Phrase> probe_fault(const record::RunRecord& record,
+                                        const std::optional<fit::ProbeTip>& probe) {
   const record::Artefact& limits = record.artefact;
-  if (!probe) return "the probe was not qualified";
+  if (!probe) return core::phrase("the probe was not qualified");
   if (!(std::abs(probe->radius_mm - limits.nominal_tip_radius_mm) <= limits.radius_tolerance_mm)) {
-    return fmt::format("the effective tip radius {:.6f} mm is not within {:g} um of {:g} mm",
-                       probe->radius_mm, micrometres(limits.radius_tolerance_mm),
-                       limits.nominal_tip_radius_mm);
+    return core::phrase("the effective tip radius {:.6f} mm is not within {:g} um of {:g} mm",
+                        probe->radius_mm, micrometres(limits.radius_tolerance_mm),
+                        limits.nominal_tip_radius_mm);
   }
   if (!(probe->form_mm <= limits.form_limit_mm)) {
-    return fmt::format("the probing form {:.3f} um is above its limit of {:g} um",
-                       micrometres(probe->form_mm), micrometres(limits.form_limit_mm));
+    return core::phrase("the probing form {:.3f} um is above its limit of {:g} um",
+                        micrometres(probe->form_mm), micrometres(limits.form_limit_mm));
   }
   return std::nullopt;
 }
 
 /// Why a characteristic with a value is void all the same.
-std::optional<std::string> reason_for_void(const record::RunRecord& record,
-                                           const std::optional<fit::ProbeTip>& probe,
-                                           const FeatureResult& result, const Deviation& value,
-                                           const record::Characteristic& characteristic) {
-  if (value.exact_fit) return "a section of three different points has no roundness";
+std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
+                                            const std::optional<fit::ProbeTip>& probe,
+                                            const FeatureResult& result, const Deviation& value,
+                                            const record::Characteristic& characteristic) {
+  if (value.exact_fit) {
+    return core::phrase("a section of three different points has no roundness");
+  }
   if (!value.certified) {
-    return fmt::format("no certificate stands behind the {}",
-                       words_of(characteristic.reference, characteristic.form == Form::kRoundness
-                                                              ? record::Shape::kCircle
-                                                              : record::Shape::kCylinder));
+    return core::phrase(
+        "no certificate stands behind the {}",
+        core::Phrase(words_of(characteristic.reference, characteristic.form == Form::kRoundness
+                                                            ? record::Shape::kCircle
+                                                            : record::Shape::kCylinder)));
   }
   // A zone of some points is never wider than that of all: above the tolerance it proves enough.
   const bool too_wide = characteristic.reference == record::Reference::kMinimumZone &&
                         characteristic.tolerance_mm &&
                         value.value_mm > *characteristic.tolerance_mm;
   if (value.unseen_rad > 0.0 && !too_wide) {
-    return fmt::format(
+    return core::phrase(
         "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
         "deviation; measure the whole turn",
         value.unseen_rad / core::kDegree);
   }
-  if (record.ending != "finished") return "the run did not finish";
+  if (record.ending != "finished") return core::phrase("the run did not finish");
   if (result.feature.strategy != record::Strategy::kPointsFile) {
     if (auto fault = probe_fault(record, probe)) return fault;
   }
@@ -128,23 +132,25 @@ void judge_harmonics(const Circumstances& by, const FeatureResult& result,
   const auto nearest = result.failure ? core::Result<MaskedHarmonic>(core::fail(*result.failure))
                                       : nearest_to_mask(result, asked);
   if (!nearest) {
-    out.reason = nearest.error().what;
+    out.reason = nearest.error().said();
     return;
   }
   asked.tolerance_mm = nearest->limit_mm;
-  const std::string where = fmt::format("harmonic {} of layer {} is nearest to its limit",
-                                        nearest->harmonic.number, nearest->harmonic.layer + 1);
-  ValueOperator how(ReferenceTerm("amplitudes"), FilterTerm("before the filter"),
+  const core::Phrase where = core::phrase("harmonic {} of layer {} is nearest to its limit",
+                                          nearest->harmonic.number, nearest->harmonic.layer + 1);
+  ValueOperator how(ReferenceTerm(core::phrase("amplitudes")),
+                    FilterTerm(core::phrase("before the filter")),
                     SamplingTerm(sampling_words(result, asked)), TipTerm(tip_words(result)),
                     TemperatureTerm(temperature_words(result)));
-  out.value.emplace(symbol_of(asked), nearest->harmonic.amplitude_mm, std::move(how),
-                    UncertaintyStatus::none("intervals are computed of form deviations only"));
+  out.value.emplace(
+      symbol_of(asked), nearest->harmonic.amplitude_mm, std::move(how),
+      UncertaintyStatus::none(core::phrase("intervals are computed of form deviations only")));
   if (const auto missing = reason_for_void(by.record, by.probe, result, {}, asked)) {
     out.reason = *missing;
     return;
   }
   apply(by.rule, out);
-  out.reason += fmt::format(" ({})", where);
+  out.reason = core::phrase("{} ({})", out.reason, where);
 }
 
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
@@ -152,11 +158,11 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
   const auto value = value_of(result, out.characteristic);
   out.verdict = Verdict::kVoid;
   if (!value) {
-    out.reason = value.error().what;
+    out.reason = value.error().said();
     return;
   }
   if (!std::isfinite(value->value_mm)) {
-    out.reason = "the computation gave no finite number";
+    out.reason = core::phrase("the computation gave no finite number");
     return;
   }
   const std::optional<double>& limit_mm = out.characteristic.tolerance_mm;
@@ -173,8 +179,8 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
   if (value->range) {
     auto ambiguous = undecided_range(*value->range, limit_mm);
     if (!ambiguous && by.rule && by.rule->needs_interval()) {
-      ambiguous =
-          "the reference circle is not unique, and the interval is that of one of several circles";
+      ambiguous = core::Phrase(
+          "the reference circle is not unique, and the interval is that of one of several circles");
     }
     if (ambiguous) {
       out.reason = *ambiguous;
@@ -186,40 +192,41 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
 
 }  // namespace
 
-std::string temperature_words(const FeatureResult& result) {
-  if (!result.temperatures) return "temperature not recorded";
+core::Phrase temperature_words(const FeatureResult& result) {
+  if (!result.temperatures) return core::phrase("temperature not recorded");
   const double mean_degC = result.temperatures->mean_degC;
-  const std::string text = result.temperatures->declared
-                               ? fmt::format("{:.1f} degC declared, not measured", mean_degC)
-                               : fmt::format("{:.1f} degC", mean_degC);
+  const core::Phrase text = result.temperatures->declared
+                                ? core::phrase("{:.1f} degC declared, not measured", mean_degC)
+                                : core::phrase("{:.1f} degC", mean_degC);
   if (!result.thermal) return text;
-  return fmt::format("{} brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)", text,
-                     1e6 * (result.thermal->factor - 1.0),
-                     2e6 * result.thermal->factor_uncertainty);
+  return core::phrase("{} brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)", text,
+                      1e6 * (result.thermal->factor - 1.0),
+                      2e6 * result.thermal->factor_uncertainty);
 }
 
-std::optional<std::string> temperature_fault(const record::RunRecord& record,
-                                             const FeatureResult& result) {
+std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
+                                              const FeatureResult& result) {
   const record::Header& header = record.header;
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
                        result.feature.strategy != record::Strategy::kSeries;
   if (!touched && !record::word_in(record.settings, "environment/declared")) return std::nullopt;
   if (!result.temperatures) {
-    return fmt::format(
+    return core::phrase(
         "the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "
         "machine reports, or declare environment.assumed_degC in the plan",
         header.temperature_min_degC, header.temperature_max_degC);
   }
   for (const double value : {result.temperatures->least_degC, result.temperatures->greatest_degC}) {
     if (value >= header.temperature_min_degC && value <= header.temperature_max_degC) continue;
-    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
-                       header.temperature_min_degC, header.temperature_max_degC);
+    return core::phrase("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
+                        header.temperature_min_degC, header.temperature_max_degC);
   }
   const bool cloud = touched && !result.analysis;
   if (cloud && asks_for_20_degC(result.feature) && !result.thermal) {
-    return "the temperature of the scales was not measured, so nothing is brought to 20 degC: use "
-           "a sensor that the machine reports, declare environment.assumed_degC, or leave "
-           "scale_expansion_per_K out";
+    return core::phrase(
+        "the temperature of the scales was not measured, so nothing is brought to 20 degC: use a "
+        "sensor that the machine reports, declare environment.assumed_degC, or leave "
+        "scale_expansion_per_K out");
   }
   return std::nullopt;
 }
@@ -227,12 +234,12 @@ std::optional<std::string> temperature_fault(const record::RunRecord& record,
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   out.verdict = Verdict::kVoid;
   if (!rule) {
-    out.reason = rule.error().what;
+    out.reason = rule.error().said();
     return;
   }
   if (!out.characteristic.tolerance_mm) {
     out.verdict = Verdict::kNotToleranced;
-    out.reason = "reported only";
+    out.reason = core::phrase("reported only");
     return;
   }
   const double tolerance_mm = *out.characteristic.tolerance_mm;
@@ -240,8 +247,9 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
   auto outcome = apply_rule(*rule, known, tolerance_mm);
   if (!outcome) {
-    const std::string& why = out.value->uncertainty().why();
-    out.reason = outcome.error().what + (why.empty() ? "" : ": " + why);
+    const core::Phrase& why = out.value->uncertainty().why();
+    out.reason = outcome.error().said();
+    if (!why.empty()) out.reason = core::phrase("{}: {}", out.reason, why);
     return;
   }
   out.verdict = outcome->verdict;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "evaluation/results/evaluation.h"
@@ -21,13 +20,13 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 
 /// How warm the part was: "20.3 degC", "20.0 degC declared, not measured", "temperature not
 /// recorded"; with what bringing it to 20 degC did.
-[[nodiscard]] std::string temperature_words(const FeatureResult& result);
+[[nodiscard]] core::Phrase temperature_words(const FeatureResult& result);
 
 /// Why temperature makes a result void: outside the limits, or neither measured nor declared. The
 /// limits hold for all that is touched, and for points of files and series where the plan has the
 /// object `environment`.
-[[nodiscard]] std::optional<std::string> temperature_fault(const record::RunRecord& record,
-                                                           const FeatureResult& result);
+[[nodiscard]] std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
+                                                            const FeatureResult& result);
 
 /// Applies the rule to a characteristic whose value is stated and sound.
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);

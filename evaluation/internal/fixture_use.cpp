@@ -71,7 +71,7 @@ void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& resu
   if (!use || !use->invalid || !touched) return;
   for (CharacteristicResult& characteristic : result.characteristics) {
     characteristic.verdict = Verdict::kVoid;
-    characteristic.reason = use->invalid->what;
+    characteristic.reason = use->invalid->said();
     characteristic.outcome.reset();
     characteristic.risks.reset();
   }

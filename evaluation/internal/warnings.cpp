@@ -17,8 +17,8 @@ constexpr double kGapLimit =
 constexpr std::size_t kFewPoints = 21;  // 3 layers of 7
 constexpr double kTold = 1e-6;          // radii nearer than this look alike in every report [mm]
 
-void add_warning(FeatureResult& result, core::Code code, std::string what) {
-  result.warnings.push_back({code, std::move(what), {}});
+void add_warning(FeatureResult& result, core::Code code, core::Phrase said) {
+  result.warnings.push_back(core::error_of(code, std::move(said)));
 }
 
 /// Largest angle about the axis without a point.
@@ -40,7 +40,7 @@ void warn_sampling(FeatureResult& result) {
   if (sparse) {
     add_warning(
         result, core::Code::kSparse,
-        fmt::format(
+        core::phrase(
             "{} points see only part of the form; the deviation of the whole surface is larger",
             result.cloud.size()));
   }
@@ -48,7 +48,7 @@ void warn_sampling(FeatureResult& result) {
   if (gap > kGapLimit) {
     add_warning(
         result, core::Code::kNotFullSection,
-        fmt::format(
+        core::phrase(
             "a gap of {:.0f} deg about the axis holds no point: the deviation is that of an arc, "
             "and its axis is weakly determined",
             gap / core::kDegree));
@@ -60,7 +60,7 @@ void warn_exact_fit(FeatureResult& result) {
     if (!layer.mz || !layer.mz->exact_fit) continue;
     add_warning(
         result, core::Code::kExactFit,
-        fmt::format(
+        core::phrase(
             "layer {} has three different points, which lie on a circle exactly: its roundness "
             "of 0 says nothing about the part",
             layer.layer + 1));
@@ -76,17 +76,18 @@ void warn_absent(FeatureResult& result) {
        {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
     const auto found = one_sided_of(result, reference);
     if (!found) {
-      add_warning(
-          result, found.error().code,
-          fmt::format("no {}: {}", words_of(reference, result.feature.shape), found.error().what));
+      add_warning(result, found.error().code,
+                  core::Phrase(fmt::format("no {}: {}", words_of(reference, result.feature.shape),
+                                           found.error().what)));
       continue;
     }
     for (const LayerResult& layer : result.layers) {
       const auto& circle = reference == Reference::kMinimumCircumscribed ? layer.mc : layer.mi;
       if (circle) continue;
       add_warning(result, circle.error().code,
-                  fmt::format("layer {} has no {}: {}", layer.layer + 1,
-                              words_of(reference, record::Shape::kCircle), circle.error().what));
+                  core::Phrase(fmt::format("layer {} has no {}: {}", layer.layer + 1,
+                                           words_of(reference, record::Shape::kCircle),
+                                           circle.error().what)));
       break;
     }
   }
@@ -99,12 +100,12 @@ void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::R
                  record::Shape shape, const std::string& place, FeatureResult& result) {
   using record::Reference;
   const auto say = [&](Reference reference, double radius_mm, double better_mm) {
-    add_warning(
-        result, core::Code::kSeveralOptima,
-        fmt::format("{}the {} next to the least-squares one has a radius of {:.7f} mm, about the "
+    add_warning(result, core::Code::kSeveralOptima,
+                core::Phrase(fmt::format(
+                    "{}the {} next to the least-squares one has a radius of {:.7f} mm, about the "
                     "place of the minimum zone {:.3g} um better: a gauge may settle in either",
                     place, words_of(reference, shape), radius_mm + surface_offset_mm(result),
-                    better_mm / core::kMicrometre));
+                    better_mm / core::kMicrometre)));
   };
   if (mc && mc->radius_mm > mz.outer_radius_mm + kTold)
     say(Reference::kMinimumCircumscribed, mc->radius_mm, mc->radius_mm - mz.outer_radius_mm);
@@ -115,12 +116,12 @@ void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::R
 /// Circles as large as the maximum inscribed one, about which the deviation is another.
 void warn_range(const LayerResult& layer, FeatureResult& result) {
   if (!layer.mi || !layer.mi->range) return;
-  add_warning(
-      result, core::Code::kSeveralOptima,
-      fmt::format("layer {}: the maximum inscribed circle is not unique: about circles whose "
+  add_warning(result, core::Code::kSeveralOptima,
+              core::Phrase(fmt::format(
+                  "layer {}: the maximum inscribed circle is not unique: about circles whose "
                   "radius agrees to 1 nm RONt is anything from {:.3f} to {:.3f} um",
                   layer.layer + 1, layer.mi->range->low_mm / core::kMicrometre,
-                  layer.mi->range->high_mm / core::kMicrometre));
+                  layer.mi->range->high_mm / core::kMicrometre)));
 }
 
 /// A better cylinder that is not the reference: across a disc, or out of reach.
@@ -130,12 +131,12 @@ void warn_other(FeatureResult& result) {
     if (!fit || !fit->other) return;
     add_warning(
         result, core::Code::kSeveralOptima,
-        fmt::format(
+        core::Phrase(fmt::format(
             "another {} is {:.3g} um better: its axis leans by {:.3g} deg and lies {:.3g} mm "
             "off that of the reference, which is the one next to the least-squares axis",
             words_of(reference, record::Shape::kCylinder),
             std::abs(fit->radius_mm - fit->other->radius_mm) / core::kMicrometre,
-            fit->other->lean_rad / core::kDegree, fit->other->apart_mm));
+            fit->other->lean_rad / core::kDegree, fit->other->apart_mm)));
   };
   say(Reference::kMinimumCircumscribed, result.mc_cylinder);
   say(Reference::kMaximumInscribed, result.mi_cylinder);
@@ -162,7 +163,7 @@ void warn_level(FeatureResult& result) {
     if (!value.final_pose || !value.valid || !(value.f_mm > 2.0 * zone)) continue;
     add_warning(
         result, core::Code::kNotLevel,
-        fmt::format(
+        core::phrase(
             "f = {:.3f} um in the final pose is more than twice the zone of {:.3f} um: it "
             "measures the tilt of the part, not its form; the minimum zone below is free of it",
             value.f_mm / core::kMicrometre, zone / core::kMicrometre));

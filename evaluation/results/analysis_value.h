@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "core/result.h"
 #include "evaluation/results/stated_value.h"
@@ -12,9 +11,9 @@ namespace rondure::evaluation {
 /// What an analysis found for one characteristic.
 struct AnalysisValue {
   double value_mm = 0.0;
-  std::optional<double> limit_mm;           ///< In place of the tolerance: the line of a mask.
-  std::string detail;                       ///< Joins the reason, e.g. "harmonic 5".
-  std::optional<std::string> void_because;  ///< Why the value proves nothing.
+  std::optional<double> limit_mm;            ///< In place of the tolerance: the line of a mask.
+  core::Phrase detail;                       ///< Joins the reason, e.g. "harmonic 5".
+  std::optional<core::Phrase> void_because;  ///< Why the value proves nothing.
   /// With `void_because`: the true value is not below `value_mm`, so that above the tolerance it
   /// does prove something.
   bool lower_bound = false;

@@ -82,7 +82,7 @@ struct CharacteristicResult {
   record::Characteristic characteristic;
   std::optional<StatedValue> value;  ///< Nothing when it could not be evaluated.
   Verdict verdict = Verdict::kVoid;
-  std::string reason;                  ///< One sentence behind the verdict.
+  core::Phrase reason;                 ///< One sentence behind the verdict.
   std::optional<RuleOutcome> outcome;  ///< What the rule made of it; none for void, not toleranced.
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
 

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 
@@ -14,10 +12,10 @@ using core::um;
 
 ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
                              TipTerm tip, TemperatureTerm temperature)
-    : words_(fmt::format("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),
-                         tip.words(), temperature.words())) {}
+    : words_(core::phrase("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),
+                          tip.words(), temperature.words())) {}
 
-UncertaintyStatus UncertaintyStatus::none(std::string why) {
+UncertaintyStatus UncertaintyStatus::none(core::Phrase why) {
   UncertaintyStatus out;
   out.why_ = std::move(why);
   return out;
@@ -50,29 +48,31 @@ std::string StatedValue::in_digits(double length_mm) const {
   return fixed(length_mm / core::kMicrometre, decimals_for(known->expanded_mm()));
 }
 
-std::string StatedValue::value_text() const {
+core::Phrase StatedValue::value_text() const {
   const UncertaintyStatement* known = statement();
-  if (known == nullptr) return um(value_mm_) + " um";
-  return fmt::format("{} um [{}, {}]", in_digits(known->estimate_mm), in_digits(known->low_mm),
-                     in_digits(known->high_mm));
+  if (known == nullptr) return core::phrase("{} um", um(value_mm_));
+  return core::phrase("{} um [{}, {}]", in_digits(known->estimate_mm), in_digits(known->low_mm),
+                      in_digits(known->high_mm));
 }
 
-std::string StatedValue::operator_text() const {
+core::Phrase StatedValue::operator_text() const {
   // Without an interval a value says nothing but what was found at the points.
   if (statement() == nullptr) {
-    return fmt::format("{}; {}; no uncertainty stated", operator_.words(),
-                       name_of(Measurand::kSampledPoints));
+    return core::phrase("{}; {}; no uncertainty stated", operator_.words(),
+                        core::Phrase(name_of(Measurand::kSampledPoints)));
   }
-  return fmt::format("{}; {}", operator_.words(), name_of(measurand_));
+  return core::phrase("{}; {}", operator_.words(), core::Phrase(name_of(measurand_)));
 }
 
-std::string StatedValue::sentence() const {
+core::Phrase StatedValue::sentence() const {
   const UncertaintyStatement* known = statement();
-  if (known == nullptr) return fmt::format("{} = {} ({})", symbol_, value_text(), operator_text());
-  return fmt::format("{} = {} um, {:g} % [{}, {}]; as read {} um ({})", symbol_,
-                     in_digits(known->estimate_mm), 100.0 * uncertainty_.coverage_1(),
-                     in_digits(known->low_mm), in_digits(known->high_mm), in_digits(value_mm_),
-                     operator_text());
+  if (known == nullptr) {
+    return core::phrase("{} = {} ({})", core::Phrase(symbol_), value_text(), operator_text());
+  }
+  return core::phrase("{} = {} um, {:g} % [{}, {}]; as read {} um ({})", core::Phrase(symbol_),
+                      in_digits(known->estimate_mm), 100.0 * uncertainty_.coverage_1(),
+                      in_digits(known->low_mm), in_digits(known->high_mm), in_digits(value_mm_),
+                      operator_text());
 }
 
 }  // namespace rondure::evaluation

@@ -11,12 +11,13 @@ namespace rondure::evaluation {
 template <class Tag>
 class Term {
  public:
-  /// An empty text becomes "not known": nothing is left out in silence.
-  explicit Term(std::string words) : words_(words.empty() ? "not known" : std::move(words)) {}
-  [[nodiscard]] const std::string& words() const { return words_; }
+  /// An empty phrase becomes "not known": nothing is left out in silence.
+  explicit Term(core::Phrase words)
+      : words_(words.empty() ? core::phrase("not known") : std::move(words)) {}
+  [[nodiscard]] const core::Phrase& words() const { return words_; }
 
  private:
-  std::string words_;
+  core::Phrase words_;
 };
 
 using ReferenceTerm = Term<struct ReferenceTag>;      ///< "MZCY"
@@ -32,21 +33,21 @@ class ValueOperator {
   ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling, TipTerm tip,
                 TemperatureTerm temperature);
   /// "MZCY; unfiltered; 4 x 7 points; r_tip 1.9984 mm; 20.3 degC".
-  [[nodiscard]] const std::string& words() const { return words_; }
+  [[nodiscard]] const core::Phrase& words() const { return words_; }
 
  private:
-  std::string words_;
+  core::Phrase words_;
 };
 
 /// What is known of the uncertainty of a value: an interval, or why there is none.
 class UncertaintyStatus {
  public:
-  [[nodiscard]] static UncertaintyStatus none(std::string why);
+  [[nodiscard]] static UncertaintyStatus none(core::Phrase why);
   [[nodiscard]] static UncertaintyStatus stated(UncertaintyResult result, double coverage_1);
 
   /// Nothing: see why().
   [[nodiscard]] const std::optional<UncertaintyResult>& result() const { return result_; }
-  [[nodiscard]] const std::string& why() const { return why_; }
+  [[nodiscard]] const core::Phrase& why() const { return why_; }
   [[nodiscard]] double coverage_1() const { return coverage_1_; }
   /// The statement about a measurand, or nullptr.
   [[nodiscard]] const UncertaintyStatement* about(Measurand measurand) const;
@@ -54,7 +55,7 @@ class UncertaintyStatus {
  private:
   UncertaintyStatus() = default;
   std::optional<UncertaintyResult> result_;
-  std::string why_;
+  core::Phrase why_;
   double coverage_1_ = 0.0;
 };
 
@@ -82,12 +83,12 @@ class StatedValue {
   }
 
   /// "8.31 um [7.60, 9.40]": the estimate with its interval; as read, "8.312 um", without one.
-  [[nodiscard]] std::string value_text() const;
+  [[nodiscard]] core::Phrase value_text() const;
   /// "MZCY; unfiltered; ...; at the sampled points", with "no uncertainty stated" where it is so.
-  [[nodiscard]] std::string operator_text() const;
+  [[nodiscard]] core::Phrase operator_text() const;
   /// "CYLt = 8.31 um, 95 % [7.60, 9.40]; as read 8.35 um (MZCY; unfiltered; ...; at the sampled
   /// points)".
-  [[nodiscard]] std::string sentence() const;
+  [[nodiscard]] core::Phrase sentence() const;
 
  private:
   std::string symbol_;

@@ -361,9 +361,9 @@ core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, 
 
 void warn_rotary(const RotaryResult& facts, std::vector<core::Error>& warnings) {
   for (const AxisFacts& axis : axes_of(facts)) {
-    for (core::Error warning : axis.study->warnings) {
-      warning.what = fmt::format("axis {}: {}", axis.key, warning.what);
-      warnings.push_back(std::move(warning));
+    for (const core::Error& warning : axis.study->warnings) {
+      warnings.push_back(
+          {warning.code, fmt::format("axis {}: {}", axis.key, warning.what), warning.where});
     }
   }
   constexpr double kExplained = 3.0;

@@ -1,7 +1,5 @@
 #include "evaluation/rotary/result.h"
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 
@@ -20,28 +18,29 @@ core::Result<AnalysisValue> value_of(const RotaryResult& facts,
   if (v.points == 0) return core::fail(core::Code::kNoPoints, "no combined pose was measured");
   AnalysisValue out;
   out.value_mm = characteristic.form == record::Form::kFixtureResidualRms ? v.rms_mm : v.max_mm;
-  out.detail = fmt::format("{} um rms before compensation", um(v.before_rms_mm));
+  out.detail = core::phrase("{} um rms before compensation", um(v.before_rms_mm));
   return out;
 }
 
 ValueOperator operator_of(const RotaryResult& facts, const record::Characteristic& characteristic,
-                          const std::string& temperature) {
+                          const core::Phrase& temperature) {
   const fixture::Verification& v = facts.calibration.verification;
   const bool rms = characteristic.form == record::Form::kFixtureResidualRms;
-  return {ReferenceTerm(fmt::format("{} distance of balls in combined poses from where the "
-                                    "calibration puts them",
-                                    rms ? "rms" : "largest")),
+  return {ReferenceTerm(core::phrase("{} distance of balls in combined poses from where the "
+                                     "calibration puts them",
+                                     rms ? core::phrase("rms") : core::phrase("largest"))),
           FilterTerm(filter_text(facts)),
-          SamplingTerm(fmt::format("{} ball centres in {} poses that the fit did not use", v.points,
-                                   v.poses)),
-          TipTerm("sphere fits with the certified radius"), TemperatureTerm(temperature)};
+          SamplingTerm(core::phrase("{} ball centres in {} poses that the fit did not use",
+                                    v.points, v.poses)),
+          TipTerm(core::phrase("sphere fits with the certified radius")),
+          TemperatureTerm(temperature)};
 }
 
-std::string filter_text(const RotaryResult& /*facts*/) { return "unfiltered"; }
+core::Phrase filter_text(const RotaryResult& /*facts*/) { return core::phrase("unfiltered"); }
 
-std::string sampling_text(const RotaryResult& facts) {
-  return fmt::format("{} balls, {} poses, {} touches", facts.balls.size(), facts.poses,
-                     facts.touches);
+core::Phrase sampling_text(const RotaryResult& facts) {
+  return core::phrase("{} balls, {} poses, {} touches", facts.balls.size(), facts.poses,
+                      facts.touches);
 }
 
 }  // namespace rondure::evaluation

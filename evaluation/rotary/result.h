@@ -45,9 +45,9 @@ struct RotaryResult {
                                                    const record::Characteristic& characteristic);
 [[nodiscard]] ValueOperator operator_of(const RotaryResult& result,
                                         const record::Characteristic& characteristic,
-                                        const std::string& temperature);
-[[nodiscard]] std::string filter_text(const RotaryResult& result);
-[[nodiscard]] std::string sampling_text(const RotaryResult& result);
+                                        const core::Phrase& temperature);
+[[nodiscard]] core::Phrase filter_text(const RotaryResult& result);
+[[nodiscard]] core::Phrase sampling_text(const RotaryResult& result);
 
 /// One axis: "alpha" or "beta", and which study it is.
 struct AxisFacts {

@@ -40,16 +40,16 @@ const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation
 }
 
 /// Readings that contradict what is stated, or are none, falsify everything.
-std::optional<std::string> contradiction_of(const SpindleResult& facts) {
+std::optional<core::Phrase> contradiction_of(const SpindleResult& facts) {
   if (facts.separation.contradictions.empty()) return std::nullopt;
-  return facts.separation.contradictions.front().what;
+  return facts.separation.contradictions.front().said();
 }
 
 /// Harmonics that were dropped falsify part and motion.
-std::optional<std::string> loss_of(const SpindleResult& facts) {
+std::optional<core::Phrase> loss_of(const SpindleResult& facts) {
   if (auto contradiction = contradiction_of(facts)) return contradiction;
   if (facts.separation.unrecovered.empty()) return std::nullopt;
-  return fmt::format("{} harmonics were not recovered", facts.separation.unrecovered.size());
+  return core::phrase("{} harmonics were not recovered", facts.separation.unrecovered.size());
 }
 
 core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
@@ -58,7 +58,8 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   const auto reference = rms ? fit::CircleReference::kLs : circle_of(asked.reference);
   const fit::Roundness* found = roundness_about(facts.roundness, reference);
   if (found == nullptr) {
-    return core::fail(Code::kReferenceAbsent, "the profile has no such reference circle");
+    return core::fail(Code::kReferenceAbsent,
+                      core::phrase("the profile has no such reference circle"));
   }
   AnalysisValue out;
   out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
@@ -79,23 +80,24 @@ core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
     for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
       if (h.order < line.first || h.order > line.last) continue;
       if (!h.recovered) {
-        out.void_because = fmt::format("harmonic {} was not recovered", h.order);
+        out.void_because = core::phrase("harmonic {} was not recovered", h.order);
         continue;
       }
       if (h.amplitude_mm / line.amplitude_mm <= worst) continue;
       worst = h.amplitude_mm / line.amplitude_mm;
       out.value_mm = h.amplitude_mm;
       out.limit_mm = line.amplitude_mm;
-      out.detail = fmt::format("harmonic {} is nearest to its limit", h.order);
+      out.detail = core::phrase("harmonic {} is nearest to its limit", h.order);
     }
     const int highest = facts.separation.harmonics.back().order;
     if (line.last > highest) {
-      out.void_because = fmt::format("the mask reaches to harmonic {}, {} is the highest recovered",
-                                     line.last, highest);
+      out.void_because = core::phrase(
+          "the mask reaches to harmonic {}, {} is the highest recovered", line.last, highest);
     }
   }
   if (worst < 0.0) {
-    return core::fail(Code::kMeaning, "the mask names no harmonic that was recovered");
+    return core::fail(Code::kMeaning,
+                      core::phrase("the mask names no harmonic that was recovered"));
   }
   return out;
 }
@@ -104,7 +106,7 @@ core::Result<AnalysisValue> motion_value(const SpindleResult& facts, Form form) 
   AnalysisValue out;
   const auto greater = [&](double x_mm, double y_mm) {
     out.value_mm = std::max(x_mm, y_mm);
-    out.detail = x_mm >= y_mm ? "direction X" : "direction Y";
+    out.detail = x_mm >= y_mm ? core::phrase("direction X") : core::phrase("direction Y");
   };
   if (form == Form::kMotionTotal) greater(facts.x.total_mm, facts.y.total_mm);
   if (form == Form::kMotionSynchronous) greater(facts.x.synchronous_mm, facts.y.synchronous_mm);
@@ -140,38 +142,43 @@ core::Result<AnalysisValue> value_of(const SpindleResult& facts,
   }
 }
 
-std::string filter_text(const SpindleResult& facts) {
+core::Phrase filter_text(const SpindleResult& facts) {
   const fit::FilterOptions& filter = facts.roundness.filter;
-  if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
-  return fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
+  if (filter.filter == fit::ProfileFilter::kNone) {
+    return core::phrase("unfiltered");
+  }
+  return core::phrase("gaussian low pass {:g} UPR", filter.cutoff_upr);
 }
 
-std::string sampling_text(const SpindleResult& facts) {
+core::Phrase sampling_text(const SpindleResult& facts) {
   const auto turns = static_cast<std::size_t>(facts.separation.revolutions);
-  return fmt::format("{} of {} samples",
-                     turns == 1 ? "1 revolution" : fmt::format("{} revolutions", turns),
-                     facts.separation.profile.r_mm.size());
+  return core::phrase(
+      "{} of {} samples",
+      turns == 1 ? core::phrase("{} revolution", turns) : core::phrase("{} revolutions", turns),
+      facts.separation.profile.r_mm.size());
 }
 
 ValueOperator operator_of(const SpindleResult& facts, const record::Characteristic& asked,
-                          const std::string& temperature) {
+                          const core::Phrase& temperature) {
   const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
   const fit::ThreeProbeResult& s = facts.separation;
   const auto angles = s.layout.angles_rad();
-  const std::string how = fmt::format(
+  const core::Phrase how = core::phrase(
       "three probes at 0, {:.4f}, {:.4f} deg; {}; harmonics 2 to {}", angles[1] / core::kDegree,
       angles[2] / core::kDegree, sampling_text(facts), s.harmonics.back().order);
   const bool unfiltered = asked.form == Form::kHarmonicLimits;
-  const std::string reference =
-      part         ? reference_of(asked)
-      : unfiltered ? "amplitudes"
-                   : "ISO 230-7, fixed direction, about the least-squares centre of the mean "
-                     "revolution";
+  const core::Phrase reference =
+      part         ? core::as_it_is(reference_of(asked))
+      : unfiltered ? core::phrase("amplitudes")
+                   : core::phrase(
+                         "ISO 230-7, fixed direction, about the least-squares centre of the mean "
+                         "revolution");
   return {ReferenceTerm(reference),
           FilterTerm(part         ? filter_text(facts)
-                     : unfiltered ? "before the filter"
-                                  : "unfiltered"),
-          SamplingTerm(how), TipTerm("displacement probes"), TemperatureTerm(temperature)};
+                     : unfiltered ? core::phrase("before the filter")
+                                  : core::phrase("unfiltered")),
+          SamplingTerm(how), TipTerm(core::phrase("displacement probes")),
+          TemperatureTerm(temperature)};
 }
 
 }  // namespace rondure::evaluation

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "evaluation/results/analysis_value.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
@@ -30,9 +28,9 @@ struct SpindleResult {
                                                    const record::Characteristic& characteristic);
 [[nodiscard]] ValueOperator operator_of(const SpindleResult& result,
                                         const record::Characteristic& characteristic,
-                                        const std::string& temperature);
-[[nodiscard]] std::string filter_text(const SpindleResult& result);
-[[nodiscard]] std::string sampling_text(const SpindleResult& result);
+                                        const core::Phrase& temperature);
+[[nodiscard]] core::Phrase filter_text(const SpindleResult& result);
+[[nodiscard]] core::Phrase sampling_text(const SpindleResult& result);
 
 /// Roundness of a recovered profile, all references.
 /// @param cutoff_upr  Gaussian low pass; 0: unfiltered.

@@ -89,17 +89,17 @@ class Declaration {
  public:
   void group(bool declared) { declared_ = declared; }
 
-  void line(std::string name, const std::string& text) {
-    lines.push_back({std::move(name), declared_, declared_ ? text : "not declared"});
+  void line(std::string name, const core::Phrase& text) {
+    lines.push_back({std::move(name), declared_, declared_ ? text : core::phrase("not declared")});
   }
 
   /// One of two ways to say the same: without a number it is not declared.
-  void limit(std::string name, bool given, const std::string& text) {
+  void limit(std::string name, bool given, const core::Phrase& text) {
     const bool covered = declared_ && given;
-    lines.push_back({std::move(name), covered, covered ? text : "not declared"});
+    lines.push_back({std::move(name), covered, covered ? text : core::phrase("not declared")});
   }
 
-  void never(std::string name, std::string text) {
+  void never(std::string name, core::Phrase text) {
     lines.push_back({std::move(name), false, std::move(text)});
   }
 
@@ -113,29 +113,30 @@ void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out)
   const ProbeInfluences probe = declared.value_or(ProbeInfluences{});
   out.group(declared.has_value());
   const double sigma_um = kUm * probe.repeatability_mm;
-  std::string repeatability =
-      fmt::format("standard deviation {:.4g} um of a touch, normal", sigma_um);
+  core::Phrase repeatability =
+      core::phrase("standard deviation {:.4g} um of a touch, normal", sigma_um);
   if (probe.degrees_of_freedom > 0.0) {
     repeatability =
-        fmt::format("{}; {:.4g} degrees of freedom", repeatability, probe.degrees_of_freedom);
+        core::phrase("{}; {:.4g} degrees of freedom", repeatability, probe.degrees_of_freedom);
   }
   repeatability = probe.correlation_length_mm > 0.0
-                      ? fmt::format("{}; neighbours alike over {:.4g} mm", repeatability,
-                                    probe.correlation_length_mm)
-                      : fmt::format("{}; each touch anew", repeatability);
+                      ? core::phrase("{}; neighbours alike over {:.4g} mm", repeatability,
+                                     probe.correlation_length_mm)
+                      : core::phrase("{}; each touch anew", repeatability);
   out.limit("probe-repeatability", probe.repeatability_known, repeatability);
-  std::string lobes;
+  core::Phrase lobes;
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
-    lobes += fmt::format("{}{} lobes of amplitude {:.4g} um", lobes.empty() ? "" : ", ", lobe.order,
-                         kUm * lobe.amplitude_mm);
+    const core::Phrase one =
+        core::phrase("{} lobes of amplitude {:.4g} um", lobe.order, kUm * lobe.amplitude_mm);
+    lobes = lobes.empty() ? one : core::phrase("{}, {}", lobes, one);
   }
-  out.line("probe-lobing",
-           (lobes.empty() ? std::string("none") : lobes) + ", phase unknown, uniform");
+  out.line("probe-lobing", core::phrase("{}, phase unknown, uniform",
+                                        lobes.empty() ? core::phrase("none") : lobes));
   out.limit("probing-form-limit", probe.form_limit_mm > 0.0,
-            fmt::format("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
-                        kUm * probe.form_limit_mm));
-  out.line("tip-qualification", fmt::format("radius {:.4g} um, normal; moves radii, no form",
-                                            kUm * probe.tip_radius_mm));
+            core::phrase("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
+                         kUm * probe.form_limit_mm));
+  out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; moves radii, no form",
+                                             kUm * probe.tip_radius_mm));
 }
 
 /// Whether a curve has anything but zeros.
@@ -145,8 +146,8 @@ bool says(const cmm::ErrorCurve& curve) {
 
 void say_machine(const std::optional<MachineInfluences>& declared, Declaration& out) {
   const MachineInfluences machine = declared.value_or(MachineInfluences{});
-  const std::string terms =
-      "standard uncertainty of each coefficient, normal; waves with unknown phase, uniform";
+  const core::Phrase terms = core::phrase(
+      "standard uncertainty of each coefficient, normal; waves with unknown phase, uniform");
   out.group(declared.has_value());
   bool position = false;
   bool straightness = false;
@@ -159,42 +160,42 @@ void say_machine(const std::optional<MachineInfluences>& declared, Declaration& 
     }
   }
   const auto said = [&](bool any, const char* names) {
-    return any ? terms + names : std::string("declared as nothing");
+    return any ? core::phrase("{} ({})", terms, names) : core::phrase("declared as nothing");
   };
-  out.line("machine-position", said(position, " (EXX, EYY, EZZ)"));
-  out.line("machine-straightness", said(straightness, " (EYX ... EYZ)"));
-  out.line("machine-rotation", said(rotation, " (EAX ... ECZ)"));
+  out.line("machine-position", said(position, "EXX, EYY, EZZ"));
+  out.line("machine-straightness", said(straightness, "EYX ... EYZ"));
+  out.line("machine-rotation", said(rotation, "EAX ... ECZ"));
   out.line("machine-squareness",
-           fmt::format("standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
-                       1e6 * std::abs(machine.terms.squareness_xy_rad),
-                       1e6 * std::abs(machine.terms.squareness_xz_rad),
-                       1e6 * std::abs(machine.terms.squareness_yz_rad)));
+           core::phrase("standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
+                        1e6 * std::abs(machine.terms.squareness_xy_rad),
+                        1e6 * std::abs(machine.terms.squareness_xz_rad),
+                        1e6 * std::abs(machine.terms.squareness_yz_rad)));
   out.limit("machine-length-limit", machine.length_limit_mm + machine.length_limit_slope > 0.0,
-            fmt::format("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
-                        kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope));
+            core::phrase("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
+                         kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope));
 }
 
 void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& out) {
   const ThermalInfluences thermal = declared.value_or(ThermalInfluences{});
   out.group(declared.has_value());
   out.line("temperature",
-           fmt::format("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; moves radii, "
-                       "no form",
-                       thermal.temperature_K, thermal.expansion_uncertainty_1_K));
+           core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; moves radii, "
+                        "no form",
+                        thermal.temperature_K, thermal.expansion_uncertainty_1_K));
   if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
     out.never("temperature-drift",
-              fmt::format("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",
-                          thermal.drift_K));
+              core::phrase("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",
+                           thermal.drift_K));
   } else {
     out.line("temperature-drift",
-             fmt::format("at most {:.4g} K from the first to the last touch, rectangular",
-                         thermal.drift_K));
+             core::phrase("at most {:.4g} K from the first to the last touch, rectangular",
+                          thermal.drift_K));
   }
   out.line("machine-drift",
-           fmt::format("at most {:.4g}, {:.4g}, {:.4g} um from the first to the last touch, "
-                       "rectangular",
-                       kUm * thermal.machine_drift_mm.x(), kUm * thermal.machine_drift_mm.y(),
-                       kUm * thermal.machine_drift_mm.z()));
+           core::phrase("at most {:.4g}, {:.4g}, {:.4g} um from the first to the last touch, "
+                        "rectangular",
+                        kUm * thermal.machine_drift_mm.x(), kUm * thermal.machine_drift_mm.y(),
+                        kUm * thermal.machine_drift_mm.z()));
 }
 
 void say_fixture(const std::optional<FixtureInfluences>& declared, Declaration& out) {
@@ -202,11 +203,11 @@ void say_fixture(const std::optional<FixtureInfluences>& declared, Declaration& 
   out.group(declared.has_value());
   out.line(
       "fixture-calibration",
-      fmt::format("pose {:.4g} urad, {:.4g} um, normal, each pose anew; one pose moves no form",
-                  1e6 * fixture.angle_rad, kUm * fixture.position_mm));
+      core::phrase("pose {:.4g} urad, {:.4g} um, normal, each pose anew; one pose moves no form",
+                   1e6 * fixture.angle_rad, kUm * fixture.position_mm));
   out.line("fixture-creep",
-           fmt::format("at most {:.4g} urad from the first to the last touch, rectangular",
-                       1e6 * fixture.creep_rad));
+           core::phrase("at most {:.4g} urad from the first to the last touch, rectangular",
+                        1e6 * fixture.creep_rad));
 }
 
 }  // namespace
@@ -233,11 +234,15 @@ std::vector<InfluenceStatement> influence_statements(const Influences& influence
   say_machine(influences.machine, out);
   say_thermal(influences.thermal, out);
   say_fixture(influences.fixture, out);
-  out.never("clamping",
-            "the part as clamped is what is measured; how clamping bends it is unknown");
-  out.never("contact", "dirt, oil and roughness between tip and part; wear of the tip");
-  out.never("probing-strategy", "speed, force and approach other than those of the qualification");
-  out.never("software", "round-off; held by the certificates of the fits, not by this interval");
+  out.never(
+      "clamping",
+      core::phrase("the part as clamped is what is measured; how clamping bends it is unknown"));
+  out.never("contact",
+            core::phrase("dirt, oil and roughness between tip and part; wear of the tip"));
+  out.never("probing-strategy",
+            core::phrase("speed, force and approach other than those of the qualification"));
+  out.never("software",
+            core::phrase("round-off; held by the certificates of the fits, not by this interval"));
   return std::move(out.lines);
 }
 

@@ -81,7 +81,7 @@ struct Influences {
 struct InfluenceStatement {
   std::string name;      ///< "probe-repeatability": stable, kebab-case.
   bool covered = false;  ///< Whether the interval contains it.
-  std::string text;      ///< With number, unit and distribution; or why it is not covered.
+  core::Phrase text;     ///< With number, unit and distribution; or why it is not covered.
 };
 
 /// kBadOption for a number that is not finite or below zero, naming it.

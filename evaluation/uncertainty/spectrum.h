@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,7 +27,7 @@ struct FormSpectrum {
   bool absolute = false;
   double low_mm = 0.0;   ///< Ends of the surface along the axis, in the heights of the cloud.
   double high_mm = 0.0;  ///< > low_mm; both 0 in a section.
-  std::string source;    ///< Where it comes from, for the report: "form_spectrum of the plan".
+  core::Phrase source;   ///< Where it comes from, for the report: "form_spectrum of the plan".
 };
 
 /// kBadOption for what a spectrum must not hold, naming the term; or when it has more than 400

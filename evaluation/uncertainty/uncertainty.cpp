@@ -146,7 +146,7 @@ core::Result<void> check_values(const std::vector<double>& values) {
   if (lost == 0) return {};
   return core::fail(
       Code::kReferenceAbsent,
-      fmt::format("in {} of {} trials the points have no such reference", lost, values.size()));
+      core::phrase("in {} of {} trials the points have no such reference", lost, values.size()));
 }
 
 core::Result<void> check_values(const FormChains& chains) {
@@ -221,7 +221,7 @@ constexpr double kReadLimit = 4.0;      // standard deviations of what the model
 constexpr double kScatterLimit = 4.0;   // the same, of the residual scatter
 constexpr double kFewResiduals = 40.0;  // below them nothing shows a noise declared too large
 
-tl::unexpected<core::Error> void_interval(Code code, std::string why) {
+tl::unexpected<core::Error> void_interval(Code code, core::Phrase why) {
   return core::fail(code, std::move(why));
 }
 
@@ -236,9 +236,9 @@ core::Result<void> guard_correction(const FormChains& chains, const UncertaintyR
   // Round-off of the fits is not a correction.
   if (found.noise_inflation_mm <= most + 1e-6) return {};
   return void_interval(Code::kInconsistent,
-                       fmt::format("the correction of {:.3g} um is more than the declared errors "
-                                   "can make ({:.3g} um): no interval is stated",
-                                   1e3 * found.noise_inflation_mm, 1e3 * most));
+                       core::phrase("the correction of {:.3g} um is more than the declared errors "
+                                    "can make ({:.3g} um): no interval is stated",
+                                    1e3 * found.noise_inflation_mm, 1e3 * most));
 }
 
 /// The model would read what was read.
@@ -251,9 +251,9 @@ core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResu
   if (std::abs(found.uncorrected_mm - mean) <= kReadLimit * spread + 1e-6) return {};
   return void_interval(
       Code::kInconsistent,
-      fmt::format("the form model does not explain the value as read: it would read {:.3f} +- "
-                  "{:.3f} um, {:.3f} um were read; no interval is stated",
-                  1e3 * mean, 1e3 * spread, 1e3 * found.uncorrected_mm));
+      core::phrase("the form model does not explain the value as read: it would read {:.3f} +- "
+                   "{:.3f} um, {:.3f} um were read; no interval is stated",
+                   1e3 * mean, 1e3 * spread, 1e3 * found.uncorrected_mm));
 }
 
 /// The points do not scatter less than declared. Notes it where nothing could show that.
@@ -267,17 +267,18 @@ core::Result<void> guard_scatter(const FormChains& chains, std::size_t points,
   }
   const double count = static_cast<double>(points) - found.finding.spots;
   if (count - 2.0 * found.finding.groups < kFewResiduals) {
-    found.notes.push_back(
-        "too few points to show whether the declared noise is larger than the real one");
+    found.notes.push_back(core::phrase(
+        "too few points to show whether the declared noise is larger than the real one"));
   }
   if (draws == 0.0) return {};
   scatter /= draws;
   if (scatter >= 1.0 - kScatterLimit * std::sqrt(2.0 / count)) return {};
   return void_interval(
       Code::kInconsistent,
-      fmt::format("the residual scatter is {:.3g} um, declared were {:.3g} um: declare what the "
-                  "touches show; no interval is stated",
-                  1e3 * std::sqrt(scatter) * found.finding.noise_mm, 1e3 * found.finding.noise_mm));
+      core::phrase("the residual scatter is {:.3g} um, declared were {:.3g} um: declare what the "
+                   "touches show; no interval is stated",
+                   1e3 * std::sqrt(scatter) * found.finding.noise_mm,
+                   1e3 * found.finding.noise_mm));
 }
 
 /// Each line's share of the lines of (a); sampling's of all.
@@ -348,13 +349,17 @@ core::Result<std::optional<WholeExtent>> extent_of(const FormCloud& cloud, const
   const bool section = cloud.kind == FormKind::kRoundness;
   if (!layout.layered || layout.arc_rad || (!section && layout.layers < kDenseLayers) ||
       layout.points_per_layer < kDensePoints) {
+    const int layers = section ? 1 : kDenseLayers;
     return void_interval(
         Code::kSampling,
-        fmt::format("{} layers of {} points{} do not tell the form between them: {} layers of {} "
-                    "points, all the way round, at least; or declare a form spectrum",
-                    layout.layers, layout.points_per_layer,
-                    layout.arc_rad ? " on a part of the turn" : "", section ? 1 : kDenseLayers,
-                    kDensePoints));
+        layout.arc_rad
+            ? core::phrase("{} layers of {} points on a part of the turn do not tell the form "
+                           "between them: {} layers of {} points, all the way round, at least; or "
+                           "declare a form spectrum",
+                           layout.layers, layout.points_per_layer, layers, kDensePoints)
+            : core::phrase("{} layers of {} points do not tell the form between them: {} layers of "
+                           "{} points, all the way round, at least; or declare a form spectrum",
+                           layout.layers, layout.points_per_layer, layers, kDensePoints));
   }
   if (section) return std::optional<WholeExtent>(out);
   const auto [low, high] = std::minmax_element(
@@ -366,10 +371,10 @@ core::Result<std::optional<WholeExtent>> extent_of(const FormCloud& cloud, const
 }
 
 /// "own undulations 0..13 and degrees 0..3 of 4 layers, 112 points; rougher form up to 39".
-std::string source_of(const FormModel& model, const FormSpectrum& spectrum) {
+core::Phrase source_of(const FormModel& model, const FormSpectrum& spectrum) {
   if (!spectrum.terms.empty()) return spectrum.source;
   const FormColumns& columns = model.columns();
-  return fmt::format(
+  return core::phrase(
       "what {} points in {} layers show: up to {} undulations and degree {}; what they do not "
       "resolve, up to {} undulations",
       model.points(), columns.layout().layers, columns.most_undulations(), columns.most_degree(),
@@ -386,9 +391,9 @@ bool noise_is_unknown(const ErrorModel& errors, const Influences& influences) {
 /// does not follow for noise.
 tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences& influences,
                                         const FormModel& model, const UncertaintyOptions& options) {
-  std::string why =
+  core::Phrase why = core::phrase(
       "no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
-      "point twice";
+      "point twice");
   Influences all_noise = influences;
   all_noise.probe = influences.probe.value_or(ProbeInfluences{});
   all_noise.probe->repeatability_mm = model.residual_mm();
@@ -398,8 +403,9 @@ tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences
     FormChains chains(cloud, errors, lowest, std::nullopt, options.seed, 1, 1);
     chains.run(200, 0);
     const double low = core::mean(chains.values().front().sampled_mm);
-    why = fmt::format("{}; the value lies between {:.2f} and {:.2f} um, without a probability", why,
-                      1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
+    why =
+        core::phrase("{}; the value lies between {:.2f} and {:.2f} um, without a probability", why,
+                     1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
   }
   return void_interval(Code::kMeaning, std::move(why));
 }
@@ -429,9 +435,9 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   if (noise_is_unknown(errors, influences)) return only_bounds(cloud, influences, model, options);
   if (model.flagged_share() > kMostFlagged) {
     return void_interval(Code::kOutliers,
-                         fmt::format("{:.0f} % of the points stand out: no smooth form stands "
-                                     "behind these points; no interval is stated",
-                                     100.0 * model.flagged_share()));
+                         core::phrase("{:.0f} % of the points stand out: no smooth form stands "
+                                      "behind these points; no interval is stated",
+                                      100.0 * model.flagged_share()));
   }
   const auto extent = extent_of(cloud, model, spectrum);
   if (!extent) return core::fail(extent.error());

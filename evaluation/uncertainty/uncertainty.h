@@ -83,9 +83,9 @@ struct UncertaintyResult {
   /// Expected loss by sparse sampling: estimate (a) minus estimate (b) [mm]; <= 0. Hence
   /// uncorrected = estimate (b) + inflation + loss.
   std::optional<double> sampling_loss_mm;
-  std::string spectrum_source;  ///< Of (b); empty without.
+  core::Phrase spectrum_source;  ///< Of (b); empty without.
   FormFinding finding;
-  std::vector<std::string> notes;               ///< To be read beside the interval.
+  std::vector<core::Phrase> notes;              ///< To be read beside the interval.
   std::vector<BudgetLine> budget;               ///< Ranked by spread, the largest first.
   std::vector<InfluenceStatement> declaration;  ///< Covered and not covered.
   int trials = 0;

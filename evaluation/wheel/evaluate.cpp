@@ -1,7 +1,5 @@
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
@@ -125,7 +123,7 @@ core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
   if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
   AnalysisValue out;
   out.value_mm = std::abs(m.radius_mm - *nominal_mm);
-  out.detail = fmt::format("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
+  out.detail = core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
   return out;
 }
 
@@ -135,13 +133,13 @@ core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
 AnalysisValue bounded(AnalysisValue value, const fit::WheelMeasurement& m, double with_dropped_mm,
                       bool zone) {
   if (!m.sees_whole_turn()) {
-    value.void_because = fmt::format(
+    value.void_because = core::phrase(
         "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
         "deviation; measure the whole turn",
         m.order.largest_gap_rad / kDegree);
     value.lower_bound = zone;
   } else if (with_dropped_mm > value.value_mm) {
-    value.void_because = fmt::format(
+    value.void_because = core::phrase(
         "the roundness is {} um without the points that were dropped and {} um with "
         "them: clean the wheel there and measure it again",
         um(value.value_mm), um(with_dropped_mm));
@@ -162,12 +160,14 @@ core::Result<AnalysisValue> roundness(const WheelResult& facts, record::Referenc
     return core::fail(core::Code::kReferenceAbsent,
                       "roundness of a wheel has the references mz, ls");
   }
-  if (!m.zone) return core::fail(core::Code::kNotConverged, "there is no minimum zone");
+  if (!m.zone)
+    return core::fail(core::Code::kNotConverged, core::phrase("there is no minimum zone"));
   const auto all = dropped ? fit::min_zone_circle(facts.points_mm) : *m.zone;
   if (!all) return core::fail(all.error());
   AnalysisValue out = bounded({m.zone->width_mm(), {}, {}, {}, false}, m, all->width_mm(), true);
   if (m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {
-    out.void_because = "the minimum zone is not proven: " + m.zone->certificate.reason;
+    out.void_because =
+        core::phrase("the minimum zone is not proven: {}", m.zone->certificate.reason);
     out.lower_bound = false;
   }
   return out;
@@ -184,14 +184,14 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
   if (characteristic.form == record::Form::kRoundness) {
     return roundness(facts, characteristic.reference);
   }
-  if (!m.runout) return core::fail(core::Code::kNoAxis, std::string(m.runout_absent));
+  if (!m.runout) return core::fail(core::Code::kNoAxis, m.runout_absent);
   AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
   if (!m.runout->bound_because.empty()) {
     // All points within the tolerance settle it, where the whole turn is seen.
     if (m.sees_whole_turn() && characteristic.tolerance_mm &&
         m.runout->fim_with_dropped_mm <= *characteristic.tolerance_mm) {
       out.value_mm = m.runout->fim_with_dropped_mm;
-      out.detail = "with the points that were dropped";
+      out.detail = core::phrase("with the points that were dropped");
     } else {
       out.void_because = m.runout->bound_because;
       out.lower_bound = true;
@@ -201,31 +201,32 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
 }
 
 ValueOperator operator_of(const WheelResult& facts, const record::Characteristic& characteristic,
-                          const std::string& temperature) {
+                          const core::Phrase& temperature) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
-  const std::string points = fmt::format("{} of {} points, {} mode", m.points - m.dropped.size(),
-                                         m.points, fit::name_of(m.mode));
-  std::string reference = reference_of(characteristic);
+  const core::Phrase points = core::phrase("{} of {} points, {} mode", m.points - m.dropped.size(),
+                                           m.points, core::Phrase(fit::name_of(m.mode)));
+  core::Phrase reference = core::as_it_is(reference_of(characteristic));
   if (characteristic.form == record::Form::kRunOut) {
-    reference = "full indicator movement about the given axis";
+    reference = core::phrase("full indicator movement about the given axis");
   } else if (characteristic.form != record::Form::kRoundness) {
     reference = m.mean == fit::WheelMean::kLeastSquares
-                    ? "mean distance from the least-squares centre"
-                    : fmt::format("mean distance from the centre ({} mean of {} quadruples)",
-                                  fit::name_of(m.mean), m.centers.accepted.size());
+                    ? core::phrase("mean distance from the least-squares centre")
+                    : core::phrase("mean distance from the centre ({} mean of {} quadruples)",
+                                   core::Phrase(fit::name_of(m.mean)), m.centers.accepted.size());
   }
   return {ReferenceTerm(reference), FilterTerm(filter_text(facts)), SamplingTerm(points),
-          TipTerm("points as given"), TemperatureTerm(temperature)};
+          TipTerm(core::phrase("points as given")), TemperatureTerm(temperature)};
 }
 
-std::string filter_text(const WheelResult& facts) {
-  return facts.task.wheel.robust ? "unfiltered, isolated outliers dropped" : "unfiltered";
+core::Phrase filter_text(const WheelResult& facts) {
+  return facts.task.wheel.robust ? core::phrase("unfiltered, isolated outliers dropped")
+                                 : core::phrase("unfiltered");
 }
 
-std::string sampling_text(const WheelResult& facts) {
+core::Phrase sampling_text(const WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
-  return fmt::format("{} points, {} mode, {:.0f} deg", m.points, fit::name_of(m.mode),
-                     m.order.coverage_rad() / kDegree);
+  return core::phrase("{} points, {} mode, {:.0f} deg", m.points,
+                      core::Phrase(fit::name_of(m.mode)), m.order.coverage_rad() / kDegree);
 }
 
 core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,8 +28,8 @@ struct WheelResult {
                                                    const record::Characteristic& characteristic);
 [[nodiscard]] ValueOperator operator_of(const WheelResult& result,
                                         const record::Characteristic& characteristic,
-                                        const std::string& temperature);
-[[nodiscard]] std::string filter_text(const WheelResult& result);
-[[nodiscard]] std::string sampling_text(const WheelResult& result);
+                                        const core::Phrase& temperature);
+[[nodiscard]] core::Phrase filter_text(const WheelResult& result);
+[[nodiscard]] core::Phrase sampling_text(const WheelResult& result);
 
 }  // namespace rondure::evaluation

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -78,7 +77,7 @@ struct PoseJoint {
   double u_joint_mm = 0.0;  ///< Contribution of the fixture that remains in it: rms change of CYLt
                             ///< by the remaining uncertainty of the poses.
   double u_naive_mm = 0.0;  ///< The same for the priors, as for the kinematics alone.
-  std::vector<std::string> statements;  ///< Errors left to the kinematics, and warnings, in words.
+  std::vector<core::Phrase> statements;  ///< Errors left to the kinematics, and warnings, in words.
 
   /// Contribution of the fixture to CYLt if its errors are not solved for [mm].
   [[nodiscard]] double share_mm() const { return naive_mm - joint_mm; }

@@ -209,36 +209,37 @@ core::Result<void> set_zones(const JointModel& model, const Eigen::VectorXd& x,
 
 void set_statements(PoseJoint& joint) {
   auto& say = joint.statements;
-  say.emplace_back(
+  say.push_back(core::phrase(
       "shift along and turn about the axis of the part are those of the kinematics in every pose: "
-      "a cylinder does not show them");
+      "a cylinder does not show them"));
   for (std::size_t k = 1; k < joint.errors.size(); ++k) {
     for (const int i : {0, 1, 3, 4}) {
       const PoseErrorFound& found = joint.errors[k];
       if (!found.from_kinematics[static_cast<std::size_t>(i)] || found.prior_u(i) == 0.0) continue;
-      say.push_back(fmt::format(
-          "pose {}: the {} rests on the kinematics (the touches leave {:.0f} "
-          "% of their uncertainty); more targets touched in several poses "
-          "would show it",
-          k + 1, kNames[static_cast<std::size_t>(i)], 100.0 * found.u(i) / found.prior_u(i)));
+      say.push_back(
+          core::phrase("pose {}: the {} rests on the kinematics (the touches leave {:.0f} "
+                       "% of their uncertainty); more targets touched in several poses "
+                       "would show it",
+                       k + 1, core::Phrase(kNames[static_cast<std::size_t>(i)]),
+                       100.0 * found.u(i) / found.prior_u(i)));
     }
   }
   if (joint.shared == 0) {
-    say.emplace_back(
+    say.push_back(core::phrase(
         "no target was touched in more than one pose: form and errors of the poses are told apart "
-        "only as far as the form is smooth, and the uncertainty stated for it is too small");
+        "only as far as the form is smooth, and the uncertainty stated for it is too small"));
   }
   if (joint.chi2 > joint.chi2_limit) {
     say.push_back(
-        fmt::format("the poses were off by more than the kinematics state (chi2 {:.1f} "
-                    "of {} degrees of freedom, limit {:.1f}): calibrate the fixture again",
-                    joint.chi2, joint.chi2_freedom, joint.chi2_limit));
+        core::phrase("the poses were off by more than the kinematics state (chi2 {:.1f} "
+                     "of {} degrees of freedom, limit {:.1f}): calibrate the fixture again",
+                     joint.chi2, joint.chi2_freedom, joint.chi2_limit));
   }
   if (joint.condition > kWarnCondition) {
     say.push_back(
-        fmt::format("the touches see the poses weakly (condition {:.0f}, good below {:.0f}): "
-                    "a wider arc or layers farther apart would help",
-                    joint.condition, kWarnCondition));
+        core::phrase("the touches see the poses weakly (condition {:.0f}, good below {:.0f}): "
+                     "a wider arc or layers farther apart would help",
+                     joint.condition, kWarnCondition));
   }
 }
 

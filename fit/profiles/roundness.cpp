@@ -194,8 +194,10 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
   out.inner = rows_of(step->inner);
   // The dual value of the programme is a lower bound for every centre in the linear model.
   const double reached = weights.value(reach);
-  out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
-                     std::max(0.0, reached - step->value), ""};
+  out.certificate = {Certificate::Kind::kGlobal,
+                     core::Phrase("all centres, limacon model"),
+                     std::max(0.0, reached - step->value),
+                     {}};
   if (!zone) out.range = deviation_range(rows, step->step, weights);
   return out;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <string_view>
 
+#include "core/phrase.h"
 #include "fit/geometry/contacts.h"
 
 namespace rondure::fit {
@@ -17,9 +17,9 @@ struct Certificate {
     kGlobal,  ///< No better zone exists within `scope`.
   };
   Kind kind = Kind::kNone;
-  std::string scope;    ///< "all centres", "all directions", "next to the least-squares axis".
+  core::Phrase scope;   ///< "all centres", "all directions", "next to the least-squares axis".
   double gap_mm = 0.0;  ///< Reported value minus proven lower bound [mm].
-  std::string reason;   ///< Why the kind is not higher; empty for kGlobal.
+  core::Phrase reason;  ///< Why the kind is not higher; empty for kGlobal.
 };
 
 /// "none", "local", "global".

@@ -23,7 +23,7 @@ double certify(PlanePoints points, const Eigen::Vector2d& center, MinZoneCircle&
   const double growth = state_zone<2>(points, center, round_off, out);
   // All points are on one circle to round-off. This is global, as no zone is narrower than 0.
   if (out.width_mm() <= 16.0 * round_off) {
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
+    out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), out.width_mm(), {}};
   }
   return growth;
 }
@@ -40,7 +40,8 @@ void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
       continue;
     }
     const double gap = std::max(out.certificate.gap_mm, out.width_mm() - search.lower_mm);
-    if (search.proven) out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+    if (search.proven)
+      out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), gap, {}};
     out.certificate.reason = search.reason;
     return;
   }
@@ -57,11 +58,11 @@ void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle
   if (out.certificate.kind == Certificate::Kind::kNone) return;
   if (all.complete) {
     const double gap = std::max(out.certificate.gap_mm, out.width_mm() - all.width_mm);
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+    out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), gap, {}};
   } else {
-    out.certificate.reason = fmt::format(
+    out.certificate.reason = core::Phrase(fmt::format(
         "a strip of {:.9g} mm holds the points: the narrowest zone may have its centre at infinity",
-        all.strip_mm);
+        all.strip_mm));
   }
 }
 
@@ -71,7 +72,7 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
   out.center_mm = circle.center_mm;
   out.inner_radius_mm = out.outer_radius_mm = circle.radius_mm;
   out.exact_fit = true;
-  out.certificate = {Certificate::Kind::kGlobal, "all centres", 0.0, ""};
+  out.certificate = {Certificate::Kind::kGlobal, core::phrase("all centres"), 0.0, {}};
   return out;
 }
 

@@ -27,7 +27,7 @@ double state(std::span<const Eigen::Matrix<double, D, 1>> points_mm,
   const Contacts& contacts = outside ? proven.proof.outer : proven.proof.inner;
   out.contacts.assign(contacts.begin(), contacts.end());
   out.certificate = certify_local<D>(proven.proof, proven.zone.width(), round_off,
-                                     "next to the least-squares centre");
+                                     core::Phrase("next to the least-squares centre"));
   return proven.proof.growth;
 }
 
@@ -41,7 +41,8 @@ core::Result<OneSidedCenter<D>> fit_one_sided(
   state<D>(points_mm, *zone, weights, out);
   if (weights.outer > 0.0 && out.certificate.kind == Certificate::Kind::kLocal) {
     // The problem is convex, so a local minimum is the global one.
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.certificate.gap_mm, ""};
+    out.certificate = {
+        Certificate::Kind::kGlobal, core::phrase("all centres"), out.certificate.gap_mm, {}};
   }
   return out;
 }
@@ -58,11 +59,12 @@ void search_inscribed(PlanePoints points, const GlobalSearchOptions& options,
       const CircleZone next = fitter.fit_from(points, *search.better, kMaximumInscribed);
       // The circle may leave the hull through a gap between the points and is then not inscribed.
       if (!meets_hull(convex_hull(points), next.place, 0.0)) {
-        out.certificate.reason = "a larger circle leaves the hull of the points";
+        out.certificate.reason = core::Phrase("a larger circle leaves the hull of the points");
         return;
       }
       if (!(next.inner_radius_mm > out.radius_mm)) {
-        out.certificate.reason = "a larger circle was met, its optimum was not reached";
+        out.certificate.reason =
+            core::Phrase("a larger circle was met, its optimum was not reached");
         return;
       }
       growth = state<2>(points, next, kMaximumInscribed, out);
@@ -71,12 +73,14 @@ void search_inscribed(PlanePoints points, const GlobalSearchOptions& options,
     out.certificate.reason = search.reason;
     if (!search.proven) return;
     const double gap = std::max(out.certificate.gap_mm, -out.radius_mm - search.lower_mm);
-    out.certificate = {Certificate::Kind::kGlobal, "all centres inside the hull of the points", gap,
-                       ""};
+    out.certificate = {Certificate::Kind::kGlobal,
+                       core::Phrase("all centres inside the hull of the points"),
+                       gap,
+                       {}};
     return;
   }
   out.certificate.reason =
-      fmt::format("{} larger circles were met, one after the other", kRestartLimit);
+      core::Phrase(fmt::format("{} larger circles were met, one after the other", kRestartLimit));
 }
 
 }  // namespace

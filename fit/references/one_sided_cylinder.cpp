@@ -78,7 +78,7 @@ core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm) {
   out.diameter_mm = 2.0 * found.radius_mm;
   out.contacts = std::move(found.contacts);
   out.certificate = std::move(found.certificate);
-  out.certificate.scope = "next to the least-squares line";
+  out.certificate.scope = core::phrase("next to the least-squares line");
   return out;
 }
 

@@ -10,7 +10,8 @@ core::Result<double> radius_of(const WheelMeasurement& wheel, RadiusChoice choic
   if (const auto effective = wheel.effective_radius_mm()) return *effective;
   if (wheel.runout) {
     return core::fail(core::Code::kMeaning,
-                      "the effective radius is a lower bound only: " + wheel.runout->bound_because);
+                      core::phrase("the effective radius is a lower bound only: {}",
+                                   wheel.runout->bound_because));
   }
   return core::fail(core::Code::kMeaning,
                     "the effective radius is not known without the spindle axis; give the axis, "

@@ -194,11 +194,12 @@ void fill_scatter(WheelMeasurement& out) {
 void fill_runout(PlanePoints all, const Points& used, const WheelOptions& options,
                  WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
-    out.runout_absent = "envelope mode: the points lie on the circle swept about the axis";
+    out.runout_absent =
+        core::phrase("envelope mode: the points lie on the circle swept about the axis");
     return;
   }
   if (!options.axis_mm) {
-    out.runout_absent = "the spindle axis is not given: roundness only";
+    out.runout_absent = core::phrase("the spindle axis is not given: roundness only");
     return;
   }
   const auto distance = [&](const Eigen::Vector2d& p) { return (p - *options.axis_mm).norm(); };
@@ -210,13 +211,13 @@ void fill_runout(PlanePoints all, const Points& used, const WheelOptions& option
   found.effective_radius_mm = reach.high;
   found.fim_with_dropped_mm = extremes_of(all, distance).width();
   if (!out.sees_whole_turn()) {
-    found.bound_because = fmt::format(
+    found.bound_because = core::phrase(
         "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "
         "{:.3f} um; measure the whole turn",
         out.order.largest_gap_rad / core::kDegree, kUnseen / core::kDegree,
         found.fim_mm / core::kMicrometre);
   } else if (found.fim_with_dropped_mm > found.fim_mm) {
-    found.bound_because = fmt::format(
+    found.bound_because = core::phrase(
         "run-out is {:.3f} um without the points that were dropped and {:.3f} um with them: a "
         "proud point is run-out; clean the wheel there and measure it again",
         found.fim_mm / core::kMicrometre, found.fim_with_dropped_mm / core::kMicrometre);

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
+
 #include <string_view>
 #include <vector>
 
@@ -58,7 +58,7 @@ struct WheelRunout {
   double fim_with_dropped_mm = 0.0;  ///< FIM including dropped points: a protruding one is run-out.
   /// Why `fim_mm` and `effective_radius_mm` are only lower bounds: points that cover too little of
   /// the turn, or a dropped point that adds to them. Empty if they are values.
-  std::string bound_because;
+  core::Phrase bound_because;
 };
 
 /// A grinding wheel's centre and radius.
@@ -87,7 +87,7 @@ struct WheelMeasurement {
   LsCircle check;                     ///< Geometric least squares of the same points.
   std::optional<MinZoneCircle> zone;  ///< Minimum-zone roundness.
   std::optional<WheelRunout> runout;  ///< kIndexed with an axis; absent otherwise.
-  std::string_view runout_absent;     ///< Why there is none; empty when there is.
+  core::Phrase runout_absent;         ///< Why there is none; empty when there is.
   std::vector<core::Error> warnings;
 
   /// Whether points are close enough all round to show run-out and roundness: no gap above 60 deg.

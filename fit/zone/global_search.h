@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -75,7 +74,7 @@ struct GlobalSearch {
   double lower_mm = 0.0;        ///< If proven: no value in the scope is below this [mm].
   std::optional<Place> better;  ///< A place with a lower value, from which to solve again.
   int boxes = 0;                ///< Boxes bounded.
-  std::string reason;           ///< Why the claim is not proven.
+  core::Phrase reason;          ///< Why the claim is not proven.
 };
 
 /// Proves that no centre of the plane has a lower value than the claim, or finds one that has. For

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/decompositions.h"
 #include "fit/zone/simplex.h"
 
@@ -146,7 +144,7 @@ LocalProof<K> prove_local(ContactRows<K> outer, ContactRows<K> inner, double rea
 
 template <int K>
 Certificate certify_local(const LocalProof<K>& proof, double width_mm, double round_off_mm,
-                          std::string scope) {
+                          core::Phrase scope) {
   Certificate out;
   out.scope = std::move(scope);
   out.gap_mm = std::max(proof.gap_mm, 0.0);
@@ -154,18 +152,18 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
   if (!(proof.gap_mm <= limit)) {
     out.reason =
         std::isfinite(proof.gap_mm)
-            ? fmt::format(
+            ? core::phrase(
                   "the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
                   proof.gap_mm, limit)
-            : std::string("the contacts give no lower bound");
+            : core::phrase("the contacts give no lower bound");
     return out;
   }
   if (!proof.strict) {
-    out.reason = "the contacts hold the zone to first order only";
+    out.reason = core::phrase("the contacts hold the zone to first order only");
     return out;
   }
   out.kind = Certificate::Kind::kLocal;
-  out.reason = "other regions were not searched";
+  out.reason = core::phrase("other regions were not searched");
   return out;
 }
 
@@ -174,16 +172,16 @@ template Eigen::Matrix<double, 2, 1> curvature_descent<2>(std::span<const Contac
                                                           std::span<const Contact>, ContactRows<2>,
                                                           ContactRows<2>, const ZoneWeights&);
 template LocalProof<2> prove_local<2>(ContactRows<2>, ContactRows<2>, double, const ZoneWeights&);
-template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);
+template Certificate certify_local<2>(const LocalProof<2>&, double, double, core::Phrase);
 template Eigen::Matrix<double, 3, 1> curvature_descent<3>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<3>,
                                                           ContactRows<3>, const ZoneWeights&);
 template LocalProof<3> prove_local<3>(ContactRows<3>, ContactRows<3>, double, const ZoneWeights&);
-template Certificate certify_local<3>(const LocalProof<3>&, double, double, std::string);
+template Certificate certify_local<3>(const LocalProof<3>&, double, double, core::Phrase);
 template Eigen::Matrix<double, 4, 1> curvature_descent<4>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<4>,
                                                           ContactRows<4>, const ZoneWeights&);
 template LocalProof<4> prove_local<4>(ContactRows<4>, ContactRows<4>, double, const ZoneWeights&);
-template Certificate certify_local<4>(const LocalProof<4>&, double, double, std::string);
+template Certificate certify_local<4>(const LocalProof<4>&, double, double, core::Phrase);
 
 }  // namespace rondure::fit

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <span>
-#include <string>
 
 #include <Eigen/Core>
 
@@ -65,6 +64,6 @@ template <int K>
 /// @param round_off_mm  Size of the rounding errors of distances.
 template <int K>
 [[nodiscard]] Certificate certify_local(const LocalProof<K>& proof, double width_mm,
-                                        double round_off_mm, std::string scope);
+                                        double round_off_mm, core::Phrase scope);
 
 }  // namespace rondure::fit

@@ -44,7 +44,8 @@ class CenterSearcher {
     const CenterRegion region = first_region();
     if (region.kind != CenterRegion::Kind::kSquare) {
       out_.lower_mm = 0.0;
-      out_.reason = "the points do not bound the centre: the narrowest zone may be a strip";
+      out_.reason =
+          core::Phrase("the points do not bound the centre: the narrowest zone may be a strip");
       return out_;
     }
     boxes_.push_back({region.center_mm, region.half_side_mm + slack_, 0.0});

@@ -134,39 +134,43 @@ Json settings_json(const fit::ContourStudyOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
-                                          const fit::StabilityLimits& limits) {
-  std::vector<std::string> out;
+std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study,
+                                           const fit::StabilityLimits& limits) {
+  std::vector<core::Phrase> out;
   if (study.parts.size() < 4) {
-    out.push_back(fmt::format("{}: stable and unstable sources are told apart from 4 parts on",
-                              count(study.parts.size(), "part", "parts")));
+    const std::size_t parts = study.parts.size();
+    out.push_back(core::phrase(
+        "{}: stable and unstable sources are told apart from 4 parts on",
+        parts == 1 ? core::phrase("{} part", parts) : core::phrase("{} parts", parts)));
     return out;
   }
-  const auto say = [&](const char* what, const std::optional<fit::Repeatability>& found) {
+  const auto say = [&](const core::Phrase& what, const std::optional<fit::Repeatability>& found) {
     if (!found) return;
     const auto word = found->word(limits);
     if (word)
-      out.push_back(fmt::format("{}: {} (S = {:.4f})", what, fit::name_of(*word), *found->index));
+      out.push_back(core::phrase("{}: {} (S = {:.4f})", what, core::Phrase(fit::name_of(*word)),
+                                 *found->index));
   };
-  say("total", study.total);
-  say("following part", study.following);
-  say("non-following part", study.rest);
-  say("main journals", study.main);
-  say("axis error of C", study.c_error);
-  say("axis error of X", study.x_error);
+  say(core::phrase("total"), study.total);
+  say(core::phrase("following part"), study.following);
+  say(core::phrase("non-following part"), study.rest);
+  say(core::phrase("main journals"), study.main);
+  say(core::phrase("axis error of C"), study.c_error);
+  say(core::phrase("axis error of X"), study.x_error);
   const auto word_of = [&](const std::optional<fit::Repeatability>& found) {
     return found ? found->word(limits) : std::nullopt;
   };
   if (word_of(study.following) == fit::StabilityWord::kStable) {
     out.push_back(
         study.amplitude_ratio >= 1.0
-            ? "the following part repeats and is the greater one: compensate it in X"
-            : "the following part repeats but is the smaller one: compensation gains little");
+            ? core::phrase("the following part repeats and is the greater one: compensate it in X")
+            : core::phrase(
+                  "the following part repeats but is the smaller one: compensation gains little"));
   }
   if (word_of(study.rest) == fit::StabilityWord::kUnstable) {
-    out.push_back(
+    out.push_back(core::phrase(
         "the non-following part does not repeat: look for a mechanical cause (spindle, "
-        "workhead, tailstock)");
+        "workhead, tailstock)"));
   }
   return out;
 }

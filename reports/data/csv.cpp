@@ -51,12 +51,12 @@ std::string write_results_csv(const record::RunRecord& record,
                                                     : um_field(known->estimate_mm) + "," +
                                                           um_field(known->low_mm) + "," +
                                                           um_field(known->high_mm);
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head,
-                          text_field(feature.feature.id), text_field(asked.id),
-                          evaluation::symbol_of(asked), evaluation::reference_of(asked),
-                          um_field(result.value_mm()), um_field(asked.tolerance_mm),
-                          name_of(result.verdict), text_field(result.reason),
-                          text_field(result.value ? result.value->operator_text() : ""), interval);
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{}\n", head, text_field(feature.feature.id),
+          text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),
+          um_field(result.value_mm()), um_field(asked.tolerance_mm), name_of(result.verdict),
+          text_field(result.reason.english()),
+          text_field(result.value ? result.value->operator_text().english() : ""), interval);
     }
   }
   return text;

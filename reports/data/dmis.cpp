@@ -74,10 +74,10 @@ std::string characteristic_block(const evaluation::CharacteristicResult& result,
   const bool decided = result.verdict == evaluation::Verdict::kConforms ||
                        result.verdict == evaluation::Verdict::kDoesNotConform;
   if (word == nullptr || !decided || !result.value || !asked.tolerance_mm) {
-    if (result.value) text += comment(label, result.value->sentence());
-    return text + comment(label, "no block in DMIS; " + result.reason);
+    if (result.value) text += comment(label, result.value->sentence().english());
+    return text + comment(label, "no block in DMIS; " + result.reason.english());
   }
-  text += comment(label, result.value->sentence());
+  text += comment(label, result.value->sentence().english());
   text += fmt::format("T({})=TOL/{},{}\n", label, word, decimal(*asked.tolerance_mm));
   text += fmt::format("OUTPUT/FA({}),TA({})\n", feature, label);
   text += fmt::format("TA({})=TOL/{},{},{}\n", label, word, decimal(result.value->quoted_mm()),
@@ -106,7 +106,7 @@ std::string feature_block(const evaluation::FeatureResult& feature, std::size_t 
     }
     text += comment(tolerance, fmt::format("{}; {}; {}; {}", result.characteristic.id,
                                            evaluation::symbol_of(result.characteristic),
-                                           name_of(result.verdict), result.reason));
+                                           name_of(result.verdict), result.reason.english()));
   }
   return text;
 }

@@ -65,8 +65,9 @@ record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
   out.characteristic = well_formed(asked.id);
   out.symbol = evaluation::symbol_of(asked);
   out.reference = evaluation::reference_of(asked);
-  out.filter = feature.analysis ? filter_text(*feature.analysis) : "unfiltered";
-  out.sampling = feature.analysis ? sampling_text(*feature.analysis) : sampling_of(feature, asked);
+  out.filter = feature.analysis ? filter_text(*feature.analysis).english() : "unfiltered";
+  out.sampling =
+      feature.analysis ? sampling_text(*feature.analysis).english() : sampling_of(feature, asked);
   if (found.value) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;
   out.verdict = name_of(found.verdict);

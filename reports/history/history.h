@@ -21,7 +21,7 @@ namespace rondure::reports {
 
 /// The run chart as a drawing of the page, and the sentences that belong below it.
 [[nodiscard]] std::string history_drawing(const RunChart& chart);
-[[nodiscard]] std::vector<std::string> history_sentences(const RunChart& chart);
+[[nodiscard]] std::vector<core::Phrase> history_sentences(const RunChart& chart);
 
 /// The header line of the CSV file, and its rows in the order given.
 [[nodiscard]] std::string history_csv_header();

@@ -34,6 +34,11 @@ bool comparable(const ArchivedResult& a, const ArchivedResult& b) {
          a.result.sampling == b.result.sampling && a.result.unit == b.result.unit;
 }
 
+core::Phrase results_were(std::size_t number) {
+  return number == 1 ? core::phrase("{} result was", number)
+                     : core::phrase("{} results were", number);
+}
+
 void choose_results(RunChart& chart, std::span<const ArchivedResult> newest_first) {
   const auto newest = std::find_if(newest_first.begin(), newest_first.end(), has_value);
   std::size_t without = 0;
@@ -50,19 +55,19 @@ void choose_results(RunChart& chart, std::span<const ArchivedResult> newest_firs
   std::reverse(chart.results.begin(), chart.results.end());
   if (others > 0) {
     chart.notes.push_back(
-        fmt::format("{} left out: other part, characteristic, reference, filter or sampling, or "
-                    "simulated beside real; filter for them to see them",
-                    count(others, "result was", "results were")));
+        core::phrase("{} left out: other part, characteristic, reference, filter or sampling, or "
+                     "simulated beside real; filter for them to see them",
+                     results_were(others)));
   }
   if (without > 0) {
-    chart.notes.push_back(fmt::format("{} void or without a value and left out",
-                                      count(without, "result was", "results were")));
+    chart.notes.push_back(
+        core::phrase("{} void or without a value and left out", results_were(without)));
   }
 }
 
 /// A note when the results differ in something that may move a value, but does not make it
 /// another quantity.
-void note_mixture(RunChart& chart, std::string_view what,
+void note_mixture(RunChart& chart, const core::Phrase& what,
                   const std::function<std::string(const ArchivedResult&)>& part) {
   std::set<std::string> kinds;
   for (const ArchivedResult& r : chart.results) kinds.insert(part(r));
@@ -76,21 +81,22 @@ void note_mixture(RunChart& chart, std::string_view what,
     names.append(names.empty() ? "" : ", ");
     names.append(kind.empty() ? std::string("not given") : shortened(printable(kind), 30));
   }
-  chart.notes.push_back(fmt::format("mixed: {} {} ({})", kinds.size(), what, names));
+  chart.notes.push_back(core::phrase("mixed: {} {} ({})", kinds.size(), what, names));
 }
 
 void note_mixtures(RunChart& chart) {
   if (chart.results.front().head.simulated) {
-    chart.notes.emplace_back("simulated: no real part was measured");
+    chart.notes.push_back(core::phrase("simulated: no real part was measured"));
   }
-  note_mixture(chart, "machines", [](const auto& r) { return r.head.machine; });
-  note_mixture(chart, "fixtures", [](const auto& r) { return r.head.fixture; });
-  note_mixture(chart, "persons", [](const auto& r) { return r.head.operator_name; });
-  note_mixture(chart, "versions of the program", [](const auto& r) { return r.head.version; });
-  note_mixture(chart, "plans", [](const auto& r) {
+  note_mixture(chart, core::phrase("machines"), [](const auto& r) { return r.head.machine; });
+  note_mixture(chart, core::phrase("fixtures"), [](const auto& r) { return r.head.fixture; });
+  note_mixture(chart, core::phrase("persons"), [](const auto& r) { return r.head.operator_name; });
+  note_mixture(chart, core::phrase("versions of the program"),
+               [](const auto& r) { return r.head.version; });
+  note_mixture(chart, core::phrase("plans"), [](const auto& r) {
     return fmt::format("{} {} {:.8}", r.head.plan_name, r.head.plan_revision, r.head.plan_sha256);
   });
-  note_mixture(chart, "upper limits", [](const auto& r) {
+  note_mixture(chart, core::phrase("upper limits"), [](const auto& r) {
     return r.result.upper_limit ? um(*r.result.upper_limit) + " um" : std::string("none");
   });
 }
@@ -105,7 +111,7 @@ bool is_one_part(const RunChart& chart) {
 void add_limits(RunChart& chart, const std::vector<double>& values) {
   const auto limits = control_limits(values);
   if (!limits) {
-    chart.notes.push_back(fmt::format("no control limits: {}", limits.error().what));
+    chart.notes.push_back(core::phrase("no control limits: {}", limits.error().said()));
     return;
   }
   chart.limits = *limits;
@@ -114,25 +120,25 @@ void add_limits(RunChart& chart, const std::vector<double>& values) {
   }
   chart.allowed_beyond = static_cast<std::size_t>(0.0027 * static_cast<double>(values.size()));
   if (values.size() < kEnoughForLimits) {
-    chart.notes.push_back(fmt::format("control limits are provisional: {} results, {} are needed",
-                                      values.size(), kEnoughForLimits));
+    chart.notes.push_back(core::phrase("control limits are provisional: {} results, {} are needed",
+                                       values.size(), kEnoughForLimits));
   }
 }
 
 void add_capability(RunChart& chart, const std::vector<double>& values) {
   if (!chart.upper_limit_mm) {
-    chart.notes.emplace_back("no capability: the characteristic has no tolerance");
+    chart.notes.push_back(core::phrase("no capability: the characteristic has no tolerance"));
     return;
   }
   if (values.size() > 1 && is_one_part(chart)) {
-    chart.notes.emplace_back(
+    chart.notes.push_back(core::phrase(
         "no capability: all results are of one serial number; they show how well it is measured, "
-        "not what the process makes");
+        "not what the process makes"));
     return;
   }
   const auto capability = upper_capability(values, *chart.upper_limit_mm);
   if (!capability) {
-    chart.notes.push_back(fmt::format("no capability: {}", capability.error().what));
+    chart.notes.push_back(core::phrase("no capability: {}", capability.error().said()));
     return;
   }
   chart.capability = *capability;
@@ -140,13 +146,15 @@ void add_capability(RunChart& chart, const std::vector<double>& values) {
                           values.size() >= kEnoughForIndex;
   chart.index_name = controlled ? "CpkU" : "PpkU";
   if (values.size() < kEnoughForIndex) {
-    chart.notes.push_back(fmt::format("{} is a rough estimate: {} results, {} are needed",
-                                      chart.index_name, values.size(), kEnoughForIndex));
+    chart.notes.push_back(core::phrase("{} is a rough estimate: {} results, {} are needed",
+                                       chart.index_name, values.size(), kEnoughForIndex));
   } else if (!controlled) {
     chart.notes.push_back(
-        fmt::format("performance (PpkU), not capability (CpkU): {} beyond the control limits, {} "
-                    "expected of a stable process",
-                    count(chart.beyond.size(), "result", "results"), chart.allowed_beyond));
+        core::phrase("performance (PpkU), not capability (CpkU): {} beyond the control limits, {} "
+                     "expected of a stable process",
+                     chart.beyond.size() == 1 ? core::phrase("{} result", chart.beyond.size())
+                                              : core::phrase("{} results", chart.beyond.size()),
+                     chart.allowed_beyond));
   }
 }
 
@@ -188,18 +196,19 @@ std::vector<double> values_of(const RunChart& chart) {
   return out;
 }
 
-std::string capability_in_words(const RunChart& chart) {
+core::Phrase capability_in_words(const RunChart& chart) {
   if (!chart.capability) return {};
   const Capability& c = *chart.capability;
-  std::string text = fmt::format("{} {}", chart.index_name, fixed(c.index, 2));
+  core::Phrase index = core::phrase("{} {}", chart.index_name, fixed(c.index, 2));
   if (c.lower_bound) {
-    text += fmt::format(", at least {} with 95 % confidence", fixed(*c.lower_bound, 2));
+    index = core::phrase("{}, at least {} with 95 % confidence", index, fixed(*c.lower_bound, 2));
   }
   const bool model = c.method == Capability::Method::kLogNormal;
-  text += fmt::format("; median {} um, 99.865 % point {} um of the {}", um(c.median_mm),
-                      um(c.upper_point_mm),
-                      model ? "fitted log-normal distribution" : "results themselves");
-  return text + fmt::format(" (Anderson-Darling p = {:.2g})", c.fit_p);
+  const core::Phrase percentiles = core::phrase(
+      "median {} um, 99.865 % point {} um of the {}", um(c.median_mm), um(c.upper_point_mm),
+      model ? core::phrase("fitted log-normal distribution") : core::phrase("results themselves"));
+  return core::phrase("{} ({})", joined(index, percentiles),
+                      core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
 }
 
 }  // namespace rondure::reports

@@ -23,7 +23,7 @@ struct RunChart {
   std::optional<Capability> capability;
   std::string index_name;  ///< "CpkU" in statistical control, otherwise "PpkU".
   /// Sentences on results left out, missing statistics and mixed conditions.
-  std::vector<std::string> notes;
+  std::vector<core::Phrase> notes;
 };
 
 /// Makes the chart of the newest result's characteristic; empty when there is none with a value.
@@ -43,6 +43,6 @@ struct ChartRange {
 [[nodiscard]] std::vector<double> values_of(const RunChart& chart);
 
 /// "PpkU 1.23, at least 1.05 with 95 % confidence; log-normal, ..."; empty without an index.
-[[nodiscard]] std::string capability_in_words(const RunChart& chart);
+[[nodiscard]] core::Phrase capability_in_words(const RunChart& chart);
 
 }  // namespace rondure::reports

@@ -153,24 +153,24 @@ std::string history_drawing(const RunChart& chart) {
   return svg.str();
 }
 
-std::vector<std::string> history_sentences(const RunChart& chart) {
-  std::vector<std::string> out;
+std::vector<core::Phrase> history_sentences(const RunChart& chart) {
+  std::vector<core::Phrase> out;
   if (chart.limits) {
-    out.emplace_back(
+    out.push_back(core::phrase(
         "UCL, LCL: control limits of individuals, 3 sigma from moving ranges of ln x (I-MR chart). "
-        "Triangle: beyond a control limit; cross: beyond the tolerance.");
+        "Triangle: beyond a control limit; cross: beyond the tolerance."));
   }
   if (chart.upper_limit_mm && !range_of(chart).limit_shown) {
     out.push_back(
-        fmt::format("The tolerance, {} um, is above the chart.", um(*chart.upper_limit_mm)));
+        core::phrase("The tolerance, {} um, is above the chart.", um(*chart.upper_limit_mm)));
   }
-  for (const std::string& note : chart.notes) out.push_back(fmt::format("Note: {}.", note));
+  for (const core::Phrase& note : chart.notes) out.push_back(core::phrase("Note: {}.", note));
   return out;
 }
 
 std::string history_svg(const RunChart& chart) {
   std::vector<std::string> lines;
-  for (const std::string& sentence : history_sentences(chart)) {
+  for (const core::Phrase& sentence : history_sentences(chart)) {
     for (const std::string& line : lines_within(with_micro_sign(sentence))) lines.push_back(line);
   }
   const auto index = lines_within(with_micro_sign(capability_in_words(chart)), kIndexLetters);

@@ -176,7 +176,7 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   if (const std::string words = capability_in_words(chart); !words.empty()) {
     out.append("\n").append(wrapped("", words));
   }
-  for (const std::string& note : chart.notes) out += wrapped("note: ", note);
+  for (const core::Phrase& note : chart.notes) out += wrapped("note: ", note.english());
   return out;
 }
 

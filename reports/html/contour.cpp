@@ -185,7 +185,7 @@ std::string part_table(const evaluation::ContourResult& facts) {
 
 std::string verdict_list(const evaluation::ContourResult& facts) {
   std::string html = "<ul>";
-  for (const std::string& verdict : contour_verdicts(facts.study, facts.options.limits)) {
+  for (const core::Phrase& verdict : contour_verdicts(facts.study, facts.options.limits)) {
     html += fmt::format("<li>{}</li>", in_sentence(verdict));
   }
   return html + "</ul>";

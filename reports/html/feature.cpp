@@ -99,9 +99,9 @@ std::string pose_entries(const evaluation::FeatureResult& feature) {
   if (const evaluation::PoseValue* pose = final_pose_of(feature)) {
     const std::string angles =
         fmt::format("alpha {}°, beta {}°", deg(pose->pose.alpha_rad), deg(pose->pose.beta_rad));
-    html +=
-        entry(tr("f of the final pose"), pose->valid ? with_note(f_um(pose->f_mm) + " µm", angles)
-                                                     : with_note(tr("none"), worded(pose->ending)));
+    html += entry(tr("f of the final pose"),
+                  pose->valid ? with_note(f_um(pose->f_mm) + " µm", angles)
+                              : with_note(tr("none"), worded(core::Phrase(pose->ending))));
   }
   if (feature.levelling_pose) {
     html += entry(tr("Levelling pose"),
@@ -188,8 +188,8 @@ std::string truth_text(const record::RunRecord& record, std::size_t index) {
   std::string text;
   for (const record::TruthValue& truth : record.truth_values) {
     if (static_cast<std::size_t>(truth.feature) != index) continue;
-    text +=
-        fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", plain_words(truth.name), truth.value);
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ",
+                        plain_words(core::Phrase(truth.name)), truth.value);
   }
   return text;
 }
@@ -244,7 +244,7 @@ std::string messages(const evaluation::FeatureResult& feature) {
   for (const core::Error& warning : feature.warnings) {
     html += fmt::format(
         R"(<li><b>{}</b> {}{} <span class="code">{}</span>{}</li>)", tr("Warning:"),
-        titled(warning.code), in_sentence(warning.what), core::code_name(warning.code),
+        titled(warning.code), in_sentence(warning.said()), core::code_name(warning.code),
         warning.where.empty() ? std::string() : fmt::format(" {}", foreign(warning.where)));
   }
   return html + "</ul>";

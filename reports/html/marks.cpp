@@ -80,7 +80,7 @@ std::string tolerance_bar(const evaluation::CharacteristicResult& result, double
   if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
   if (outcome) end_mm = std::max(end_mm, 1.05 * outcome->rejection_mm);
   const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
-  std::string label = trf("{} of {} um", result.value->value_text(), um(tolerance_mm));
+  std::string label = trf("{} of {} um", result.value->value_text().english(), um(tolerance_mm));
   if (outcome && outcome->acceptance_mm < tolerance_mm) {
     label += trf(", accepted up to {} um", um(outcome->acceptance_mm));
   }

@@ -249,7 +249,8 @@ std::string pose_table(const evaluation::FeatureResult& feature) {
     expected = i + 1;
     const evaluation::PoseValue& pose = poses[i];
     rows.push_back({std::to_string(i + 1), deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
-                    pose.valid ? core::f_um(pose.f_mm) : tr("none"), worded(pose.ending),
+                    pose.valid ? core::f_um(pose.f_mm) : tr("none"),
+                    worded(core::Phrase(pose.ending)),
                     (pose.physical ? tr("physical") : tr("software")) +
                         (pose.final_pose ? fmt::format(", <b>{}</b>", tr("final")) : "")});
   }
@@ -283,7 +284,7 @@ std::string merged_section(const evaluation::MergedPoses& merged) {
           count(merged.solved->shared, "target was", "targets were"), fixed(merged.solved->chi2, 1),
           merged.solved->chi2_freedom, fixed(merged.solved->chi2_limit, 1)));
   html += R"(<ul class="warnings">)";
-  for (const std::string& statement : merged.solved->statements)
+  for (const core::Phrase& statement : merged.solved->statements)
     html += fmt::format("<li>{}</li>", trf("{}.", opening_sentence(statement)));
   return html + "</ul>";
 }

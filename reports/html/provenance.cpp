@@ -30,7 +30,9 @@ std::string mono(const std::string& text) {
 std::string text_or_dash(const std::string& text) { return text.empty() ? "–" : isolated(text); }
 
 /// The same for a text of the program.
-std::string words_or_dash(const std::string& text) { return text.empty() ? "–" : worded(text); }
+std::string words_or_dash(const std::string& text) {
+  return text.empty() ? "–" : worded(core::Phrase(text));
+}
 
 /// A sentence that a journal holds stays as it is in English.
 std::string decision_html(const record::Decision& decision) {
@@ -63,7 +65,7 @@ std::string calibration_row(const std::optional<evaluation::FixtureUse>& use) {
       um(use->residual_rms_mm), um(use->residual_max_mm), fixed(use->residual_tilt_rad * 1e6, 1));
   if (use->invalid) {
     text += fmt::format("; <b>{}</b> {}{}", tr("it does not hold:"), titled(use->invalid->code),
-                        in_sentence(use->invalid->what));
+                        in_sentence(use->invalid->said()));
   }
   return property(tr("Calibration of the fixture"), text);
 }
@@ -150,10 +152,10 @@ std::string history_section(const record::RunRecord& record,
     html += fmt::format(R"(<h3>{} · {}</h3><figure><div class="scroll">{}</div><figcaption>)",
                         isolated(result.characteristic),
                         trf("Feature {}", isolated(result.feature)), history_drawing(chart));
-    if (const std::string words = capability_in_words(chart); !words.empty()) {
+    if (const core::Phrase words = capability_in_words(chart); !words.empty()) {
       html += "<b>" + in_sentence(words) + "</b> ";
     }
-    for (const std::string& sentence : history_sentences(chart))
+    for (const core::Phrase& sentence : history_sentences(chart))
       html += in_sentence(sentence) + " ";
     html += "</figcaption></figure>";
   }

@@ -78,7 +78,7 @@ std::string finding_entry(const evaluation::UncertaintyResult& u) {
     }
     note += trf("; spots at points {}", rows);
   }
-  for (const std::string& said : u.notes) note += "; " + in_sentence(said);
+  for (const core::Phrase& said : u.notes) note += "; " + in_sentence(said);
   return entry(tr("Made of"),
                with_note(trf("noise {} µm a point, rougher form {} µm, {} undulations, {} spots",
                              fixed(1e3 * found.noise_mm, 3), fixed(1e3 * found.unresolved_mm, 3),
@@ -92,7 +92,7 @@ std::string declaration(const std::vector<evaluation::InfluenceStatement>& influ
   for (const bool covered : {true, false}) {
     for (const evaluation::InfluenceStatement& influence : influences) {
       if (influence.covered != covered) continue;
-      rows.push_back({worded(influence.name),
+      rows.push_back({worded(core::Phrase(influence.name)),
                       covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
                       in_sentence(influence.text)});
     }

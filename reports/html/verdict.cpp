@@ -54,7 +54,7 @@ std::string unfinished_banner(const record::RunRecord& record,
   std::string html =
       fmt::format(R"(<div class="banner alarm"><b>{}</b> )", tr("This run did not finish."));
   html += record.ending.empty() ? tr("It has no end on record.")
-                                : trf("It ended: {}.", worded(record.ending));
+                                : trf("It ended: {}.", worded(core::Phrase(record.ending)));
   if (record.failure) {
     html += fmt::format(R"( {} {}{} <span class="code">{}</span>)", tr("Reason:"),
                         titled(record.failure->code), foreign(record.failure->what),

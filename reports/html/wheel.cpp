@@ -290,7 +290,7 @@ std::string runout_entry(const fit::WheelMeasurement& m) {
     return entry(tr("Radial run-out"), with_note(tr("not stated"), plain_words(m.runout_absent)));
   }
   const std::string fim = um(m.runout->fim_mm) + " µm";
-  if (const std::string& bound = m.runout->bound_because; !bound.empty()) {
+  if (const core::Phrase& bound = m.runout->bound_because; !bound.empty()) {
     return entry(tr("Radial run-out"), with_note("≥ " + fim, in_sentence(bound)));
   }
   return entry(
@@ -390,7 +390,7 @@ std::string path_part(const evaluation::WheelResult& facts) {
   std::string html = fmt::format("<h3>{}</h3>", tr("Way of the wheel's centre"));
   if (e.refused) {
     return html + fmt::format(R"(<p class="banner alarm"><b>{}</b> {}{}</p>)", tr("No path:"),
-                              titled(e.refused->code), trf("{}.", in_sentence(e.refused->what)));
+                              titled(e.refused->code), trf("{}.", in_sentence(e.refused->said())));
   }
   html += path_text(*e.path, e.radius);
   if (e.radius == fit::RadiusChoice::kMean && e.wheel.runout) {

@@ -23,7 +23,7 @@ namespace {
 /// A line of the terminal's summary: at most 13 characters of name, then text.
 struct SummaryLine {
   std::string name;
-  std::string text;
+  core::Phrase text;
 };
 
 using core::um;
@@ -38,45 +38,46 @@ std::vector<SummaryLine> lines_of(const evaluation::SpindleResult& facts) {
                    [](char c) { return static_cast<char>(c - 'a' + 'A'); });
     part += fmt::format("{}{}CI {} um", part.empty() ? "RONt " : ", ", name, um(value.total_mm));
   }
-  out.push_back({"part", part + "; " + filter_text(facts)});
+  out.push_back({"part", core::phrase("{}; {}", core::as_it_is(part), filter_text(facts))});
   const auto direction = [](const char* name, const fit::AxisMotion& m) {
     if (!m.asynchronous_mm) {
-      return fmt::format("{}: total {} um, synchronous {} um", name, um(m.total_mm),
-                         um(m.synchronous_mm));
+      return core::phrase("{}: total {} um, synchronous {} um", name, um(m.total_mm),
+                          um(m.synchronous_mm));
     }
-    return fmt::format("{}: total {} um, synchronous {} um, asynchronous {} um", name,
-                       um(m.total_mm), um(m.synchronous_mm), um(*m.asynchronous_mm));
+    return core::phrase("{}: total {} um, synchronous {} um, asynchronous {} um", name,
+                        um(m.total_mm), um(m.synchronous_mm), um(*m.asynchronous_mm));
   };
-  out.push_back({"motion", direction("X", facts.x) + "; " + direction("Y", facts.y)});
-  out.push_back({"eccentricity", um(s.eccentricity_mm) + " um"});
+  out.push_back({"motion", joined(direction("X", facts.x), direction("Y", facts.y))});
+  out.push_back({"eccentricity", core::phrase("{} um", um(s.eccentricity_mm))});
   const fit::WorstGain worst = fit::worst_gain(s.layout, 2, s.harmonics.back().order);
-  out.push_back(
-      {"noise gain", fmt::format("at most {:.2f}, at harmonic {}; profile known to {} um (rms, one "
-                                 "standard uncertainty)",
-                                 worst.gain, worst.order, um(s.profile_sigma_mm))});
+  out.push_back({"noise gain",
+                 core::phrase("at most {:.2f}, at harmonic {}; profile known to {} um (rms, one "
+                              "standard uncertainty)",
+                              worst.gain, worst.order, um(s.profile_sigma_mm))});
   return out;
 }
 
 std::vector<SummaryLine> lines_of(const evaluation::WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   std::vector<SummaryLine> out = {
-      {"wheel", fmt::format("R {:.6f} mm, u(R) {} um, PV {} um, centre ({:.6f}, {:.6f}) mm",
-                            m.radius_mm, um(m.radius_uncertainty_mm), um(m.deviation_mm),
-                            m.center_mm.x(), m.center_mm.y())}};
+      {"wheel", core::phrase("R {:.6f} mm, u(R) {} um, PV {} um, centre ({:.6f}, {:.6f}) mm",
+                             m.radius_mm, um(m.radius_uncertainty_mm), um(m.deviation_mm),
+                             m.center_mm.x(), m.center_mm.y())}};
   if (m.runout) {
-    const std::string& bound = m.runout->bound_because;
-    out.push_back({"run-out",
-                   bound.empty() ? fmt::format("{} um; effective radius {:.6f} mm",
-                                               um(m.runout->fim_mm), m.runout->effective_radius_mm)
-                                 : fmt::format("at least {} um: {}", um(m.runout->fim_mm), bound)});
+    const core::Phrase& bound = m.runout->bound_because;
+    out.push_back(
+        {"run-out", bound.empty()
+                        ? core::phrase("{} um; effective radius {:.6f} mm", um(m.runout->fim_mm),
+                                       m.runout->effective_radius_mm)
+                        : core::phrase("at least {} um: {}", um(m.runout->fim_mm), bound)});
   }
   const auto& e = facts.evaluation;
   if (e.path) {
     out.push_back(
-        {"path", fmt::format("{} places, R k_s at most {:.4f}, PV left {} um", e.path->rows.size(),
-                             e.path->load.load, um(e.forecast->measured.deviation_mm))});
+        {"path", core::phrase("{} places, R k_s at most {:.4f}, PV left {} um", e.path->rows.size(),
+                              e.path->load.load, um(e.forecast->measured.deviation_mm))});
   }
-  if (e.refused) out.push_back({"no path", e.refused->what});
+  if (e.refused) out.push_back({"no path", e.refused->said()});
   return out;
 }
 
@@ -84,12 +85,13 @@ std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
   std::vector<SummaryLine> out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const fit::ContourPartResult& part = facts.study.parts[i];
-    out.push_back({"part", fmt::format("{}: contour {} um PV; following {} um, not following {} um",
-                                       facts.names[i], um(part.pin.contour.peak_to_valley_mm),
-                                       um(part.following.peak_to_valley_mm),
-                                       um(fit::peak_to_valley(part.direct.rest_mm)))});
+    out.push_back(
+        {"part",
+         core::phrase("{}: contour {} um PV; following {} um, not following {} um", facts.names[i],
+                      um(part.pin.contour.peak_to_valley_mm), um(part.following.peak_to_valley_mm),
+                      um(fit::peak_to_valley(part.direct.rest_mm)))});
   }
-  for (const std::string& verdict : contour_verdicts(facts.study, facts.options.limits)) {
+  for (const core::Phrase& verdict : contour_verdicts(facts.study, facts.options.limits)) {
     out.push_back({out.size() == facts.study.parts.size() ? "stability" : "", verdict});
   }
   return out;
@@ -98,15 +100,16 @@ std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
 std::vector<SummaryLine> lines_of(const evaluation::RotaryResult& facts) {
   const fixture::Verification& v = facts.calibration.verification;
   std::vector<SummaryLine> out = {
-      {"fixture", fmt::format("{}, valid until {}", facts.calibration.fixture_id,
-                              facts.calibration.expires_utc)},
-      {"before", fmt::format("{} um rms, {} um at most", um(v.before_rms_mm), um(v.before_max_mm))},
-      {"compensated", fmt::format("{} um rms, {} um at most; {} um rms expected", um(v.rms_mm),
-                                  um(v.max_mm), um(v.expected_mm))}};
+      {"fixture", core::phrase("{}, valid until {}", facts.calibration.fixture_id,
+                               facts.calibration.expires_utc)},
+      {"before",
+       core::phrase("{} um rms, {} um at most", um(v.before_rms_mm), um(v.before_max_mm))},
+      {"compensated", core::phrase("{} um rms, {} um at most; {} um rms expected", um(v.rms_mm),
+                                   um(v.max_mm), um(v.expected_mm))}};
   return out;
 }
 
-/// What the summary says of an analysis, in English.
+/// What the summary says of an analysis.
 std::vector<SummaryLine> summary_lines(const evaluation::AnalysisResult& result) {
   return std::visit([](const auto& found) { return lines_of(found); }, result.found);
 }
@@ -123,12 +126,14 @@ void add_wrapped(std::string& out, std::string_view head, std::string_view text)
   out += wrapped(padded(head, kValueColumn), text, LineBreaks::kAtWideCharacters);
 }
 
-/// An error of another room: the title of its code, then its English sentence.
-/// Words of evaluation in the language of the report, else as they are.
-std::string words(std::string_view english) { return told(english).value_or(std::string(english)); }
+/// Words of evaluation in the language of the report, else in English.
+std::string words(const core::Phrase& phrase) {
+  return in_words(phrase).value_or(phrase.english());
+}
 
+/// An error of another room: the title of its code, then its sentence.
 std::string line_of(core::Error error) {
-  error.what = words(error.what);
+  error.what = words(error.said());
   return titled(error.code) + core::to_line(error);
 }
 
@@ -156,7 +161,8 @@ void add_head(std::string& out, const record::RunRecord& record,
   if (header.simulated) add_wrapped(out, tr("simulated"), tr("no real part was measured"));
   if (record.ending == "finished") return;
   add_wrapped(out, tr("not finished"),
-              record.ending.empty() ? tr("the run has no end on record") : words(record.ending));
+              record.ending.empty() ? tr("the run has no end on record")
+                                    : words(core::Phrase(record.ending)));
   if (record.failure) add_wrapped(out, tr("reason"), line_of(*record.failure));
   for (const std::string& part_missing : missing_parts(record, evaluation)) {
     add_wrapped(out, tr("missing"), part_missing);
@@ -187,7 +193,7 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
                 tr(most->name), 100.0 * most->share_1);
   }
   add_wrapped(out, "    " + tr("bias"), bias);
-  for (const std::string& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
+  for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
 }
 
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
@@ -302,7 +308,7 @@ void add_analysis(std::string& out, const record::RunRecord& record, std::size_t
     if (static_cast<std::size_t>(truth.feature) != index) continue;
     add_wrapped(out, "  " + tr("hidden truth"),
                 trf("{} (of the simulation, not of the measurement)",
-                    fmt::format("{} {:.6g}", words(truth.name), truth.value)));
+                    fmt::format("{} {:.6g}", words(core::Phrase(truth.name)), truth.value)));
   }
 }
 

@@ -1,12 +1,11 @@
 #include "reports/words/language.h"
 
-#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
 
-#include "reports/words/internal/sentence_format.h"
 #include "reports/words/internal/zh.h"
 
 namespace rondure::reports {
@@ -16,69 +15,16 @@ thread_local Language the_language = Language::kEnglish;
 
 using Table = std::unordered_map<std::string_view, std::string_view>;
 
-/// The texts of the catalogue by the English one, but for the titles of codes. Where a text is also
-/// a sentence, that of tr() counts: it may state how its arguments are written.
+/// The texts of the catalogue by the English one, but for the titles of codes.
 const Table& table() {
   static const Table all = [] {
     Table out;
     for (const Translation& line : chinese_texts()) {
-      if (line.context.empty()) out.insert_or_assign(line.english, line.chinese);
-      if (line.context == Translation::kSentence) out.emplace(line.english, line.chinese);
+      if (line.context.empty()) out.emplace(line.english, line.chinese);
     }
     return out;
   }();
   return all;
-}
-
-/// A format in both languages.
-struct TwoFormats {
-  SentenceFormat english;
-  SentenceFormat chinese;
-};
-
-/// The formats of sentences, those with the longest words first: the most particular one counts.
-const std::vector<TwoFormats>& sentences() {
-  static const auto all = [] {
-    std::vector<TwoFormats> out;
-    for (const Translation& line : chinese_texts()) {
-      if (line.context != Translation::kSentence) continue;
-      if (line.english.find('{') == std::string_view::npos) continue;
-      out.push_back({SentenceFormat(line.english), SentenceFormat(line.chinese)});
-    }
-    std::stable_sort(out.begin(), out.end(), [](const TwoFormats& a, const TwoFormats& b) {
-      return a.english.letters() > b.english.letters();
-    });
-    return out;
-  }();
-  return all;
-}
-
-/// The parts of a list in its order, each one told.
-std::optional<std::string> told_list(std::string_view english, std::string_view separator,
-                                     std::string_view chinese_separator) {
-  std::string out;
-  for (;;) {
-    const std::size_t end = english.find(separator);
-    const auto part = told(english.substr(0, end));
-    if (!part) return std::nullopt;
-    out += *part;
-    if (end == std::string_view::npos) return out;
-    out += chinese_separator;
-    english.remove_prefix(end + separator.size());
-  }
-}
-
-/// One format with its arguments told; nothing where one of them is not known.
-std::optional<std::string> filled(const TwoFormats& format, std::string_view english) {
-  auto arguments = format.english.arguments_of(english);
-  if (!arguments) return std::nullopt;
-  for (std::size_t i = 0; i < arguments->size(); ++i) {
-    if (format.chinese.stays(i)) continue;
-    auto in_words = told((*arguments)[i]);
-    if (!in_words) return std::nullopt;
-    (*arguments)[i] = *std::move(in_words);
-  }
-  return format.chinese.with(*arguments);
 }
 
 }  // namespace
@@ -107,17 +53,19 @@ std::string tr(std::string_view english) {
   return std::string(found == table().end() ? english : found->second);
 }
 
-std::optional<std::string> told(std::string_view english) {
-  if (the_language == Language::kEnglish || has_no_words(english)) return std::string(english);
-  if (const auto found = table().find(english); found != table().end()) {
-    return std::string(found->second);
+std::optional<std::string> in_words(const core::Phrase& phrase) {
+  if (the_language == Language::kEnglish || phrase.empty()) return phrase.english();
+  const auto found = table().find(phrase.format());
+  if (found == table().end()) return std::nullopt;
+  std::vector<core::Phrase::Argument> arguments = phrase.arguments();
+  for (core::Phrase::Argument& argument : arguments) {
+    const auto* part = std::get_if<core::Phrase>(&argument.value);
+    if (part == nullptr) continue;
+    const auto words = in_words(*part);
+    if (!words) return std::nullopt;
+    argument = core::Phrase::Argument(*words);
   }
-  for (const TwoFormats& format : sentences()) {
-    if (auto out = filled(format, english)) return out;
-  }
-  if (english.find("; ") != std::string_view::npos) return told_list(english, "; ", "；");
-  if (english.find(", ") != std::string_view::npos) return told_list(english, ", ", "，");
-  return std::nullopt;
+  return core::filled(found->second, arguments);
 }
 
 std::string title_of(core::Code code) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/phrase.h"
 
 namespace rondure::reports {
 
@@ -65,11 +66,10 @@ template <class... Args>
 /// The text with the first letter in upper case (ASCII).
 [[nodiscard]] std::string capitalised(std::string_view text);
 
-/// A sentence that evaluation made in English ("8.3 um is within the tolerance of 10 um by 1.7
-/// um"), in the language of the report: recognised by the formats of the table, and so are its
-/// parts. In English the sentence itself. Nothing where it is not known or not whole: the report
-/// then shows the English one and says that it is English.
-[[nodiscard]] std::optional<std::string> told(std::string_view english);
+/// A sentence that another room made as data, in the language of the report. Nothing where the
+/// catalogue lacks it or a part of it (a text of a machine or of an old journal): the report then
+/// shows the English one and says that it is English.
+[[nodiscard]] std::optional<std::string> in_words(const core::Phrase& phrase);
 
 /// What a code means, as the title of an error or a warning: "点太少". Empty in English, where the
 /// sentence says it.

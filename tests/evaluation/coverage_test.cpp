@@ -328,7 +328,7 @@ evaluation::FormSpectrum true_spectrum() {
   evaluation::FormSpectrum spectrum;
   spectrum.low_mm = -kHalf;
   spectrum.high_mm = kHalf;
-  spectrum.source = "declared";
+  spectrum.source = core::Phrase("declared");
   spectrum.terms = {{0, 1, 0.8e-3}, {0, 2, 0.6e-3}, {1, 2, 0.6e-3}};
   for (int p = 2; p <= 9; ++p) {
     for (int degree = 0; degree <= 2; ++degree) {

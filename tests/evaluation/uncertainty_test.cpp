@@ -100,7 +100,7 @@ evaluation::FormSpectrum spectrum() {
   evaluation::FormSpectrum out;
   out.low_mm = -40.0;
   out.high_mm = 40.0;
-  out.source = "declared";
+  out.source = core::Phrase("declared");
   out.terms = {{0, 1, 0.8e-3}, {0, 2, 0.6e-3}, {1, 2, 0.6e-3}};
   for (int p = 2; p <= 7; ++p) {
     for (int degree = 0; degree <= 2; ++degree) {

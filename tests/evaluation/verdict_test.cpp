@@ -209,10 +209,11 @@ void expect_told(const RunRecord& run, const evaluation::Evaluation& evaluation)
   EXPECT_NE(result.reason, "");
   const std::string summary = write_summary(run, evaluation);
   EXPECT_THAT(summary, ::testing::StartsWith("VOID\n"));
-  EXPECT_THAT(testing::one_line(summary), HasSubstr("because " + printable(result.reason)));
+  EXPECT_THAT(testing::one_line(summary),
+              HasSubstr("because " + printable(result.reason.english())));
   const std::string page = write_html(run, evaluation);
   EXPECT_THAT(page, HasSubstr("is-void"));
-  EXPECT_THAT(page, HasSubstr(in_sentence(capitalised(result.reason))));
+  EXPECT_THAT(page, HasSubstr(in_sentence(core::Phrase(capitalised(result.reason.english())))));
 }
 
 struct VoidPath {
@@ -503,9 +504,11 @@ TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWas
 
 TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
   const evaluation::ValueOperator how(
-      evaluation::ReferenceTerm("MZCY"), evaluation::FilterTerm("unfiltered"),
-      evaluation::SamplingTerm("4 x 7 layers"), evaluation::TipTerm("r_tip 1.998"),
-      evaluation::TemperatureTerm("20.3 degC"));
+      evaluation::ReferenceTerm(core::as_it_is("MZCY")),
+      evaluation::FilterTerm(core::phrase("unfiltered")),
+      evaluation::SamplingTerm(core::Phrase("4 x 7 layers")),
+      evaluation::TipTerm(core::Phrase("r_tip 1.998")),
+      evaluation::TemperatureTerm(core::phrase("{:.1f} degC", 20.3)));
   evaluation::UncertaintyResult result;
   result.sampled.estimate_mm = 8.1e-3;
   result.sampled.low_mm = 7.6e-3;
@@ -523,11 +526,11 @@ TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
                                       evaluation::Measurand::kWholeSurface);
   EXPECT_THAT(whole.sentence(), HasSubstr("8.1 um, 95 % [7.6, 12.0]; as read 8.3 um"));
   EXPECT_THAT(whole.sentence(), HasSubstr("; of the whole surface)"));
-  const evaluation::StatedValue bare("CYLt", 8.31e-3, how,
-                                     evaluation::UncertaintyStatus::none("none declared"));
+  const evaluation::StatedValue bare(
+      "CYLt", 8.31e-3, how, evaluation::UncertaintyStatus::none(core::Phrase("none declared")));
   EXPECT_THAT(bare.sentence(), HasSubstr("CYLt = 8.310 um (MZCY"));
   EXPECT_THAT(bare.sentence(), HasSubstr("at the sampled points; no uncertainty stated)"));
-  EXPECT_EQ(evaluation::TipTerm("").words(), "not known");
+  EXPECT_EQ(evaluation::TipTerm(core::Phrase()).words(), "not known");
 }
 
 TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {

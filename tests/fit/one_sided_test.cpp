@@ -11,14 +11,14 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/proof/certificate_check.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/profiles/roundness.h"
+#include "fit/proof/certificate_check.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "fit/profiles/roundness.h"
 #include "fit/zone/fit.h"
 #include "tests/fit/oracles/dial.h"
 
@@ -264,9 +264,9 @@ TEST(OneSidedCylinder, SaysWhatASearchAtItsLimitLeaves) {
     const auto found = fit(points, direction, few);
     ASSERT_TRUE(found.has_value());
     EXPECT_EQ(found->certificate.kind, Certificate::Kind::kLocal);
-    EXPECT_NE(found->certificate.reason.find("were left after"), std::string::npos)
+    EXPECT_NE(found->certificate.reason.english().find("were left after"), std::string::npos)
         << found->certificate.reason;
-    EXPECT_NE(found->certificate.reason.find("from the value found"), std::string::npos);
+    EXPECT_NE(found->certificate.reason.english().find("from the value found"), std::string::npos);
   }
 }
 

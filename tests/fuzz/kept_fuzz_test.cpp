@@ -138,8 +138,9 @@ TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
     if (!parsed) return wrong_with_text(core::printable(core::to_line(parsed.error())));
     for (const reports::RunChart& chart : reports::run_charts(read->record, *evaluation, *parsed)) {
       std::string text = reports::history_drawing(chart) + reports::history_svg(chart) +
-                         reports::history_chart(chart, false) + reports::capability_in_words(chart);
-      for (const std::string& sentence : reports::history_sentences(chart)) text += sentence;
+                         reports::history_chart(chart, false) +
+                         reports::capability_in_words(chart).english();
+      for (const core::Phrase& sentence : reports::history_sentences(chart)) text += sentence;
       if (auto wrong = wrong_with_text(text); !wrong.empty()) return wrong;
     }
     return {};

@@ -238,7 +238,7 @@ TEST(ScanOverWire, IrregularPassesAreNotAveragedByIndex) {
       const double zone_um = seat.mz_cylinder->width_mm() / core::kMicrometre;
       EXPECT_NEAR(zone_um, 5.0, 0.05);
       EXPECT_LT(seat.cloud.size(), 4U * static_cast<unsigned>(points * repeats));
-      EXPECT_NE(seat.characteristics.front().value->operator_text().find(
+      EXPECT_NE(seat.characteristics.front().value->operator_text().english().find(
                     repeats == 1 ? fmt::format("4 x {} points, scanned; r_tip", points)
                                  : "; 5 passes at places of their own, not averaged;"),
                 std::string::npos)

@@ -68,8 +68,11 @@ TEST(Scanning, GivesTheCloudThatTouchesGive) {
     ASSERT_EQ(a[i].point, b[i].point);
   }
   EXPECT_NEAR(scanned.record.truths.front().cylt_mm, zone_mm(scanned), 2e-10);
-  EXPECT_NE(scanned.evaluation.features.front().characteristics.front().value->operator_text().find(
-                "4 x 48 points, scanned"),
+  EXPECT_NE(scanned.evaluation.features.front()
+                .characteristics.front()
+                .value->operator_text()
+                .english()
+                .find("4 x 48 points, scanned"),
             std::string::npos);
 }
 

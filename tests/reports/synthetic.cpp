@@ -87,7 +87,7 @@ fit::MinZoneCircle zone_circle(double mean_mm, double half_mm) {
   circle.center_mm = {0.0123456, -0.0065432};
   circle.inner_radius_mm = mean_mm - half_mm;
   circle.outer_radius_mm = mean_mm + half_mm;
-  circle.certificate = {fit::Certificate::Kind::kGlobal, "all centres", 2.1e-13, ""};
+  circle.certificate = {fit::Certificate::Kind::kGlobal, core::phrase("all centres"), 2.1e-13, {}};
   return circle;
 }
 
@@ -162,13 +162,14 @@ record::Feature land(int layers, int points) {
 
 /// A value with its operator and without an interval.
 evaluation::StatedValue stated(const record::Characteristic& asked, double value_mm,
-                               const std::string& sampling) {
+                               const core::Phrase& sampling) {
   return {symbol_of(asked), value_mm,
-          evaluation::ValueOperator(
-              evaluation::ReferenceTerm(reference_of(asked)), evaluation::FilterTerm("unfiltered"),
-              evaluation::SamplingTerm(sampling), evaluation::TipTerm("r_tip 1.4986 mm"),
-              evaluation::TemperatureTerm("20.12 degC")),
-          evaluation::UncertaintyStatus::none("the plan declares no uncertainty")};
+          evaluation::ValueOperator(evaluation::ReferenceTerm(core::as_it_is(reference_of(asked))),
+                                    evaluation::FilterTerm(core::phrase("unfiltered")),
+                                    evaluation::SamplingTerm(sampling),
+                                    evaluation::TipTerm(core::phrase("r_tip {:.4f} mm", 1.4986)),
+                                    evaluation::TemperatureTerm(core::as_it_is("20.12 degC"))),
+          evaluation::UncertaintyStatus::none(core::phrase("the plan declares no uncertainty"))};
 }
 
 core::Message sentence(const std::string& text) { return {core::MessageCode::kSentence, {text}}; }
@@ -199,8 +200,9 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   zone.inner_radius_mm = mean_mm - kHalfZone;
   zone.outer_radius_mm = mean_mm + kHalfZone;
   add_contacts(feature.cloud, zone.outer, zone.inner);
-  zone.certificate = {fit::Certificate::Kind::kLocal, "next to the least-squares axis", 4.2e-13,
-                      "the global proof covers up to 40 points of one section"};
+  zone.certificate = {fit::Certificate::Kind::kLocal,
+                      core::Phrase("next to the least-squares axis"), 4.2e-13,
+                      core::Phrase("the global proof covers up to 40 points of one section")};
   feature.mz_cylinder = zone;
   feature.ls_cylinder = fit::LsCylinder{zone.axis, mean_mm + 0.0002, 0.00912, 0.00203};
   add_layers(feature, layers, points_per_layer, mean_mm);
@@ -213,10 +215,11 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   feature.temperatures = evaluation::Temperatures{20.1, 20.14, 20.12};
   feature.characteristics.push_back(
       {feature.feature.characteristics.front(),
-       stated(feature.feature.characteristics.front(), 2.0 * kHalfZone,
-              fmt::format("{} x {} points, 3 touches each", layers, points_per_layer)),
+       stated(
+           feature.feature.characteristics.front(), 2.0 * kHalfZone,
+           core::Phrase(fmt::format("{} x {} points, 3 touches each", layers, points_per_layer))),
        evaluation::Verdict::kConforms,
-       "8.300 um is not above the limit of 10.000 um.",
+       core::Phrase("8.300 um is not above the limit of 10.000 um."),
        {},
        {}});
   add_touches(made.record, feature);
@@ -232,23 +235,25 @@ Case failing_case() {
   evaluation::CharacteristicResult& result = feature.characteristics.front();
   result.characteristic.tolerance_mm = 0.006;
   result.verdict = evaluation::Verdict::kDoesNotConform;
-  result.reason = "8.300 um is 2.300 um above the limit of 6.000 um.";
+  result.reason = core::Phrase("8.300 um is 2.300 um above the limit of 6.000 um.");
   record::Characteristic round{"round-A", record::Form::kRoundness,
                                record::Reference::kLeastSquares, 0.012, ""};
-  feature.characteristics.push_back({round,
-                                     stated(round, 0.0071, "worst of 4 layers"),
-                                     evaluation::Verdict::kConforms,
-                                     "7.100 um in layer 3 is not above the limit of 12.000 um.",
-                                     {},
-                                     {}});
+  feature.characteristics.push_back(
+      {round,
+       stated(round, 0.0071, core::Phrase("worst of 4 layers")),
+       evaluation::Verdict::kConforms,
+       core::Phrase("7.100 um in layer 3 is not above the limit of 12.000 um."),
+       {},
+       {}});
   record::Characteristic reported{
       "cyl-LS", record::Form::kCylindricity, record::Reference::kLeastSquares, {}, ""};
-  feature.characteristics.push_back({reported,
-                                     stated(reported, 0.00912, "4 x 7 points"),
-                                     evaluation::Verdict::kNotToleranced,
-                                     "Reported only.",
-                                     {},
-                                     {}});
+  feature.characteristics.push_back(
+      {reported,
+       stated(reported, 0.00912, core::phrase("{} x {} points", 4, 7)),
+       evaluation::Verdict::kNotToleranced,
+       core::Phrase("Reported only."),
+       {},
+       {}});
   feature.warnings.push_back({core::Code::kSparse,
                               "7 points a layer do not show lobes above the third; 15 or more do.",
                               "/features/0/sampling"});
@@ -285,9 +290,9 @@ Case circle_case(int points) {
   feature.layers.push_back(section);
   feature.characteristics.push_back(
       {asked.characteristics.front(),
-       stated(asked.characteristics.front(), 2.0 * kHalfZone, "points as given"),
+       stated(asked.characteristics.front(), 2.0 * kHalfZone, core::phrase("points as given")),
        evaluation::Verdict::kConforms,
-       "8.300 um is not above the limit of 12.000 um.",
+       core::Phrase("8.300 um is not above the limit of 12.000 um."),
        {},
        {}});
   add_touches(made.record, feature);
@@ -338,7 +343,7 @@ Case unfinished_case() {
   feature.characteristics.push_back({second.characteristics.front(),
                                      {},
                                      evaluation::Verdict::kVoid,
-                                     "There is no value.",
+                                     core::Phrase("There is no value."),
                                      {},
                                      {}});
   made.evaluation.features.push_back(feature);
@@ -362,20 +367,21 @@ Case hostile_case(const std::string& text) {
   feature.feature.id = text;
   feature.feature.points_file = text;
   feature.failure = core::Error{core::Code::kRank, text, text};
-  feature.mz_cylinder->certificate.scope = text;
-  feature.mz_cylinder->certificate.reason = text;
+  feature.mz_cylinder->certificate.scope = core::Phrase(text);
+  feature.mz_cylinder->certificate.reason = core::Phrase(text);
   for (evaluation::PoseValue& pose : feature.poses) pose.ending = text;
   for (core::Error& warning : feature.warnings) warning = {warning.code, text, text};
   for (evaluation::CharacteristicResult& result : feature.characteristics) {
+    const core::Phrase said(text);
     result.characteristic.id = text;
     result.characteristic.drawing_zone = text;
-    result.reason = text;
+    result.reason = core::Phrase(text);
     result.value.emplace(
         text, 0.0083,
-        evaluation::ValueOperator(evaluation::ReferenceTerm(text), evaluation::FilterTerm(text),
-                                  evaluation::SamplingTerm(text), evaluation::TipTerm(text),
-                                  evaluation::TemperatureTerm(text)),
-        evaluation::UncertaintyStatus::none(text));
+        evaluation::ValueOperator(evaluation::ReferenceTerm(said), evaluation::FilterTerm(said),
+                                  evaluation::SamplingTerm(said), evaluation::TipTerm(said),
+                                  evaluation::TemperatureTerm(said)),
+        evaluation::UncertaintyStatus::none(said));
   }
   return made;
 }

@@ -66,8 +66,9 @@ TEST(Ticks, AreRoundAndInside) {
 }
 
 TEST(Text, OfTheProgramShowsUnitsWithTheirSigns) {
-  EXPECT_EQ(in_sentence("5 um is within 12 um"), "<bdi>5 µm is within 12 µm</bdi>");
-  EXPECT_EQ(in_sentence("20.4 degC, an umbrella, <um"), "<bdi>20.4 °C, an umbrella, &lt;um</bdi>");
+  EXPECT_EQ(in_sentence(core::Phrase("5 um is within 12 um")), "<bdi>5 µm is within 12 µm</bdi>");
+  EXPECT_EQ(in_sentence(core::Phrase("20.4 degC, an umbrella, <um")),
+            "<bdi>20.4 °C, an umbrella, &lt;um</bdi>");
 }
 
 TEST(Colours, OfDeviationsAreNeutralAtZeroAndDistinctAtTheEnds) {

@@ -114,8 +114,9 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
       EXPECT_FALSE(result.outcome);
       EXPECT_THAT(result.reason, HasSubstr(path.reason));
       EXPECT_THAT(testing::one_line(write_summary(run, *evaluation)),
-                  HasSubstr("because " + printable(result.reason)));
-      EXPECT_THAT(write_html(run, *evaluation), HasSubstr(in_sentence(capitalised(result.reason))));
+                  HasSubstr("because " + printable(result.reason.english())));
+      EXPECT_THAT(write_html(run, *evaluation),
+                  HasSubstr(in_sentence(core::Phrase(capitalised(result.reason.english())))));
     }
   }
 }

@@ -139,16 +139,19 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
 }
 
 /// "declared in the plan: 2 UPR 1.5 um, 0 UPR of degree 1 0.5 um; only their ratios count".
-std::string source_text(const FormSpectrum& spectrum) {
-  std::string out = "declared in the plan:";
+core::Phrase source_text(const FormSpectrum& spectrum) {
+  core::Phrase terms;
   for (const FormTerm& term : spectrum.terms) {
     const double amplitude_um = term.amplitude_mm / core::kMicrometre;
-    out += out.back() == ':' ? " " : ", ";
-    out += term.degree > 0 ? fmt::format("{} UPR of degree {} {:g} um", term.undulations,
-                                         term.degree, amplitude_um)
-                           : fmt::format("{} UPR {:g} um", term.undulations, amplitude_um);
+    const core::Phrase one = term.degree > 0
+                                 ? core::phrase("{} UPR of degree {} {:g} um", term.undulations,
+                                                term.degree, amplitude_um)
+                                 : core::phrase("{} UPR {:g} um", term.undulations, amplitude_um);
+    terms = terms.empty() ? one : core::phrase("{}, {}", terms, one);
   }
-  return out + (spectrum.absolute ? "; as they are" : "; only their ratios count");
+  return core::phrase(
+      "declared in the plan: {}; {}", terms,
+      spectrum.absolute ? core::phrase("as they are") : core::phrase("only their ratios count"));
 }
 
 std::optional<FormSpectrum> spectrum_of(const record::RunRecord& record) {

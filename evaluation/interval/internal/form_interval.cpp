@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
 
@@ -83,37 +81,39 @@ core::Result<FormCloud> surface_cloud(const FeatureResult& result) {
   return cloud_of(result, all);
 }
 
-std::optional<std::string> why_no_interval(const record::RunRecord& record,
-                                           const record::Feature& feature) {
+std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
+                                            const record::Feature& feature) {
   if (!record::number_in(record.settings, "uncertainty/coverage_percent")) {
-    return "the plan declares no uncertainty";
+    return core::phrase("the plan declares no uncertainty");
   }
   // The influences act in the machine frame; a merged cloud stands in the frame of the part.
   if (feature.strategy == record::Strategy::kMerged) {
-    return "intervals of clouds merged from several poses are not computed; what the fixture "
-           "leaves in the value is told beside it";
+    return core::phrase(
+        "intervals of clouds merged from several poses are not computed; what the fixture leaves "
+        "in "
+        "the value is told beside it");
   }
   return std::nullopt;
 }
 
-tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
+tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
     const record::RunRecord& record, const FeatureResult& result,
     const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked) {
-  const auto none = [](std::string why) { return tl::unexpected(std::move(why)); };
+  const auto none = [](core::Phrase why) { return tl::unexpected(std::move(why)); };
   if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
   const auto declared = declared_for(record, result, probe);
   const Rows rows = rows_of(result, asked);
   constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
   if (rows.rows.size() > kMostPoints) {
     return none(
-        fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
-                    rows.rows.size(), kMostPoints));
+        core::phrase("{} points are more than {}, the limit of the trials; give every n-th point",
+                     rows.rows.size(), kMostPoints));
   }
   auto cloud = cloud_of(result, rows);
-  if (!cloud) return none(cloud.error().what);
+  if (!cloud) return none(cloud.error().said());
   cloud->reference = asked.reference;
   auto spectrum = spectrum_on(*cloud, *declared, result.feature);
-  if (!spectrum) return none(spectrum.error().what);
+  if (!spectrum) return none(spectrum.error().said());
   return UncertaintyQuestion{*std::move(cloud), declared->influences, *std::move(spectrum),
                              declared->options};
 }
@@ -125,7 +125,7 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
   if (!question) return UncertaintyStatus::none(question.error());
   auto found = measurement_uncertainty(question->cloud, question->influences, question->spectrum,
                                        question->options);
-  if (!found) return UncertaintyStatus::none(found.error().what);
+  if (!found) return UncertaintyStatus::none(found.error().said());
   return UncertaintyStatus::stated(*std::move(found), question->options.coverage);
 }
 

@@ -32,11 +32,11 @@ struct UncertaintyQuestion {
                                                                     const record::Feature& feature);
 
 /// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
-[[nodiscard]] std::optional<std::string> why_no_interval(const record::RunRecord& record,
-                                                         const record::Feature& feature);
+[[nodiscard]] std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
+                                                          const record::Feature& feature);
 
 /// The question behind uncertainty_of(), or why there is none: one sentence.
-[[nodiscard]] tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
+[[nodiscard]] tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
     const record::RunRecord& record, const FeatureResult& result,
     const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked);
 

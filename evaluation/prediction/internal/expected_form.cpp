@@ -194,9 +194,9 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
       FormSpectrum out = **stated;
       if (!out.absolute) {
         out.absolute = true;
-        out.source = "form_spectrum of the plan, its amplitudes taken as they are";
+        out.source = core::Phrase("form_spectrum of the plan, its amplitudes taken as they are");
       } else {
-        out.source = "form_spectrum of the plan";
+        out.source = core::Phrase("form_spectrum of the plan");
       }
       return out;
     }
@@ -213,7 +213,7 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
     size = fmt::format("half the tolerance, {:.3g} um", wanted_mm / core::kMicrometre);
   }
   scale(out, wanted_mm / *unit);
-  out.source = "assumed, 2..15 undulations that fall as 1/n, of " + size;
+  out.source = core::Phrase("assumed, 2..15 undulations that fall as 1/n, of " + size);
   return out;
 }
 

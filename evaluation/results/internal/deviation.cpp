@@ -110,7 +110,7 @@ core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Referenc
 
 core::Result<Deviation> worst_section(const FeatureResult& result, Reference reference) {
   if (result.layers.empty())
-    return core::fail(core::Code::kNoPoints, "this feature has no sections");
+    return core::fail(core::Code::kNoPoints, core::phrase("this feature has no sections"));
   Deviation out;
   fit::DeviationRange worst;
   bool unique = true;
@@ -118,7 +118,7 @@ core::Result<Deviation> worst_section(const FeatureResult& result, Reference ref
     const auto section = section_deviation(layer, reference);
     if (!section) {
       return core::fail(section.error().code,
-                        fmt::format("layer {}: {}", layer.layer + 1, section.error().what));
+                        core::phrase("layer {}: {}", layer.layer + 1, section.error().said()));
     }
     if (out.layer == nullptr || section->value_mm > out.value_mm) {
       out.value_mm = section->value_mm;
@@ -141,15 +141,15 @@ double deciding_mm(const fit::DeviationRange& range, const std::optional<double>
   return limit_mm && range.low_mm > *limit_mm ? range.low_mm : range.high_mm;
 }
 
-std::optional<std::string> undecided_range(const fit::DeviationRange& range,
-                                           const std::optional<double>& limit_mm) {
+std::optional<core::Phrase> undecided_range(const fit::DeviationRange& range,
+                                            const std::optional<double>& limit_mm) {
   if (!limit_mm || range.low_mm > *limit_mm || range.high_mm <= *limit_mm) return std::nullopt;
-  return fmt::format(
+  return core::Phrase(fmt::format(
       "the reference circle is not unique: RONt is anything from {:.3f} to {:.3f} um, and the "
       "limit "
       "of {:g} um lies between",
       range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre,
-      *limit_mm / core::kMicrometre);
+      *limit_mm / core::kMicrometre));
 }
 
 }  // namespace rondure::evaluation

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "core/result.h"
 #include "evaluation/results/evaluation.h"
@@ -38,7 +37,7 @@ struct Deviation {
                                  const std::optional<double>& limit_mm);
 
 /// Why a range has no verdict: the limit lies in it. Nothing when it does not.
-[[nodiscard]] std::optional<std::string> undecided_range(const fit::DeviationRange& range,
-                                                         const std::optional<double>& limit_mm);
+[[nodiscard]] std::optional<core::Phrase> undecided_range(const fit::DeviationRange& range,
+                                                          const std::optional<double>& limit_mm);
 
 }  // namespace rondure::evaluation

@@ -51,21 +51,21 @@ class ScopeSearcher {
         proof.certificate.reason = search.reason;
         if (!search.proven) return false;
         const double gap = std::max(proof.certificate.gap_mm, value - search.lower_mm);
-        proof.certificate = {Certificate::Kind::kGlobal, scope_text(scope, proof.half_length), gap,
-                             ""};
+        proof.certificate = {
+            Certificate::Kind::kGlobal, scope_text(scope, proof.half_length), gap, {}};
         return true;
       }
       AxisProof next = prove_axis(points_, descended(*search.better, value), weights_);
       if (!(weights_.value(next.proven.zone) < value)) {
-        proof.certificate.reason = fmt::format(
+        proof.certificate.reason = core::Phrase(fmt::format(
             "a better axis was met, its optimum was not reached; better by {:.3g} mm at least",
-            value - value_about(*search.better));
+            value - value_about(*search.better)));
         return false;
       }
       if (!take(std::move(next), proof)) return false;
     }
     proof.certificate.reason =
-        fmt::format("{} better axes were met, one after the other", kRestartLimit);
+        core::Phrase(fmt::format("{} better axes were met, one after the other", kRestartLimit));
     return false;
   }
 
@@ -128,27 +128,28 @@ class ScopeSearcher {
   }
 
   /// "all directions", "within 10 deg of nominal".
-  [[nodiscard]] std::string scope_text(const AxisScope& scope, double half_length) const {
+  [[nodiscard]] core::Phrase scope_text(const AxisScope& scope, double half_length) const {
     if (inscribed()) {
-      return fmt::format("within {:.3g} deg and {:.4g} mm of the least-squares axis",
-                         reached_angle(half_length) / core::kDegree, reach_.limit_mm);
+      return core::Phrase(fmt::format("within {:.3g} deg and {:.4g} mm of the least-squares axis",
+                                      reached_angle(half_length) / core::kDegree, reach_.limit_mm));
     }
-    if (scope.kind == AxisScope::Kind::kHalfSphere) return "all directions";
-    return fmt::format("within {:.6g} deg of nominal", scope.cone_rad / core::kDegree);
+    if (scope.kind == AxisScope::Kind::kHalfSphere) return core::phrase("all directions");
+    return core::phrase("within {:.6g} deg of nominal", scope.cone_rad / core::kDegree);
   }
 
   /// The reason why the claimed axis cannot be compared with those of a scope; empty if it can.
-  [[nodiscard]] std::string outside(const AxisProof& proof, const AxisScope& scope) const {
+  [[nodiscard]] core::Phrase outside(const AxisProof& proof, const AxisScope& scope) const {
     if (inscribed()) {
       if (within_reach(proof)) return {};
-      return fmt::format("the axis lies more than {:.4g} mm from the least-squares axis",
-                         reach_.limit_mm);
+      return core::Phrase(fmt::format(
+          "the axis lies more than {:.4g} mm from the least-squares axis", reach_.limit_mm));
     }
     if (scope.kind == AxisScope::Kind::kHalfSphere) return {};
     const double angle = angle_between(proof.axis.direction, scope.nominal.normalized());
     if (angle <= scope.cone_rad) return {};
-    return fmt::format("the axis is {:.4g} deg from nominal, the searched cone ends at {:.4g} deg",
-                       angle / core::kDegree, scope.cone_rad / core::kDegree);
+    return core::Phrase(
+        fmt::format("the axis is {:.4g} deg from nominal, the searched cone ends at {:.4g} deg",
+                    angle / core::kDegree, scope.cone_rad / core::kDegree));
   }
 
   [[nodiscard]] bool within_reach(const AxisProof& proof) const {
@@ -164,7 +165,8 @@ class ScopeSearcher {
   [[nodiscard]] bool take(AxisProof next, AxisProof& proof) const {
     if (!minimum_zone() && !within_reach(next)) {
       proof.other = next.axis;
-      proof.certificate.reason = "a better axis lies outside the reach of the reference";
+      proof.certificate.reason =
+          core::Phrase("a better axis lies outside the reach of the reference");
       return false;
     }
     next.boxes = proof.boxes;
@@ -199,11 +201,11 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
   const CylinderFrame frame({Eigen::Vector3d::Zero(), along}, out.half_length);
   out.proven = prove_zone(points_mm, out.axis.point_mm, frame, weights, round_off);
   const double width = out.proven.zone.width();
-  out.certificate =
-      certify_local<4>(out.proven.proof, width, round_off, "next to the least-squares axis");
+  out.certificate = certify_local<4>(out.proven.proof, width, round_off,
+                                     core::Phrase("next to the least-squares axis"));
   // All points are on one cylinder to round-off. This is global, as no zone is narrower than 0.
   if (weights.outer > 0.0 && weights.inner > 0.0 && width <= 16.0 * round_off) {
-    out.certificate = {Certificate::Kind::kGlobal, "all directions", width, ""};
+    out.certificate = {Certificate::Kind::kGlobal, core::phrase("all directions"), width, {}};
   }
   return out;
 }

@@ -39,8 +39,8 @@ double state_zone(std::span<const Eigen::Matrix<double, D, 1>> points,
   out.outer_radius_mm = proven.zone.high;
   out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
   out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
-  out.certificate =
-      certify_local<D>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  out.certificate = certify_local<D>(proven.proof, out.width_mm(), round_off,
+                                     core::Phrase("next to the least-squares centre"));
   return proven.proof.growth;
 }
 

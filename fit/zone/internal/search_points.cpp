@@ -30,12 +30,12 @@ bool SearchRows::add(std::size_t row) {
   return true;
 }
 
-std::string left_open(std::string_view boxes, std::size_t left, int after, double lower_mm,
-                      double value_mm, const ZoneWeights& weights) {
+core::Phrase left_open(std::string_view boxes, std::size_t left, int after, double lower_mm,
+                       double value_mm, const ZoneWeights& weights) {
   const bool inside = weights.outer == 0.0;
-  return fmt::format("{} {} were left after {}; {} bound {:.9g} mm, {:.3g} mm from the value found",
-                     left, boxes, after, inside ? "upper" : "lower", inside ? -lower_mm : lower_mm,
-                     value_mm - lower_mm);
+  return core::Phrase(fmt::format(
+      "{} {} were left after {}; {} bound {:.9g} mm, {:.3g} mm from the value found", left, boxes,
+      after, inside ? "upper" : "lower", inside ? -lower_mm : lower_mm, value_mm - lower_mm));
 }
 
 }  // namespace rondure::fit

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,7 +60,7 @@ template <class Points, class Square>
 
 /// States why a search that reached its limit proves nothing: "12 squares of centres were left
 /// after 40; lower bound 0.0123 mm, 0.0001 mm from the value found".
-[[nodiscard]] std::string left_open(std::string_view boxes, std::size_t left, int after,
-                                    double lower_mm, double value_mm, const ZoneWeights& weights);
+[[nodiscard]] core::Phrase left_open(std::string_view boxes, std::size_t left, int after,
+                                     double lower_mm, double value_mm, const ZoneWeights& weights);
 
 }  // namespace rondure::fit

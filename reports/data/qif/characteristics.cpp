@@ -170,7 +170,7 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
                          result.value ? result.value->operator_text() : std::string()},
                         {"stated", result.value ? result.value->sentence() : std::string()},
                         {"combinedUncertainty", uncertainty_words(result)}});
-  if (!result.reason.empty()) add(node, "Description", result.reason);
+  if (!result.reason.empty()) add(node, "Description", result.reason.english());
   add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict).of_characteristic);
   add(node, "CharacteristicItemId", placed.item);
   add_references(node, "FeatureMeasurementIds", measured_shapes(placed));

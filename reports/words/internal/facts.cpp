@@ -72,21 +72,21 @@ std::string title_of(const evaluation::Section& section) {
                            : trf("Layer {}", section.layer + 1);
 }
 
-std::string share_in_words(const evaluation::MergedPoses& merged) {
+core::Phrase share_in_words(const evaluation::MergedPoses& merged) {
   if (!merged.solved) {
-    return fmt::format("what the fixture adds to CYLt is not known: {}",
-                       merged.refusal ? merged.refusal->what : std::string());
+    return core::Phrase(fmt::format("what the fixture adds to CYLt is not known: {}",
+                                    merged.refusal ? merged.refusal->what : std::string()));
   }
   const fit::PoseJoint& solved = *merged.solved;
   if (merged.joint) {
-    return trf(
+    return core::phrase(
         "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
         "have added {:.3f} um; they were solved for, and what is left of them is uncertain by "
         "{:.3f} um (standard uncertainty)",
         core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
         core::micrometres(solved.u_joint_mm));
   }
-  return trf(
+  return core::phrase(
       "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
       "{:.3f} um (root mean square); solved together with the part it would be {:.3f} um, {:.3f} "
       "um less",
@@ -94,15 +94,15 @@ std::string share_in_words(const evaluation::MergedPoses& merged) {
       core::micrometres(solved.share_mm()));
 }
 
-std::string sentence_of(const fit::Certificate& certificate) {
+core::Phrase sentence_of(const fit::Certificate& certificate) {
   using Kind = fit::Certificate::Kind;
   switch (certificate.kind) {
     case Kind::kGlobal:
-      return fmt::format("Global: no narrower zone exists; searched: {}.", certificate.scope);
+      return core::phrase("Global: no narrower zone exists; searched: {}.", certificate.scope);
     case Kind::kLocal:
-      return fmt::format("Local: no narrower zone exists nearby (scope: {}).", certificate.scope);
+      return core::phrase("Local: no narrower zone exists nearby (scope: {}).", certificate.scope);
     case Kind::kNone:
-      return "None: the minimum is not proven.";
+      return core::phrase("None: the minimum is not proven.");
   }
   return {};
 }
@@ -128,7 +128,7 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
 }
 
 std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation) {
-  if (!evaluation.rule) return told(evaluation.rule.error().what);
+  if (!evaluation.rule) return in_words(evaluation.rule.error().said());
   const evaluation::DecisionRule& rule = *evaluation.rule;
   if (!rule.needs_interval()) {
     return tr("simple acceptance; no measurement uncertainty taken into account");

@@ -16,11 +16,10 @@ namespace rondure::reports {
 [[nodiscard]] std::string repeats_of(const evaluation::FeatureResult& feature);
 /// "Layer 1"; "All points, seen along the axis".
 [[nodiscard]] std::string title_of(const evaluation::Section& section);
-/// How much the fixture adds to CYLt, in one sentence of the language of the report. Where it is
-/// not known the sentence is English, with the reason.
-[[nodiscard]] std::string share_in_words(const evaluation::MergedPoses& merged);
+/// How much the fixture adds to CYLt, in one sentence; where it is not known, with the reason.
+[[nodiscard]] core::Phrase share_in_words(const evaluation::MergedPoses& merged);
 /// What the certificate says, in one sentence.
-[[nodiscard]] std::string sentence_of(const fit::Certificate& certificate);
+[[nodiscard]] core::Phrase sentence_of(const fit::Certificate& certificate);
 
 /// What a run that did not finish lacks, one sentence each.
 [[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,

@@ -1,7 +1,5 @@
 #include "reports/words/internal/messages.h"
 
-#include <fmt/format.h>
-
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -42,7 +40,7 @@ std::string step_in_words(const Message& m) {
 std::optional<std::string> in_words(const Message& m) {
   switch (m.code) {
     case MessageCode::kSentence:
-      return told(m.text(0));
+      return in_words(core::Phrase(m.text(0)));
     case MessageCode::kPartLocated:
       return trf(
           "part located in pose ({:.4f}, {:.4f}) deg: its axis is level at ({:.4f}, {:.4f}) deg",
@@ -55,7 +53,7 @@ std::optional<std::string> in_words(const Message& m) {
       return trf("pose ({:.4f}, {:.4f}) deg: zone of the cloud {:.3f} um; {}", m.number(0),
                  m.number(1), m.number(2), step_in_words(m));
     case MessageCode::kLevelPoseUnreachable: {
-      const auto reason = told(m.text(0));
+      const auto reason = in_words(core::Phrase(m.text(0)));
       return reason ? std::optional(trf("not level: {}", *reason)) : std::nullopt;
     }
     case MessageCode::kPoseSearchEnded:
@@ -81,7 +79,7 @@ std::optional<std::string> in_words(const Message& m) {
           "limit {:g} um",
           m.text(0), count_in(m, 1), count_in(m, 2), m.number(3), m.number(4));
     case MessageCode::kPartLocatedAgain: {
-      const auto reason = told(m.text(1));
+      const auto reason = in_words(core::Phrase(m.text(1)));
       return reason ? std::optional(
                           trf("part located again behind {} touches: {}", count_in(m, 0), *reason))
                     : std::nullopt;

@@ -123,7 +123,8 @@ TEST(OneSided, CylindersAreTheBestOfManyDescents) {
       if (global->certificate.kind == fit::Certificate::Kind::kNone) continue;
       if (global->certificate.kind != fit::Certificate::Kind::kGlobal) {
         // Very short discs may end at the limit; they say what is left.
-        EXPECT_NE(global->certificate.reason.find("from the value found"), std::string::npos)
+        EXPECT_NE(global->certificate.reason.english().find("from the value found"),
+                  std::string::npos)
             << global->certificate.reason;
         ++open;
         continue;
