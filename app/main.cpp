@@ -16,6 +16,7 @@
 #include "app/verbs/rotary_axes_command.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/wheel_command.h"
+#include "app/verbs/word_option.h"
 #include "core/numbers.h"
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"
@@ -52,10 +53,9 @@ void add_language(CLI::App& verb, std::string& language) {
       ->type_name("LANG");
 }
 
-void add_paper(CLI::App& verb, std::string& paper) {
-  verb.add_option("--paper", paper,
-                  "Paper of report.pdf: a4 or letter (default: as the plan says, else a4)")
-      ->check(CLI::IsMember(reports::paper_names()))
+void add_paper(CLI::App& verb, std::optional<record::Paper>& paper) {
+  add_words<record::Paper>(verb, "--paper", paper,
+                           "Paper of report.pdf: a4 or letter (default: as the plan says, else a4)")
       ->type_name("PAPER");
 }
 
@@ -289,11 +289,11 @@ void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
                   "1 (default): actual minus command; -1: command minus actual, as a following "
                   "error of most controls")
       ->check(one_of_signs);
-  verb.add_option("--base", arguments.base, "Base circle: limacon (default) or geometric")
-      ->check(CLI::IsMember({"limacon", "geometric"}));
-  verb.add_option("--method", arguments.method,
-                  "corrected (default), or as-published: each f is turned onto its t")
-      ->check(CLI::IsMember({"corrected", "as-published"}));
+  add_words<record::ContourTask::BaseCircle>(verb, "--base", arguments.base,
+                                             "Base circle: limacon (default) or geometric");
+  add_words<record::ContourTask::Method>(
+      verb, "--method", arguments.method,
+      "corrected (default), or as-published: each f is turned onto its t");
   verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
   verb.add_flag("--map-main", arguments.map_main,
                 "Carry a main journal to the pin as n(alpha(beta)) cos(eta)");

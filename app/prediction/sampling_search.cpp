@@ -9,6 +9,7 @@
 
 #include "app/prediction/prediction.h"
 #include "app/prediction/sampling_layout.h"
+#include "evaluation/decision/decision.h"
 #include "plans/features.h"
 
 namespace rondure::app {
@@ -69,8 +70,7 @@ class Search {
       : plan_(plan), target_mm_(target_mm) {
     out_.feature = feature;
     out_.planned = sampling_of(plan.features[feature]);
-    out_.measurand = plan.decision_rule.measurand == "whole-surface" ? Measurand::kWholeSurface
-                                                                     : Measurand::kSampledPoints;
+    out_.measurand = evaluation::measurand_of(plan.decision_rule.measurand);
   }
 
   core::Result<SamplingSearch> run() {

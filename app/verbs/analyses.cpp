@@ -2,12 +2,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/verbs/word_option.h"
+
 namespace rondure::app {
 namespace {
 
 void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {
-  verb.add_option("--layout", a.layout, "published-a, published-b or reference")
-      ->check(CLI::IsMember({"published-a", "published-b", "reference"}));
+  using Layout = record::SpindleTask::Layout;
+  add_words<Layout>(verb, "--layout", a.layout, "published-a, published-b or reference",
+                    {Layout::kAngles});
   verb.add_option("--p1-to-p2", a.p1_to_p2_deg,
                   "deg from probe 1 to probe 2, against the rotation of the work");
   verb.add_option("--p2-to-p3", a.p2_to_p3_deg, "deg from probe 2 to probe 3 (a difference)");
@@ -36,8 +39,8 @@ void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
                    "um, standard deviation of a reading (default: estimated)");
   verb->add_option("--regularise", a.expected_amplitude_um,
                    "um, amplitude expected of a harmonic: weak ones are attenuated");
-  verb->add_option("--second-order", a.second_order, "auto (default), on or off")
-      ->check(CLI::IsMember({"auto", "on", "off"}));
+  add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.second_order,
+                                              "auto (default), on or off");
   verb->add_option("--cutoff-upr", a.cutoff_upr,
                    "Gaussian low pass of the profile (default: 50; 0: none)");
   verb->add_flag("--no-resampling", a.no_resampling,

@@ -2,8 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/verbs/word_option.h"
+
 namespace rondure::app {
 namespace {
+
+using record::WheelTask;
 
 CLI::Option* add_pair(CLI::App& verb, const char* name, std::vector<double>& values,
                       const char* meaning, const char* type) {
@@ -15,23 +19,23 @@ CLI::Option* add_pair(CLI::App& verb, const char* name, std::vector<double>& val
 }
 
 void add_measuring(CLI::App& verb, WheelArguments& arguments) {
-  verb.add_option("--mode", arguments.mode,
-                  "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
-                  "speed, points of the circle it sweeps. It decides what the result means")
-      ->required()
-      ->check(CLI::IsMember({"indexed", "envelope"}));
+  add_words<WheelTask::Mode>(
+      verb, "--mode", arguments.mode,
+      "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
+      "speed, points of the circle it sweeps. It decides what the result means")
+      ->required();
   add_pair(verb, "--axis-mm", arguments.axis_mm,
            "Spindle axis (indexed): gives run-out and the effective radius", "X,Z");
   verb.add_option("--nominal-radius-mm", arguments.nominal_radius_mm,
                   "R must be within 5 % of it; also the path without compensation");
-  verb.add_option("--center", arguments.center,
-                  "least-squares (default), or a mean of four-point centres: as-published, the\n"
-                  "plain one, or weighted by the conditioning")
-      ->check(CLI::IsMember({"least-squares", "as-published", "weighted"}));
-  verb.add_option("--quadruples", arguments.quadruples,
-                  "Of those means: all (default), best, or random: as published, without a kappa\n"
-                  "limit")
-      ->check(CLI::IsMember({"all", "best", "random"}));
+  add_words<WheelTask::Center>(
+      verb, "--center", arguments.center,
+      "least-squares (default), or a mean of four-point centres: as-published, the\n"
+      "plain one, or weighted by the conditioning");
+  add_words<WheelTask::Quadruples>(
+      verb, "--quadruples", arguments.quadruples,
+      "Of those means: all (default), best, or random: as published, without a kappa\n"
+      "limit");
   verb.add_option("--count", arguments.count,
                   "Quadruples of best and random (default: 6, at least)");
   verb.add_option("--seed", arguments.seed, "Of random quadruples (default: 1)");
@@ -54,8 +58,8 @@ void add_grinding(CLI::App& verb, WheelArguments& arguments) {
            "Where the surface must not be cut into (default: the contacts)", "X0,X1");
   verb.add_option("--step-mm", arguments.step_mm, "Step of x (default: 0.1)");
   verb.add_option("--cusp-um", arguments.cusp_um, "Highest cusp between passes, for the step");
-  verb.add_option("--radius", arguments.radius, "Radius of the path: mean (default) or effective")
-      ->check(CLI::IsMember({"mean", "effective"}));
+  add_words<record::GroundSurfaceTask::Radius>(verb, "--radius", arguments.radius,
+                                               "Radius of the path: mean (default) or effective");
   add_pair(verb, "--wheel-arc-deg", arguments.wheel_arc_deg,
            "Trued arc of the wheel about its lowest point", "A,B");
   verb.add_option("--repeatability-um", arguments.repeatability_um,

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "record/tasks/wheel.h"
+
 namespace CLI {
 class App;
 }
@@ -14,12 +16,12 @@ namespace rondure::app {
 /// Arguments of `rondure fit wheel`.
 struct WheelArguments {
   std::string file;
-  std::string mode;
-  std::vector<double> axis_mm;  ///< x, z; empty: not known.
+  record::WheelTask::Mode mode = record::WheelTask().mode;  ///< Must be given.
+  std::vector<double> axis_mm;                              ///< x, z; empty: not known.
   std::optional<double> nominal_radius_mm;
-  std::string center = "least-squares";
-  std::string quadruples = "all";
-  std::size_t count = 6;
+  record::WheelTask::Center center = record::WheelTask().center;
+  record::WheelTask::Quadruples quadruples = record::WheelTask().quadruples;
+  std::size_t count = static_cast<std::size_t>(record::WheelTask().count);
   std::uint64_t seed = 1;
   std::optional<double> kappa_limit;
   bool robust = false;
@@ -28,9 +30,9 @@ struct WheelArguments {
   std::string removal;
   std::vector<double> range_mm;          ///< Contacts; empty: the table's range.
   std::vector<double> surface_range_mm;  ///< Empty: the contacts.
-  double step_mm = 0.1;
+  double step_mm = record::GroundSurfaceTask().step_mm;
   std::optional<double> cusp_um;
-  std::string radius = "mean";
+  record::GroundSurfaceTask::Radius radius = record::GroundSurfaceTask().radius;
   std::vector<double> wheel_arc_deg;
   double repeatability_um = 0.0;
   std::optional<double> touch_off_mm;

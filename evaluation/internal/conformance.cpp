@@ -13,6 +13,9 @@
 #include "evaluation/internal/deviation.h"
 #include "evaluation/measured_cloud.h"
 #include "evaluation/uncertainty/internal/declared.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -36,7 +39,9 @@ std::string sampling_words(const FeatureResult& result,
   std::string text = feature.layers > 0
                          ? fmt::format("{} x {} points", feature.layers, feature.points_per_layer)
                          : fmt::format("{} points", result.cloud.size());
-  if (feature.word("sampling_method") == "scan") text += ", scanned";
+  const auto sampling = record::task_of<record::SamplingSettings>(feature.settings);
+  const bool scanned = sampling && sampling->sampling_method == record::SamplingMethod::kScan;
+  if (scanned) text += ", scanned";
   if (result.merged) {
     text += fmt::format(" in {} poses, merged {}", result.merged->poses.size(),
                         result.merged->joint ? "with their errors solved for" : "by kinematics");
@@ -203,7 +208,9 @@ std::optional<std::string> temperature_fault(const record::RunRecord& record,
   const record::Header& header = record.header;
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
                        result.feature.strategy != record::Strategy::kSeries;
-  if (!touched && !record::word_in(record.settings, "environment/declared")) return std::nullopt;
+  const auto stated = record::task_of<record::EnvironmentSettings>(record.settings, "environment/");
+  if (!stated) return stated.error().what;
+  if (!touched && !stated->declared) return std::nullopt;
   if (!result.temperatures) {
     return fmt::format(
         "the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "

@@ -22,7 +22,8 @@ struct Declared {
 /// What the plan declared about the fixture; nothing when it did not.
 [[nodiscard]] std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record);
 
-/// Nothing when the plan asked for no uncertainty.
+/// Nothing when the plan asked for no uncertainty, or its settings do not say what a plan says:
+/// why_no_interval().
 [[nodiscard]] std::optional<Declared> declared_for(const record::RunRecord& record,
                                                    const FeatureResult& result,
                                                    const std::optional<fit::ProbeTip>& probe);
@@ -42,8 +43,7 @@ struct UncertaintyQuestion {
 /// The declared spectrum on a cloud, or none of its own terms where the part's own was asked for;
 /// nothing where nobody asked.
 [[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
-                                                                    const Declared& declared,
-                                                                    const record::Feature& feature);
+                                                                    const Declared& declared);
 
 /// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
 [[nodiscard]] std::optional<std::string> why_no_interval(const record::RunRecord& record,
