@@ -15,6 +15,7 @@
 #include "app/command_documents.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "app/verbs/word_option.h"
 #include "core/numbers.h"
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"
@@ -51,10 +52,9 @@ void add_language(CLI::App& verb, std::string& language) {
       ->type_name("LANG");
 }
 
-void add_paper(CLI::App& verb, std::string& paper) {
-  verb.add_option("--paper", paper,
-                  "Paper of report.pdf: a4 or letter (default: as the plan says, else a4)")
-      ->check(CLI::IsMember(reports::paper_names()))
+void add_paper(CLI::App& verb, std::optional<record::Paper>& paper) {
+  add_words<record::Paper>(verb, "--paper", paper,
+                           "Paper of report.pdf: a4 or letter (default: as the plan says, else a4)")
       ->type_name("PAPER");
 }
 

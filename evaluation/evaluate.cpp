@@ -19,6 +19,8 @@
 #include "evaluation/invariants.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/poses/walk.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -302,6 +304,15 @@ void evaluate_merged(const RunRecord& record, int index, const std::optional<fit
   if (!result.failure) warn(result);
 }
 
+/// The first setting of a surface that does not say what a run writes.
+std::optional<core::Error> fault_of_settings(const record::Feature& feature) {
+  const auto sampling = record::task_of<record::SamplingSettings>(feature.settings);
+  if (!sampling) return sampling.error();
+  const auto expansion = record::task_of<record::ExpansionSettings>(feature.settings);
+  if (!expansion) return expansion.error();
+  return std::nullopt;
+}
+
 FeatureResult evaluate_feature(const RunRecord& record, int index,
                                const std::optional<fit::ProbeTip>& probe,
                                const fixture::Kinematics& kinematics) {
@@ -312,6 +323,8 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   } else if (probe) {
     result.tip_radius_mm = probe->radius_mm;
   }
+  result.failure = fault_of_settings(result.feature);
+  if (result.failure) return result;
   if (result.feature.strategy == record::Strategy::kMerged) {
     evaluate_merged(record, index, probe, result);
     return result;

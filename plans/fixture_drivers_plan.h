@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "plans/zaber_plan.h"
+#include "record/words.h"
+
 namespace rondure::plans {
 
 // Settings of single fixture drivers, as the JSON spells them; see plan.h. Keys and meanings:
@@ -12,18 +15,32 @@ namespace rondure::plans {
 
 /// One axis on a Thorlabs APT unit.
 struct ThorlabsAxisPlan {
+  enum class Stage { kK10cr1, kPrm1Z8, kOther };
+  enum class Motor { kStepper, kDcServo };
+
   std::string serial;
-  std::string stage = "K10CR1";          ///< "K10CR1", "PRM1-Z8", "other".
-  std::string motor = "stepper";         ///< For the stage "other": "stepper", "dc-servo".
+  Stage stage = Stage::kK10cr1;
+  Motor motor = Motor::kStepper;         ///< For kOther.
   std::optional<double> counts_per_deg;  ///< Replace the numbers of the stage.
   std::optional<double> velocity_per_deg_s;
   std::optional<double> acceleration_per_deg_s2;
-  double zero_deg = 0.0;             ///< Angle of the stage where the fixture reads 0.
-  std::string sense = "as-counted";  ///< Or "reversed".
+  double zero_deg = 0.0;  ///< Angle of the stage where the fixture reads 0.
+  StageSense sense = StageSense::kAsCounted;
   double speed_deg_s = 5.0;
   double acceleration_deg_s2 = 5.0;
   double tolerance_deg = 0.01;
 };
+
+constexpr auto words_of(ThorlabsAxisPlan::Stage) {
+  using Stage = ThorlabsAxisPlan::Stage;
+  return std::to_array<record::Word<Stage>>(
+      {{Stage::kK10cr1, "K10CR1"}, {Stage::kPrm1Z8, "PRM1-Z8"}, {Stage::kOther, "other"}});
+}
+constexpr auto words_of(ThorlabsAxisPlan::Motor) {
+  using Motor = ThorlabsAxisPlan::Motor;
+  return std::to_array<record::Word<Motor>>(
+      {{Motor::kStepper, "stepper"}, {Motor::kDcServo, "dc-servo"}});
+}
 
 struct ThorlabsPlan {
   ThorlabsAxisPlan alpha;

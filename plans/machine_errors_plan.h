@@ -1,32 +1,15 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "record/tasks/axis_errors.h"
+
 namespace rondure::plans {
 
 // simulation.machine and the marks of simulation.part, as their JSON spells them. See plan.h.
-
-/// One of the nine translations of the axes, e.g. EXX.
-struct TranslationErrorPlan {
-  std::string error;
-  double linear_um_m = 0.0;
-  double quadratic_um_m2 = 0.0;
-  double wave_um = 0.0;
-  double wave_period_mm = 100.0;
-  double wave_phase_deg = 0.0;
-};
-
-/// One of their nine rotations, e.g. EAX.
-struct RotationErrorPlan {
-  std::string error;
-  double linear_urad_m = 0.0;
-  double quadratic_urad_m2 = 0.0;
-  double wave_urad = 0.0;
-  double wave_period_mm = 100.0;
-  double wave_phase_deg = 0.0;
-};
 
 struct PretravelLobePlan {
   int order = 3;
@@ -36,9 +19,11 @@ struct PretravelLobePlan {
 
 /// Hidden errors of the machine. A given value replaces that of the class in `errors`.
 struct SimulatedMachinePlan {
-  std::string errors = "off";  ///< "off" or "typical".
-  std::vector<TranslationErrorPlan> translations;
-  std::vector<RotationErrorPlan> rotations;
+  enum class Errors { kOff, kTypical };
+
+  Errors errors = Errors::kOff;
+  std::vector<record::TranslationError> translations;
+  std::vector<record::RotationError> rotations;
   std::optional<double> squareness_xy_urad;
   std::optional<double> squareness_xz_urad;
   std::optional<double> squareness_yz_urad;
@@ -65,6 +50,12 @@ struct SimulatedMachinePlan {
   double scan_step_percent = 0.0;
   double scan_dropped_percent = 0.0;
 };
+
+constexpr auto words_of(SimulatedMachinePlan::Errors) {
+  using Errors = SimulatedMachinePlan::Errors;
+  return std::to_array<record::Word<Errors>>(
+      {{Errors::kOff, "off"}, {Errors::kTypical, "typical"}});
+}
 
 /// A slot along the part.
 struct KeywayPlan {

@@ -14,11 +14,15 @@
 #include "plans/machine_errors_plan.h"
 #include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
-#include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
 #include "plans/zaber_plan.h"
+#include "record/report_words.h"
 #include "record/run_record.h"
+#include "record/tasks/contour.h"
+#include "record/tasks/decision_rule.h"
+#include "record/tasks/rotary_axes.h"
 #include "record/tasks/spindle.h"
+#include "record/tasks/uncertainty.h"
 #include "record/tasks/wheel.h"
 
 namespace rondure::plans {
@@ -26,6 +30,8 @@ namespace rondure::plans {
 // The plan as its JSON spells it: degrees and micrometres where the key says so. Keys, units,
 // ranges and meanings are defined only in plans/schema/internal/plan_table.h; a member initialiser
 // here is the default.
+
+using record::name_of;  // finds the words of the enums below
 
 struct PlanHead {
   std::string name;
@@ -53,7 +59,13 @@ struct PartPlan {
 };
 
 struct MachinePlan {
-  std::string driver = "simulated";
+  enum class Driver { kSimulated, kIppdme };
+  enum class Abort { kWorks, kBroken };
+  enum class Retract { kToApproach, kByDistance };
+  enum class Numbers { kSixteenDigits, kSixteenCharacters };
+  enum class Point { kSurface, kCenter };
+
+  Driver driver = Driver::kSimulated;
   double approach_mm = 3.0;   ///< Start of the search before the expected contact.
   double search_mm = 3.0;     ///< End of the search beyond it.
   double clearance_mm = 5.0;  ///< Kept from the part while travelling.
@@ -67,17 +79,42 @@ struct MachinePlan {
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
   double step_speed_mm_s = 10.0;  ///< For a first run in single steps.
   double resume_limit_um = 5.0;   ///< Largest change of a repeated touch at which a run is resumed.
-  // For the driver "ippdme".
+  // For Driver::kIppdme.
   std::string host = "127.0.0.1";
   int port = 1294;
   std::string tool;  ///< Empty: the active tool.
   double answer_limit_s = 5.0;
   double motion_limit_s = 120.0;
-  std::string abort = "works";          ///< Or "broken".
-  std::string retract = "to-approach";  ///< Or "by-distance".
-  std::string numbers = "16-digits";    ///< On the wire; or "16-characters".
-  std::string point = "surface";        ///< Named by PtMeas; or "center", of the tip.
+  Abort abort = Abort::kWorks;
+  Retract retract = Retract::kToApproach;
+  Numbers numbers = Numbers::kSixteenDigits;  ///< On the wire.
+  Point point = Point::kSurface;              ///< Named by PtMeas; kCenter: of the tip.
 };
+
+constexpr auto words_of(MachinePlan::Driver) {
+  using Driver = MachinePlan::Driver;
+  return std::to_array<record::Word<Driver>>(
+      {{Driver::kSimulated, "simulated"}, {Driver::kIppdme, "ippdme"}});
+}
+constexpr auto words_of(MachinePlan::Abort) {
+  using Abort = MachinePlan::Abort;
+  return std::to_array<record::Word<Abort>>({{Abort::kWorks, "works"}, {Abort::kBroken, "broken"}});
+}
+constexpr auto words_of(MachinePlan::Retract) {
+  using Retract = MachinePlan::Retract;
+  return std::to_array<record::Word<Retract>>(
+      {{Retract::kToApproach, "to-approach"}, {Retract::kByDistance, "by-distance"}});
+}
+constexpr auto words_of(MachinePlan::Numbers) {
+  using Numbers = MachinePlan::Numbers;
+  return std::to_array<record::Word<Numbers>>(
+      {{Numbers::kSixteenDigits, "16-digits"}, {Numbers::kSixteenCharacters, "16-characters"}});
+}
+constexpr auto words_of(MachinePlan::Point) {
+  using Point = MachinePlan::Point;
+  return std::to_array<record::Word<Point>>(
+      {{Point::kSurface, "surface"}, {Point::kCenter, "center"}});
+}
 
 /// A reference sphere on the base of the fixture.
 struct DatumSpherePlan {
@@ -94,8 +131,10 @@ struct DatumPlan {
 };
 
 struct FixturePlan {
+  enum class Driver { kSimulated, kIppdme, kZaber, kThorlabs, kManual };
+
   std::string id;
-  std::string driver = "simulated";
+  Driver driver = Driver::kSimulated;
   std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
   std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};    ///< d, hoop frame.
   std::array<double, 3> part_position_mm = {0.0, 0.0, 0.0};  ///< Part origin in the body frame.
@@ -116,6 +155,15 @@ struct FixturePlan {
   std::optional<ThorlabsPlan> thorlabs;         ///< Needed and accepted only by that driver.
   std::optional<ReachedPosePlan> reached_pose;  ///< Needed and accepted only by "manual".
 };
+
+constexpr auto words_of(FixturePlan::Driver) {
+  using Driver = FixturePlan::Driver;
+  return std::to_array<record::Word<Driver>>({{Driver::kSimulated, "simulated"},
+                                              {Driver::kIppdme, "ippdme"},
+                                              {Driver::kZaber, "zaber"},
+                                              {Driver::kThorlabs, "thorlabs"},
+                                              {Driver::kManual, "manual"}});
+}
 
 struct QualificationPlan {
   double sphere_diameter_mm = 25.0;  ///< Certified.
@@ -213,8 +261,8 @@ struct FeaturePlan {
   std::optional<record::SpindleTask>
       spindle;                             ///< Needed and accepted only by the type of that name.
   std::optional<record::WheelTask> wheel;  ///< As spindle.
-  std::optional<ContourPlan> contour;      ///< As spindle.
-  std::optional<RotaryPlan> rotary_axes;   ///< As spindle.
+  std::optional<record::ContourTask> contour;     ///< As spindle.
+  std::optional<record::RotaryTask> rotary_axes;  ///< As spindle.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -285,8 +333,8 @@ struct SimulationPlan {
 
 struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
-  std::string paper = "a4";  ///< Of the PDF: "a4" or "letter".
-  std::string archive;       ///< Empty: archive.db beside the run directory.
+  record::Paper paper = record::Paper::kA4;  ///< Of the PDF.
+  std::string archive;                       ///< Empty: archive.db beside the run directory.
 };
 
 struct Plan {
@@ -297,8 +345,8 @@ struct Plan {
   std::optional<ProbePlan> probe;
   std::optional<EnvironmentPlan> environment;  ///< None: its defaults, for touched features.
   std::vector<FeaturePlan> features;
-  DecisionRulePlan decision_rule;
-  std::optional<UncertaintyPlan> uncertainty;
+  record::DecisionRuleTask decision_rule;
+  std::optional<record::UncertaintyTask> uncertainty;
   std::optional<SimulationPlan> simulation;
   ReportsPlan reports;
 
@@ -326,7 +374,7 @@ inline constexpr std::string_view kInsteadOfJunit =
     "status of the run, 0 when all conform";
 
 /// The paper that the plan in a journal asks for; of text that is no plan, what plans default to.
-[[nodiscard]] std::string recorded_paper(std::string_view text);
+[[nodiscard]] record::Paper recorded_paper(std::string_view text);
 
 /// The JSON Schema (draft 7) of a plan, from the same table that reads it.
 [[nodiscard]] std::string plan_schema();

@@ -8,32 +8,9 @@
 
 namespace rondure::plans {
 
-// The keys of a feature of the type "rotary_axes" and of its simulation, as the JSON spells them;
-// see plan.h. Keys and meanings: rotary_table.h.
-
-/// One ball of the artefact.
-struct BallPlan {
-  std::string id;
-  std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Nominal, body frame.
-};
-
-struct CombinedPosePlan {
-  double alpha_deg = 0.0;
-  double beta_deg = 0.0;
-};
-
-/// Calibration of the fixture with balls that it carries.
-struct RotaryPlan {
-  std::vector<BallPlan> balls;
-  double ball_diameter_mm = 10.0;  ///< Calibrated; held constant while centres are fitted.
-  int points = 9;                  ///< Touches of each ball in each pose.
-  double uncertainty_mm = 0.5;     ///< Largest distance of a ball from its nominal place.
-  std::vector<double> alpha_stations_deg;
-  std::vector<double> beta_stations_deg;
-  std::vector<CombinedPosePlan> verification;  ///< Poses that the fit does not use.
-  double machine_uncertainty_um = 0.0;  ///< Standard, of a centre, in addition to the touches.
-  double valid_for_days = 365.0;
-};
+// The keys of the simulated errors that a feature of the type "rotary_axes" finds, and of the
+// calibration that other runs use, as the JSON spells them; see plan.h. Keys and meanings:
+// rotary_table.h.
 
 /// The hidden errors of a simulated fixture, drawn: fixture/drawn_motion.h.
 struct SimulatedMotionPlan {

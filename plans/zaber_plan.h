@@ -1,30 +1,49 @@
 #pragma once
 
+#include <array>
 #include <string>
+
+#include "record/words.h"
 
 namespace rondure::plans {
 
 // Keys of a fixture on a Zaber controller, as the JSON spells them; see plan.h. Keys and meanings:
 // zaber_table.h.
 
+/// Whether the angle of the fixture grows with the position of a stage.
+enum class StageSense { kAsCounted, kReversed };
+
+constexpr auto words_of(StageSense) {
+  return std::to_array<record::Word<StageSense>>(
+      {{StageSense::kAsCounted, "as-counted"}, {StageSense::kReversed, "reversed"}});
+}
+
 struct ZaberAxisPlan {
-  int axis = 0;                      ///< 0: 1 for alpha, 2 for beta.
-  double microstep_deg = 0.0;        ///< 0: from the controller.
-  std::string sense = "as-counted";  ///< Or "reversed".
-  double zero_deg = 0.0;             ///< Angle at position 0.
-  double max_speed_deg_s = 0.0;      ///< 0: the setting of the controller.
+  int axis = 0;                ///< 0: 1 for alpha, 2 for beta.
+  double microstep_deg = 0.0;  ///< 0: from the controller.
+  StageSense sense = StageSense::kAsCounted;
+  double zero_deg = 0.0;         ///< Angle at position 0.
+  double max_speed_deg_s = 0.0;  ///< 0: the setting of the controller.
 };
 
 struct ZaberPlan {
-  std::string connection = "usb";  ///< Or "serial".
-  std::string device;              ///< For "serial".
-  int baud = 115'200;              ///< For "serial".
-  std::string usb_serial;          ///< For "usb"; empty: the only one plugged in.
+  enum class Connection { kUsb, kSerial };
+
+  Connection connection = Connection::kUsb;
+  std::string device;      ///< For kSerial.
+  int baud = 115'200;      ///< For kSerial.
+  std::string usb_serial;  ///< For kUsb; empty: the only one plugged in.
   int address = 1;
   ZaberAxisPlan alpha;
   ZaberAxisPlan beta;
   double pose_tolerance_deg = 0.01;
   double motion_limit_s = 120.0;
 };
+
+constexpr auto words_of(ZaberPlan::Connection) {
+  using Connection = ZaberPlan::Connection;
+  return std::to_array<record::Word<Connection>>(
+      {{Connection::kUsb, "usb"}, {Connection::kSerial, "serial"}});
+}
 
 }  // namespace rondure::plans

@@ -9,28 +9,6 @@ bool is_analysis(Shape shape) {
          shape == Shape::kRotaryAxes;
 }
 
-std::optional<double> number_in(std::span<const Setting> settings, std::string_view name) {
-  for (const Setting& setting : settings) {
-    if (setting.name == name && setting.number) return setting.number;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> word_in(std::span<const Setting> settings, std::string_view name) {
-  for (const Setting& setting : settings) {
-    if (setting.name == name && !setting.number) return setting.text;
-  }
-  return std::nullopt;
-}
-
-std::vector<double> numbers_in(std::span<const Setting> settings, std::string_view name) {
-  std::vector<double> out;
-  for (const Setting& setting : settings) {
-    if (setting.name == name && setting.number) out.push_back(*setting.number);
-  }
-  return out;
-}
-
 std::optional<std::vector<double>> Series::column(std::string_view wanted) const {
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const SeriesColumn& column) {
     return column.name == wanted;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -135,15 +134,6 @@ struct Setting {
   std::string text;  ///< Used only when there is no number.
 };
 
-/// The first number, or text, with that name, or nothing.
-[[nodiscard]] std::optional<double> number_in(std::span<const Setting> settings,
-                                              std::string_view name);
-[[nodiscard]] std::optional<std::string> word_in(std::span<const Setting> settings,
-                                                 std::string_view name);
-/// All numbers with that name, in order.
-[[nodiscard]] std::vector<double> numbers_in(std::span<const Setting> settings,
-                                             std::string_view name);
-
 /// One feature and how its points are obtained.
 struct Feature {
   std::string id;
@@ -159,11 +149,6 @@ struct Feature {
   std::optional<double> tip_radius_mm;  ///< Of the probe that measured a points file, if stated.
   std::vector<Characteristic> characteristics;
   std::vector<Setting> settings;  ///< A list repeats its key for each item.
-
-  /// As number_in(), word_in() and numbers_in() of the settings.
-  [[nodiscard]] auto number(std::string_view name) const { return number_in(settings, name); }
-  [[nodiscard]] auto word(std::string_view name) const { return word_in(settings, name); }
-  [[nodiscard]] auto numbers(std::string_view name) const { return numbers_in(settings, name); }
 };
 
 /// Head of a run: part, plan, machine, program and conditions.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/prediction/prediction.h"
+#include "evaluation/decision/decision.h"
 #include "evaluation/prediction/predict.h"
 #include "plans/analyses/features.h"
 #include "plans/forecast/expected_record.h"
@@ -169,8 +170,7 @@ class Search {
       : plan_(plan), target_mm_(target_mm) {
     out_.feature = feature;
     out_.planned = sampling_of(plan.features[feature]);
-    out_.measurand = plan.decision_rule.measurand == "whole-surface" ? Measurand::kWholeSurface
-                                                                     : Measurand::kSampledPoints;
+    out_.measurand = evaluation::measurand_of(plan.decision_rule.measurand);
   }
 
   core::Result<SamplingSearch> run() {

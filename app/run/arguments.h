@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "record/report_words.h"
+
 namespace rondure::app {
 
 struct RunArguments {
@@ -15,11 +17,11 @@ struct RunArguments {
   std::string serial;
   std::string operator_name;
   std::optional<std::uint64_t> seed;
-  std::vector<std::string> formats;  ///< Empty: as the plan says.
-  std::string language = "en";       ///< Of page and summary: "en" or "zh".
-  std::string paper;                 ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
-  std::string archive;               ///< Empty: as the plan says.
-  std::string wire_log;              ///< Empty: none.
+  std::vector<std::string> formats;    ///< Empty: as the plan says.
+  std::string language = "en";         ///< Of page and summary: "en" or "zh".
+  std::optional<record::Paper> paper;  ///< Of report.pdf; none: as the plan says.
+  std::string archive;                 ///< Empty: as the plan says.
+  std::string wire_log;                ///< Empty: none.
   bool quiet = false;
   bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
   std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.

@@ -33,7 +33,8 @@ std::vector<std::string> with_those_there(std::vector<std::string> asked,
   for (const reports::Export& e : reports::exports()) {
     std::error_code unknown;
     if (!fs::exists(directory / e.file, unknown)) continue;
-    if (std::find(asked.begin(), asked.end(), e.format) == asked.end()) asked.push_back(e.format);
+    const std::string format(name_of(e.format));
+    if (std::find(asked.begin(), asked.end(), format) == asked.end()) asked.push_back(format);
   }
   return asked;
 }
@@ -43,8 +44,7 @@ reports::Language language_of(const RunArguments& arguments) {
 }
 
 reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) {
-  const std::string& name = arguments.paper.empty() ? plan.reports.paper : arguments.paper;
-  return reports::paper_named(name).value_or(reports::Paper::kA4);
+  return arguments.paper.value_or(plan.reports.paper);
 }
 
 /// A run as its journal holds it.

@@ -117,16 +117,18 @@ fit::ContourStudyOptions options_of(const ContourArguments& arguments) {
   fit::ContourStudyOptions out;
   out.geometry = {arguments.crank_radius_mm, arguments.wheel_radius_mm, arguments.pin_radius_mm};
   out.main_radius_mm = arguments.main_radius_mm;
-  out.method = arguments.method == "as-published" ? fit::ContourMethod::kAsPublished
-                                                  : fit::ContourMethod::kCorrected;
+  out.method = arguments.method == record::ContourTask::Method::kAsPublished
+                   ? fit::ContourMethod::kAsPublished
+                   : fit::ContourMethod::kCorrected;
   out.axes.error_sign = arguments.error_sign;
   out.axes.c_direction = arguments.c_direction;
   out.axes.samples = arguments.path_samples;
   out.samples = arguments.samples;
   out.pre_filter_upr = arguments.pre_filter_upr;
   out.error.filter.cutoff_upr = arguments.cutoff_upr;
-  out.error.base =
-      arguments.base == "geometric" ? fit::BaseCircle::kGeometric : fit::BaseCircle::kLimacon;
+  out.error.base = arguments.base == record::ContourTask::BaseCircle::kGeometric
+                       ? fit::BaseCircle::kGeometric
+                       : fit::BaseCircle::kLimacon;
   out.prefiltered = arguments.prefiltered;
   out.phase_offset_rad = arguments.phase_offset_deg * core::kDegree;
   out.main_phase_offset_rad =

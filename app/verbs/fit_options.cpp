@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/verbs/verbs.h"
+#include "app/verbs/word_option.h"
 
 namespace rondure::app {
 namespace {
@@ -66,19 +67,20 @@ void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
                   "1 (default): actual minus command; -1: command minus actual, as a following "
                   "error of most controls")
       ->check(one_of_signs);
-  verb.add_option("--base", arguments.base, "Base circle: limacon (default) or geometric")
-      ->check(CLI::IsMember({"limacon", "geometric"}));
-  verb.add_option("--method", arguments.method,
-                  "corrected (default), or as-published: each f is turned onto its t")
-      ->check(CLI::IsMember({"corrected", "as-published"}));
+  add_words<record::ContourTask::BaseCircle>(verb, "--base", arguments.base,
+                                             "Base circle: limacon (default) or geometric");
+  add_words<record::ContourTask::Method>(
+      verb, "--method", arguments.method,
+      "corrected (default), or as-published: each f is turned onto its t");
   verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
   verb.add_flag("--map-main", arguments.map_main,
                 "Carry a main journal to the pin as n(alpha(beta)) cos(eta)");
 }
 
 void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {
-  verb.add_option("--layout", a.layout, "published-a, published-b or reference")
-      ->check(CLI::IsMember({"published-a", "published-b", "reference"}));
+  using Layout = record::SpindleTask::Layout;
+  add_words<Layout>(verb, "--layout", a.layout, "published-a, published-b or reference",
+                    {Layout::kAngles});
   verb.add_option("--p1-to-p2", a.p1_to_p2_deg,
                   "deg from probe 1 to probe 2, against the rotation of the work");
   verb.add_option("--p2-to-p3", a.p2_to_p3_deg, "deg from probe 2 to probe 3 (a difference)");
@@ -90,24 +92,25 @@ void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {
 }
 
 void add_measuring(CLI::App& verb, WheelArguments& arguments) {
-  verb.add_option("--mode", arguments.mode,
-                  "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
-                  "speed, points of the circle it sweeps. It decides what the result means")
-      ->required()
-      ->check(CLI::IsMember({"indexed", "envelope"}));
+  using record::WheelTask;
+  add_words<WheelTask::Mode>(
+      verb, "--mode", arguments.mode,
+      "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
+      "speed, points of the circle it sweeps. It decides what the result means")
+      ->required();
   add_list(verb, "--axis-mm", arguments.axis_mm,
            "Spindle axis (indexed): gives run-out and the effective radius", "X,Z")
       ->expected(2);
   verb.add_option("--nominal-radius-mm", arguments.nominal_radius_mm,
                   "R must be within 5 % of it; also the path without compensation");
-  verb.add_option("--center", arguments.center,
-                  "least-squares (default), or a mean of four-point centres: as-published, the\n"
-                  "plain one, or weighted by the conditioning")
-      ->check(CLI::IsMember({"least-squares", "as-published", "weighted"}));
-  verb.add_option("--quadruples", arguments.quadruples,
-                  "Of those means: all (default), best, or random: as published, without a kappa\n"
-                  "limit")
-      ->check(CLI::IsMember({"all", "best", "random"}));
+  add_words<WheelTask::Center>(
+      verb, "--center", arguments.center,
+      "least-squares (default), or a mean of four-point centres: as-published, the\n"
+      "plain one, or weighted by the conditioning");
+  add_words<WheelTask::Quadruples>(
+      verb, "--quadruples", arguments.quadruples,
+      "Of those means: all (default), best, or random: as published, without a kappa\n"
+      "limit");
   verb.add_option("--count", arguments.count,
                   "Quadruples of best and random (default: 6, at least)");
   verb.add_option("--seed", arguments.seed, "Of random quadruples (default: 1)");
@@ -132,8 +135,8 @@ void add_grinding(CLI::App& verb, WheelArguments& arguments) {
       ->expected(2);
   verb.add_option("--step-mm", arguments.step_mm, "Step of x (default: 0.1)");
   verb.add_option("--cusp-um", arguments.cusp_um, "Highest cusp between passes, for the step");
-  verb.add_option("--radius", arguments.radius, "Radius of the path: mean (default) or effective")
-      ->check(CLI::IsMember({"mean", "effective"}));
+  add_words<record::GroundSurfaceTask::Radius>(verb, "--radius", arguments.radius,
+                                               "Radius of the path: mean (default) or effective");
   add_list(verb, "--wheel-arc-deg", arguments.wheel_arc_deg,
            "Trued arc of the wheel about its lowest point", "A,B")
       ->expected(2);
@@ -220,8 +223,8 @@ void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
                    "um, standard deviation of a reading (default: estimated)");
   verb->add_option("--regularise", a.expected_amplitude_um,
                    "um, amplitude expected of a harmonic: weak ones are attenuated");
-  verb->add_option("--second-order", a.second_order, "auto (default), on or off")
-      ->check(CLI::IsMember({"auto", "on", "off"}));
+  add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.second_order,
+                                              "auto (default), on or off");
   verb->add_option("--cutoff-upr", a.cutoff_upr,
                    "Gaussian low pass of the profile (default: 50; 0: none)");
   verb->add_flag("--no-resampling", a.no_resampling,

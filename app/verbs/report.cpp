@@ -48,11 +48,9 @@ int report(const ReportArguments& arguments) {
   const std::string signed_sums = signed_checksums(arguments.directory);
   const auto language =
       reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
-  const auto paper = reports::paper_named(
-      arguments.paper.empty() ? plans::recorded_paper(record->header.plan_text) : arguments.paper);
-  const auto written =
-      reports::write_exports(arguments.directory, formats_of(arguments), *record, *evaluation,
-                             language, paper.value_or(reports::Paper::kA4));
+  const auto paper = arguments.paper.value_or(plans::recorded_paper(record->header.plan_text));
+  const auto written = reports::write_exports(arguments.directory, formats_of(arguments), *record,
+                                              *evaluation, language, paper);
   if (!written) return refuse(written.error());
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");

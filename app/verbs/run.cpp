@@ -69,11 +69,13 @@ core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& argum
 
 /// kBadOption for --speed with a machine that is not simulated here and has its own speed.
 core::Result<void> check_machine_speed(const RunArguments& arguments, const plans::Plan& plan) {
-  if (!arguments.speed || !plan.machine || plan.machine->driver == "simulated") return {};
+  if (!arguments.speed || !plan.machine ||
+      plan.machine->driver == plans::MachinePlan::Driver::kSimulated)
+    return {};
   return core::fail(core::Code::kBadOption,
                     fmt::format("--speed is for a machine that is simulated here, this one is "
                                 "\"{}\" and has its own",
-                                plan.machine->driver),
+                                name_of(plan.machine->driver)),
                     "/machine/driver");
 }
 
@@ -200,8 +202,9 @@ int status_of(const std::vector<core::Error>& reasons) {
 
 /// Checks that there is a terminal to ask for a fixture set by hand with a real machine.
 core::Result<void> check_hand(const plans::Plan& plan) {
-  const bool by_hand = plan.fixture && plan.fixture->driver == "manual" && plan.machine &&
-                       plan.machine->driver != "simulated";
+  const bool by_hand =
+      plan.fixture && plan.fixture->driver == plans::FixturePlan::Driver::kManual && plan.machine &&
+      plan.machine->driver != plans::MachinePlan::Driver::kSimulated;
   if (!by_hand) return {};
   auto terminal = StepPrompt::check_terminal(
       "the fixture \"manual\" is set by a person, who is asked for each pose");

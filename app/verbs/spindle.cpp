@@ -168,12 +168,13 @@ constexpr std::array<record::WantedColumn, 5> kColumns = {
 /// One way of stating the angles, completely.
 core::Result<fit::ProbeLayout> layout_of(const SpindleArguments& a) {
   const int own = (a.p1_to_p2_deg ? 1 : 0) + (a.p2_to_p3_deg ? 1 : 0) + (a.p1_to_p3_deg ? 1 : 0);
-  if (!a.layout.empty() && own > 0) {
+  if (a.layout && own > 0) {
     return core::fail(Code::kBadOption, "give --layout or angles of your own, not both");
   }
-  for (const NamedLayout& known : known_layouts()) {
-    if (a.layout == known.name) return known.layout;
-  }
+  using Layout = record::SpindleTask::Layout;
+  if (a.layout == Layout::kPublishedA) return fit::published_layout_a();
+  if (a.layout == Layout::kPublishedB) return fit::published_layout_b();
+  if (a.layout == Layout::kReference) return fit::reference_layout();
   if (own != 2 || !a.p1_to_p2_deg) {
     return core::fail(Code::kBadOption,
                       "the probe angles are not stated: give --p1-to-p2 and either --p2-to-p3 (a "
@@ -196,8 +197,9 @@ fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
     out.recovery = Options::Recovery::kTikhonov;
     out.expected_amplitude_mm = *a.expected_amplitude_um * kMicrometre;
   }
-  if (a.second_order == "on") out.second_order = Options::SecondOrder::kOn;
-  if (a.second_order == "off") out.second_order = Options::SecondOrder::kOff;
+  using SecondOrder = record::SpindleTask::SecondOrder;
+  if (a.second_order == SecondOrder::kOn) out.second_order = Options::SecondOrder::kOn;
+  if (a.second_order == SecondOrder::kOff) out.second_order = Options::SecondOrder::kOff;
   if (a.as_published) out.motion = Options::Motion::kAsPublished;
   return out;
 }

@@ -10,6 +10,10 @@
 #include "app/text/answer.h"
 #include "fit/spindle/probe_layout.h"
 #include "record/archive/archive.h"
+#include "record/report_words.h"
+#include "record/tasks/contour.h"
+#include "record/tasks/spindle.h"
+#include "record/tasks/wheel.h"
 
 namespace CLI {
 class App;
@@ -47,8 +51,8 @@ struct SimulateCmmArguments {
 struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;
-  std::string language = "en";  ///< Of page and summary: "en" or "zh".
-  std::string paper;            ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
+  std::string language = "en";         ///< Of page and summary: "en" or "zh".
+  std::optional<record::Paper> paper;  ///< Of report.pdf; none: as the plan says.
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
 
@@ -114,21 +118,21 @@ struct ContourArguments {
   std::vector<std::string> main;
   std::string mapping;
   std::vector<std::string> columns;
-  double crank_radius_mm = 49.0;
-  double wheel_radius_mm = 299.88;
-  double pin_radius_mm = 24.56;
-  double main_radius_mm = 30.0;
-  double cutoff_upr = 50.0;
-  double pre_filter_upr = 0.0;
-  std::size_t samples = 1440;
-  std::size_t path_samples = 1440;
-  double phase_offset_deg = 0.0;
+  double crank_radius_mm = record::ContourTask().crank_radius_mm;
+  double wheel_radius_mm = record::ContourTask().wheel_radius_mm;
+  double pin_radius_mm = record::ContourTask().pin_radius_mm;
+  double main_radius_mm = record::ContourTask().main_radius_mm;
+  double cutoff_upr = record::ContourTask().cutoff_upr;
+  double pre_filter_upr = record::ContourTask().pre_filter_upr;
+  std::size_t samples = static_cast<std::size_t>(record::ContourTask().samples);
+  std::size_t path_samples = static_cast<std::size_t>(record::ContourTask().path_samples);
+  double phase_offset_deg = record::ContourTask().phase_offset_deg;
   std::optional<double> main_phase_offset_deg;  ///< Absent: as of the pins.
   int gauge_direction = 1;
   int c_direction = 1;
   int error_sign = 1;
-  std::string base = "limacon";
-  std::string method = "corrected";
+  record::ContourTask::BaseCircle base = record::ContourTask().base_circle;
+  record::ContourTask::Method method = record::ContourTask().method;
   bool prefiltered = false;
   bool map_main = false;
   std::string curves;  ///< File for the curves; empty: none.
@@ -138,12 +142,12 @@ struct ContourArguments {
 
 struct WheelArguments {
   std::string file;
-  std::string mode;
-  std::vector<double> axis_mm;  ///< x, z; empty: not known.
+  record::WheelTask::Mode mode = record::WheelTask().mode;  ///< Must be given.
+  std::vector<double> axis_mm;                              ///< x, z; empty: not known.
   std::optional<double> nominal_radius_mm;
-  std::string center = "least-squares";
-  std::string quadruples = "all";
-  std::size_t count = 6;
+  record::WheelTask::Center center = record::WheelTask().center;
+  record::WheelTask::Quadruples quadruples = record::WheelTask().quadruples;
+  std::size_t count = static_cast<std::size_t>(record::WheelTask().count);
   std::uint64_t seed = 1;
   std::optional<double> kappa_limit;
   bool robust = false;
@@ -152,9 +156,9 @@ struct WheelArguments {
   std::string removal;
   std::vector<double> range_mm;          ///< Contacts; empty: the table's range.
   std::vector<double> surface_range_mm;  ///< Empty: the contacts.
-  double step_mm = 0.1;
+  double step_mm = record::GroundSurfaceTask().step_mm;
   std::optional<double> cusp_um;
-  std::string radius = "mean";
+  record::GroundSurfaceTask::Radius radius = record::GroundSurfaceTask().radius;
   std::vector<double> wheel_arc_deg;
   double repeatability_um = 0.0;
   std::optional<double> touch_off_mm;
@@ -183,20 +187,20 @@ struct RotaryAxesArguments {
 
 struct SpindleArguments {
   std::string file;
-  std::string layout;  ///< Empty: by the angles.
+  std::optional<record::SpindleTask::Layout> layout;  ///< None: by the angles.
   std::optional<double> p1_to_p2_deg;
   std::optional<double> p2_to_p3_deg;
   std::optional<double> p1_to_p3_deg;
-  double crank_radius_mm = 0.0;
-  double wheel_radius_mm = 0.0;
-  double pin_radius_mm = 0.0;
-  int samples = 1024;
-  int highest_order = 50;
-  double greatest_gain = 100.0;
+  double crank_radius_mm = record::SpindleTask().crank_radius_mm;
+  double wheel_radius_mm = record::SpindleTask().wheel_radius_mm;
+  double pin_radius_mm = record::SpindleTask().pin_radius_mm;
+  int samples = record::SpindleTask().samples;
+  int highest_order = record::SpindleTask().highest_order;
+  double greatest_gain = record::SpindleTask().greatest_gain;
   std::optional<double> probe_noise_um;
   std::optional<double> expected_amplitude_um;  ///< Given: the regularised form.
-  std::string second_order = "auto";
-  double cutoff_upr = 50.0;
+  record::SpindleTask::SecondOrder second_order = record::SpindleTask().second_order;
+  double cutoff_upr = record::SpindleTask().cutoff_upr;
   bool no_resampling = false;
   bool as_published = false;
   bool inside = false;

@@ -290,16 +290,17 @@ core::Result<Points> load_wheel(const std::string& file) {
   return out;
 }
 
+using Center = record::WheelTask::Center;
+using Quadruples = record::WheelTask::Quadruples;
+
 fit::WheelOptions measuring_options(const WheelArguments& a) {
   fit::WheelOptions out;
-  out.mode = a.mode == "envelope" ? fit::WheelMode::kEnvelope : fit::WheelMode::kIndexed;
-  for (const auto mean : {fit::WheelMean::kAsPublished, fit::WheelMean::kWeighted}) {
-    if (fit::name_of(mean) == a.center) out.mean = mean;
-  }
-  using Choice = fit::QuadrupleChoice;
-  for (const auto choice : {Choice::kAll, Choice::kBest, Choice::kRandom}) {
-    if (fit::name_of(choice) == a.quadruples) out.quadruples.choice = choice;
-  }
+  out.mode = a.mode == record::WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
+                                                          : fit::WheelMode::kIndexed;
+  if (a.center == Center::kAsPublished) out.mean = fit::WheelMean::kAsPublished;
+  if (a.center == Center::kWeighted) out.mean = fit::WheelMean::kWeighted;
+  if (a.quadruples == Quadruples::kBest) out.quadruples.choice = fit::QuadrupleChoice::kBest;
+  if (a.quadruples == Quadruples::kRandom) out.quadruples.choice = fit::QuadrupleChoice::kRandom;
   out.quadruples.count = a.count;
   out.quadruples.seed = a.seed;
   out.quadruples.kappa_limit = a.kappa_limit;
@@ -339,11 +340,11 @@ core::Result<fit::WheelPathOptions> path_options(const WheelArguments& a,
 
 core::Result<fit::WheelTask> task_of(const WheelArguments& a) {
   fit::WheelTask out{measuring_options(a), {}};
-  if (a.center == "least-squares" && a.quadruples != "all") {
+  if (a.center == Center::kLeastSquares && a.quadruples != Quadruples::kAll) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("--quadruples {} has no effect on a least-squares centre; add "
                                   "--center as-published or weighted",
-                                  a.quadruples));
+                                  name_of(a.quadruples)));
   }
   if (a.surface.empty()) {
     if (a.path.empty() && a.gcode.empty() && a.removal.empty()) return out;
@@ -357,7 +358,8 @@ core::Result<fit::WheelTask> task_of(const WheelArguments& a) {
   if (!options) return core::fail(options.error());
   fit::WheelPathTask path{*std::move(surface), *options, fit::RadiusChoice::kMean,
                           a.repeatability_um * core::kMicrometre, a.touch_off_mm};
-  if (a.radius == "effective") path.radius = fit::RadiusChoice::kEffective;
+  if (a.radius == record::GroundSurfaceTask::Radius::kEffective)
+    path.radius = fit::RadiusChoice::kEffective;
   out.path = std::move(path);
   return out;
 }

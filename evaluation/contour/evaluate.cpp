@@ -9,6 +9,8 @@
 #include "core/units.h"
 #include "evaluation/contour/result.h"
 #include "evaluation/results/evaluation.h"
+#include "record/tasks/contour.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -16,38 +18,33 @@ namespace {
 using core::Code;
 using core::kDegree;
 using core::kMicrometre;
+using record::ContourTask;
 using record::Form;
 
-double number(const record::Feature& feature, std::string_view name, double otherwise) {
-  return feature.number(name).value_or(otherwise);
-}
-
-/// The settings of the journal as options of the study.
-fit::ContourStudyOptions contour_options(const record::Feature& feature) {
+fit::ContourStudyOptions contour_options(const ContourTask& task) {
   fit::ContourStudyOptions out;
-  const auto is = [&](std::string_view key, std::string_view word) {
-    return feature.word(key) == word;
-  };
-  out.geometry = {number(feature, "crank_radius_mm", out.geometry.crank_radius_mm),
-                  number(feature, "wheel_radius_mm", out.geometry.wheel_radius_mm),
-                  number(feature, "pin_radius_mm", out.geometry.pin_radius_mm)};
-  out.main_radius_mm = number(feature, "main_radius_mm", out.main_radius_mm);
-  if (is("method", "as-published")) out.method = fit::ContourMethod::kAsPublished;
-  if (is("error", "command-minus-actual")) out.axes.error_sign = -1;
-  if (is("c_axis", "against-wheel")) out.axes.c_direction = -1;
-  if (is("gauge", "clockwise")) out.gauge_direction = -1;
-  out.axes.samples = static_cast<std::size_t>(number(feature, "path_samples", 1440.0));
-  out.samples = static_cast<std::size_t>(number(feature, "samples", 1440.0));
-  out.phase_offset_rad = number(feature, "phase_offset_deg", 0.0) * kDegree;
-  out.main_phase_offset_rad = number(feature, "main_phase_offset_deg", 0.0) * kDegree;
-  out.pre_filter_upr = number(feature, "pre_filter_upr", 0.0);
-  out.error.filter.cutoff_upr = number(feature, "cutoff_upr", out.error.filter.cutoff_upr);
-  if (is("filter", "none")) out.error.filter.filter = fit::ProfileFilter::kNone;
-  out.prefiltered = is("filter", "done-by-gauge");
-  if (is("base_circle", "geometric")) out.error.base = fit::BaseCircle::kGeometric;
-  out.map_main = is("main_journal", "mapped");
-  out.limits = {number(feature, "stable_from", out.limits.stable),
-                number(feature, "partly_from", out.limits.partly)};
+  out.geometry = {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm};
+  out.main_radius_mm = task.main_radius_mm;
+  out.method = task.method == ContourTask::Method::kAsPublished ? fit::ContourMethod::kAsPublished
+                                                                : fit::ContourMethod::kCorrected;
+  out.axes.error_sign = task.error == ContourTask::Error::kCommandMinusActual ? -1 : 1;
+  out.axes.c_direction = task.c_axis == ContourTask::CAxis::kAgainstWheel ? -1 : 1;
+  out.gauge_direction = task.gauge == ContourTask::Gauge::kClockwise ? -1 : 1;
+  out.axes.samples = static_cast<std::size_t>(task.path_samples);
+  out.samples = static_cast<std::size_t>(task.samples);
+  out.phase_offset_rad = task.phase_offset_deg * kDegree;
+  out.main_phase_offset_rad = task.main_phase_offset_deg * kDegree;
+  out.pre_filter_upr = task.pre_filter_upr;
+  out.error.filter.cutoff_upr = task.cutoff_upr;
+  if (task.filter == ContourTask::Filter::kNone) {
+    out.error.filter.filter = fit::ProfileFilter::kNone;
+  }
+  out.prefiltered = task.filter == ContourTask::Filter::kDoneByGauge;
+  out.error.base = task.base_circle == ContourTask::BaseCircle::kGeometric
+                       ? fit::BaseCircle::kGeometric
+                       : fit::BaseCircle::kLimacon;
+  out.map_main = task.main_journal == ContourTask::MainJournal::kMapped;
+  out.limits = {task.stable_from, task.partly_from};
   return out;
 }
 
@@ -78,12 +75,10 @@ std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int inde
   }
 }
 
-/// What the plan calls the parts; where it says nothing, their numbers.
-std::vector<std::string> names_of(const record::Feature& feature, std::size_t parts) {
+/// The names of the parts in the plan; their numbers where it gives none.
+std::vector<std::string> names_of(const ContourTask& task, std::size_t parts) {
   std::vector<std::string> out;
-  for (const record::Setting& setting : feature.settings) {
-    if (setting.name == "parts/name") out.push_back(setting.text);
-  }
+  for (const record::ContourPartTask& part : task.parts) out.push_back(part.name);
   out.resize(parts);
   for (std::size_t i = 0; i < parts; ++i) {
     if (out[i].empty()) out[i] = std::to_string(i + 1);
@@ -186,13 +181,15 @@ ValueOperator operator_of(const ContourResult& facts, const record::Characterist
 
 core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, int index,
                                              FeatureResult& result) {
+  const auto task = record::task_of<ContourTask>(result.feature.settings);
+  if (!task) return tl::unexpected(task.error());
   ContourResult facts;
-  facts.options = contour_options(result.feature);
+  facts.options = contour_options(*task);
   const auto parts = parts_of(record, index);
   auto study = fit::contour_study(parts, facts.options);
   if (!study) return tl::unexpected(study.error());
   facts.study = *std::move(study);
-  facts.names = names_of(result.feature, parts.size());
+  facts.names = names_of(*task, parts.size());
   result.warnings = facts.study.warnings;
   return facts;
 }

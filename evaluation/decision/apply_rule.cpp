@@ -170,26 +170,6 @@ core::Phrase verdict_sentence(const DecisionRule& rule, const KnownValue& value,
 
 }  // namespace
 
-std::string_view name_of(DecisionRule::Kind kind) {
-  switch (kind) {
-    case DecisionRule::Kind::kSimpleAcceptance:
-      return "simple-acceptance";
-    case DecisionRule::Kind::kIso14253:
-      return "iso-14253-1";
-    case DecisionRule::Kind::kJcgm106:
-      return "jcgm-106";
-    case DecisionRule::Kind::kNToOne:
-      return "n-to-1";
-    case DecisionRule::Kind::kGuardBand:
-      return "guard-band";
-  }
-  return {};
-}
-
-std::string_view name_of(Prior::Kind kind) {
-  return kind == Prior::Kind::kNormal ? "normal" : "gamma";
-}
-
 std::optional<double> RuleOutcome::specific_risk_1() const {
   if (!conformance_1) return std::nullopt;
   if (verdict == Verdict::kConforms) return 1.0 - *conformance_1;

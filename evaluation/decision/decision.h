@@ -8,13 +8,14 @@
 #include "evaluation/decision/verdict.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "record/run_record.h"
+#include "record/tasks/decision_rule.h"
 
 namespace rondure::evaluation {
 
 /// What was known of the parts before this one was measured: the spread of their form deviation.
 /// Zero below 0 mm, where no form deviation is.
 struct Prior {
-  enum class Kind { kGamma, kNormal };  ///< kNormal is cut at 0.
+  using Kind = record::PriorTask::Distribution;
   Kind kind = Kind::kGamma;
   double mean_mm = 0.0;                ///< > 0. Of the normal one before the cut.
   double standard_deviation_mm = 0.0;  ///< > 0; of the gamma one at most the mean.
@@ -25,19 +26,28 @@ struct Prior {
 
 /// How a value and its tolerance make a verdict. Form deviations have one limit T, the upper one.
 struct DecisionRule {
-  enum class Kind { kSimpleAcceptance, kIso14253, kJcgm106, kNToOne, kGuardBand };
+  using Kind = record::DecisionRuleTask::Rule;
   Kind kind = Kind::kSimpleAcceptance;
   Measurand measurand = Measurand::kSampledPoints;  ///< What the verdict is about.
   /// false: a value as read above the tolerance never conforms. true: by agreement of the parties
   /// only the corrected value counts.
   bool judge_corrected = false;
-  double guard_factor = 1.0;      ///< kIso14253: guard band in parts of the interval.
-  double consumer_risk_1 = 0.05;  ///< kJcgm106: of an accepted part, at most.
-  double producer_risk_1 = 0.05;  ///< kJcgm106: of a rejected part, at most.
+  double guard_factor =
+      record::DecisionRuleTask().guard_factor;  ///< kIso14253: guard band in parts of the interval.
+  double consumer_risk_1 =
+      0.01 * record::DecisionRuleTask()
+                 .consumer_risk_percent;  ///< kJcgm106: of an accepted part, at most.
+  double producer_risk_1 =
+      0.01 *
+      record::DecisionRuleTask().producer_risk_percent;  ///< kJcgm106: of a rejected part, at most.
   std::optional<Prior> prior = {};
-  double ratio = 4.0;               ///< kNToOne: N.
-  double acceptance_guard_1 = 1.0;  ///< kGuardBand: in parts of U; < 0: relaxed.
-  double rejection_guard_1 = 1.0;   ///< kGuardBand: in parts of U; < 0: relaxed.
+  double ratio = record::DecisionRuleTask().ratio;  ///< kNToOne: N.
+  double acceptance_guard_1 =
+      0.01 * record::DecisionRuleTask()
+                 .acceptance_guard_percent;  ///< kGuardBand: in parts of U; < 0: relaxed.
+  double rejection_guard_1 =
+      0.01 * record::DecisionRuleTask()
+                 .rejection_guard_percent;  ///< kGuardBand: in parts of U; < 0: relaxed.
   /// The statements that ASME B89.7.3.1 requires, as the plan words them.
   std::string zones = {};
   std::string outcomes = {};
@@ -47,13 +57,11 @@ struct DecisionRule {
   [[nodiscard]] bool needs_interval() const { return kind != Kind::kSimpleAcceptance; }
 };
 
-/// "simple-acceptance", "iso-14253-1", "jcgm-106", "n-to-1", "guard-band"; "gamma", "normal".
-[[nodiscard]] std::string_view name_of(DecisionRule::Kind kind);
-[[nodiscard]] std::string_view name_of(Prior::Kind kind);
+[[nodiscard]] Measurand measurand_of(record::DecisionRuleTask::Measurand asked);
 
 /// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 says only
-/// its name. kMeaning for a rule, measurand, judge or prior this program does not know: then every
-/// verdict is void.
+/// its name. kMeaning for a rule this program does not know, and the errors of record::task_of():
+/// then every verdict is void.
 [[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
 
 /// What is known of a value.

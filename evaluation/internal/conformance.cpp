@@ -11,6 +11,9 @@
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -34,7 +37,9 @@ core::Phrase sampling_words(const FeatureResult& result,
   core::Phrase text = feature.layers > 0
                           ? core::phrase("{} x {} points", feature.layers, feature.points_per_layer)
                           : core::phrase("{} points", result.cloud.size());
-  if (feature.word("sampling_method") == "scan") text = core::phrase("{}, scanned", text);
+  const auto sampling = record::task_of<record::SamplingSettings>(feature.settings);
+  const bool scanned = sampling && sampling->sampling_method == record::SamplingMethod::kScan;
+  if (scanned) text = core::phrase("{}, scanned", text);
   if (result.merged) {
     text = core::phrase("{} in {} poses, merged {}", text, result.merged->poses.size(),
                         result.merged->joint ? core::phrase("with their errors solved for")
@@ -209,7 +214,9 @@ std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
   const record::Header& header = record.header;
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
                        result.feature.strategy != record::Strategy::kSeries;
-  if (!touched && !record::word_in(record.settings, "environment/declared")) return std::nullopt;
+  const auto stated = record::task_of<record::EnvironmentSettings>(record.settings, "environment/");
+  if (!stated) return stated.error().what;
+  if (!touched && !stated->declared) return std::nullopt;
   if (!result.temperatures) {
     return core::phrase(
         "the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "

@@ -1,37 +1,30 @@
 #include "evaluation/internal/fixture_use.h"
 
-#include <vector>
+#include <utility>
 
 #include "core/units.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::evaluation {
 namespace {
 
-Eigen::Vector3d vector_in(const record::RunRecord& record, const char* name) {
-  const std::vector<double> v = record::numbers_in(record.settings, name);
-  return v.size() < 3 ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                      : Eigen::Vector3d(v[0], v[1], v[2]);
-}
-
-fixture::CalibrationDemand demand_of(const record::RunRecord& record) {
-  const auto number = [&](const char* name) { return record::number_in(record.settings, name); };
-  const auto angle = [&](const char* name) { return number(name).value_or(0.0) * core::kDegree; };
+fixture::CalibrationDemand demand_of(const record::RunRecord& record,
+                                     const record::FixtureSettings& said) {
   fixture::CalibrationDemand out;
-  out.fixture_id = record::word_in(record.settings, "fixture/id").value_or("");
+  out.fixture_id = said.id;
   out.run_utc = record.header.started_utc;
-  out.max_age_days = number("fixture/max_age_days");
-  if (const auto limit = number("fixture/max_residual_um")) {
-    out.max_residual_mm = *limit * core::kMicrometre;
-  }
+  out.max_age_days = said.max_age_days;
+  if (said.max_residual_um) out.max_residual_mm = *said.max_residual_um * core::kMicrometre;
   if (record.header.temperature_min_degC < record.header.temperature_max_degC) {
     out.min_degC = record.header.temperature_min_degC;
     out.max_degC = record.header.temperature_max_degC;
   }
   out.assumed_degC = assumed_degC(record);
-  out.lowest = {angle("fixture/min_alpha_deg"), angle("fixture/min_beta_deg")};
-  out.highest = {angle("fixture/max_alpha_deg"), angle("fixture/max_beta_deg")};
-  out.axis_point_mm = vector_in(record, "fixture/axis_point_mm");
-  out.axis_offset_mm = vector_in(record, "fixture/axis_offset_mm");
+  out.lowest = {said.min_alpha_deg * core::kDegree, said.min_beta_deg * core::kDegree};
+  out.highest = {said.max_alpha_deg * core::kDegree, said.max_beta_deg * core::kDegree};
+  out.axis_point_mm = Eigen::Vector3d::Map(said.axis_point_mm.data());
+  out.axis_offset_mm = Eigen::Vector3d::Map(said.axis_offset_mm.data());
   return out;
 }
 
@@ -39,12 +32,18 @@ fixture::CalibrationDemand demand_of(const record::RunRecord& record) {
 
 FixtureFacts fixture_facts(const record::RunRecord& record) {
   FixtureFacts out;
-  out.kinematics.axis_point_W_mm = vector_in(record, "fixture/axis_point_mm");
-  out.kinematics.axis_offset_mm = vector_in(record, "fixture/axis_offset_mm");
-  const auto text = record::word_in(record.settings, "fixture/calibration");
-  if (!text) return out;
+  const auto said = record::task_of<record::FixtureSettings>(record.settings, "fixture/");
   FixtureUse use;
-  const auto calibration = fixture::parse_calibration(*text, "fixture-calibration.json");
+  if (!said) {
+    use.invalid = said.error();
+    out.use = std::move(use);
+    return out;
+  }
+  out.kinematics.axis_point_W_mm = Eigen::Vector3d::Map(said->axis_point_mm.data());
+  out.kinematics.axis_offset_mm = Eigen::Vector3d::Map(said->axis_offset_mm.data());
+  if (!said->calibration) return out;
+  const auto calibration =
+      fixture::parse_calibration(*said->calibration, "fixture-calibration.json");
   if (!calibration) {
     use.invalid = calibration.error();
     out.use = std::move(use);
@@ -58,7 +57,7 @@ FixtureFacts fixture_facts(const record::RunRecord& record) {
   use.residual_rms_mm = calibration->verification.rms_mm;
   use.residual_max_mm = calibration->verification.max_mm;
   use.residual_tilt_rad = calibration->verification.max_tilt_rad;
-  if (auto holds = fixture::check_calibration(*calibration, demand_of(record)); !holds) {
+  if (auto holds = fixture::check_calibration(*calibration, demand_of(record, *said)); !holds) {
     use.invalid = holds.error();
   }
   out.kinematics = fixture::compensated(out.kinematics, *calibration);

@@ -10,10 +10,13 @@
 
 #include "evaluation/internal/fixture_use.h"
 #include "evaluation/interval/internal/declared.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::evaluation {
 namespace {
 
+using record::MergedPosesSettings;
 using record::RunRecord;
 using record::Touch;
 
@@ -22,17 +25,11 @@ constexpr double kLeastTouch_mm = 0.02e-3;
 /// Peak to valley of some 13 normal values in standard deviations.
 constexpr double kFormPerSigma = 3.3;
 
-Eigen::Vector3d vector_of(const record::Feature& feature, std::string_view name) {
-  const auto numbers = feature.numbers(name);
-  if (numbers.size() != 3) return Eigen::Vector3d::Zero();
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 /// How the fixture moved the part: its nominal axes, with the errors of its calibration.
-fixture::Kinematics kinematics_of(const RunRecord& record, const record::Feature& feature) {
+fixture::Kinematics kinematics_of(const RunRecord& record, const MergedPosesSettings& said) {
   fixture::Kinematics out = fixture_facts(record).kinematics;
-  out.axis_point_W_mm = vector_of(feature, "axis_point_mm");
-  out.axis_offset_mm = vector_of(feature, "axis_offset_mm");
+  out.axis_point_W_mm = Eigen::Vector3d::Map(said.axis_point_mm.data());
+  out.axis_offset_mm = Eigen::Vector3d::Map(said.axis_offset_mm.data());
   return out;
 }
 
@@ -88,12 +85,13 @@ double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::P
 
 /// The poses as pose_joint() wants them, and the points as the kinematics place them.
 std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
+                                       const MergedPosesSettings& said,
                                        const std::vector<const record::PoseVisit*>& visits,
                                        MergedCloud& out) {
   const FixtureInfluences stated = fixture_influences(record).value_or(FixtureInfluences{});
   const double shift_mm = stated.position_mm;
   const double turn_rad = stated.angle_rad;
-  const fixture::Kinematics kinematics = kinematics_of(record, feature);
+  const fixture::Kinematics kinematics = kinematics_of(record, said);
   std::vector<fit::JointPose> poses;
   double squares = 0.0;
   int freedom = 0;
@@ -104,7 +102,7 @@ std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Fe
     fit::JointPose pose;
     pose.X_WB = fixture::body_to_machine(kinematics, visit->reached);
     pose.prior = {shift_mm, shift_mm, shift_mm, turn_rad, turn_rad, turn_rad};
-    pose.pivot_W_mm = vector_of(feature, "axis_point_mm");
+    pose.pivot_W_mm = Eigen::Vector3d::Map(said.axis_point_mm.data());
     for (auto [key, point] : means.targets) {
       pose.touches.push_back(
           {point.tip_mm, key.first * std::max(1, feature.points_per_layer) + key.second});
@@ -129,23 +127,18 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   for (const record::PoseVisit& visit : record.poses) {
     if (visit.feature == index && visit.final_cloud) visits.push_back(&visit);
   }
-  const auto merge = record::value_named<record::Merge>(
-      feature.word("merge").value_or(std::string(name_of(record::Merge::kJoint))));
-  if (!merge) {
-    return core::fail(
-        core::Code::kMeaning,
-        fmt::format("setting \"merge\" says \"{}\", which is not known", *feature.word("merge")));
-  }
-  const auto planned = static_cast<std::size_t>(feature.number("merged_poses").value_or(2.0));
+  const auto said = record::task_of<MergedPosesSettings>(feature.settings);
+  if (!said) return core::fail(said.error());
+  const auto planned = static_cast<std::size_t>(said->merged_poses);
   MergedCloud out;
-  const std::vector<fit::JointPose> poses = take_poses(record, feature, visits, out);
+  const std::vector<fit::JointPose> poses = take_poses(record, feature, *said, visits, out);
   if (visits.size() != planned || out.points.empty()) {
     return core::fail(core::Code::kNoPoints,
                       fmt::format("{} of {} poses were measured{}", visits.size(), planned,
                                   record.failure ? ": " + record.failure->what : std::string()));
   }
   out.temperatures = temperatures_of(record, touches_in(record, visits));
-  out.merged.joint = *merge == record::Merge::kJoint;
+  out.merged.joint = said->merge == record::Merge::kJoint;
   out.merged.touch_mm = touch_uncertainty_mm(out, probe);
   if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {
     out.merged.refusal = core::Error{core::Code::kMissingKey,

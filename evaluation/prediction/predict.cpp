@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/prediction/internal/expected_form.h"
+#include "record/tasks/uncertainty.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -141,7 +142,11 @@ class Budgets {
 std::string assume_repeatability(const record::RunRecord& record, TrialInspection& rehearsal) {
   const auto declared = declared_for(record, rehearsal.result(), std::nullopt);
   if (!declared || !declared->influences.probe) return {};
-  if (record::number_in(record.settings, "uncertainty/probe/repeatability_um")) return {};
+  const auto recorded = record::recorded_uncertainty(record.settings);
+  if (recorded && *recorded && (*recorded)->task.probe &&
+      (*recorded)->task.probe->repeatability_um) {
+    return {};
+  }
   if (declared->influences.probe->form_limit_mm > 0.0) return "within the declared probing form";
   const auto& cloud = rehearsal.result().cloud;
   const bool repeats = std::any_of(cloud.begin(), cloud.end(),

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
+
 namespace rondure::evaluation {
 namespace {
 
@@ -48,10 +52,14 @@ bool take_means(const RunRecord& record, int pose, ThermalCorrection& out) {
   return true;
 }
 
-double uncertainty(const record::Feature& feature, const ThermalCorrection& c) {
-  const double u_K = feature.number("temperature_uncertainty_K").value_or(0.0);
-  const double u_part = feature.number("part_expansion_uncertainty_per_K").value_or(0.0);
-  const double u_scale = feature.number("scale_expansion_uncertainty_per_K").value_or(0.0);
+core::Result<record::ExpansionSettings> expansion_of(const record::Feature& feature) {
+  return record::task_of<record::ExpansionSettings>(feature.settings);
+}
+
+double uncertainty(const record::ExpansionSettings& said, const ThermalCorrection& c) {
+  const double u_K = said.temperature_uncertainty_K.value_or(0.0);
+  const double u_part = said.part_expansion_uncertainty_per_K.value_or(0.0);
+  const double u_scale = said.scale_expansion_uncertainty_per_K.value_or(0.0);
   return std::hypot(
       std::hypot(c.part_expansion_1_K * u_K, (c.part_degC - kReference_degC) * u_part),
       std::hypot(c.scale_expansion_1_K * u_K, (c.scale_degC - kReference_degC) * u_scale));
@@ -60,7 +68,8 @@ double uncertainty(const record::Feature& feature, const ThermalCorrection& c) {
 }  // namespace
 
 std::optional<double> assumed_degC(const RunRecord& record) {
-  return record::number_in(record.settings, "environment/assumed_degC");
+  const auto said = record::task_of<record::EnvironmentSettings>(record.settings, "environment/");
+  return said ? said->assumed_degC : std::nullopt;
 }
 
 std::optional<Temperatures> temperatures_of(const RunRecord& record,
@@ -84,19 +93,21 @@ std::optional<Temperatures> temperatures_of(const RunRecord& record,
 }
 
 bool asks_for_20_degC(const record::Feature& feature) {
-  return feature.number("part_expansion_per_K") || feature.number("scale_expansion_per_K");
+  const auto said = expansion_of(feature);
+  return !said || said->part_expansion_per_K || said->scale_expansion_per_K;
 }
 
 std::optional<ThermalCorrection> thermal_correction(const RunRecord& record, int feature,
                                                     int pose) {
   const record::Feature& asked = record.features[static_cast<std::size_t>(feature)];
-  if (!asks_for_20_degC(asked)) return std::nullopt;
+  const auto said = expansion_of(asked);
+  if (!asks_for_20_degC(asked) || !said) return std::nullopt;
   ThermalCorrection out;
-  out.part_expansion_1_K = asked.number("part_expansion_per_K").value_or(0.0);
-  out.scale_expansion_1_K = asked.number("scale_expansion_per_K").value_or(0.0);
+  out.part_expansion_1_K = said->part_expansion_per_K.value_or(0.0);
+  out.scale_expansion_1_K = said->scale_expansion_per_K.value_or(0.0);
   if (!take_means(record, pose, out)) return std::nullopt;
   out.factor = scale_factor(out.scale_expansion_1_K, out.scale_degC) / part_factor(out);
-  out.factor_uncertainty = uncertainty(asked, out);
+  out.factor_uncertainty = uncertainty(*said, out);
   return out;
 }
 

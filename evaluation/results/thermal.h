@@ -39,7 +39,7 @@ struct ThermalCorrection {
   double factor_uncertainty = 0.0;
 };
 
-/// Whether a feature is to be brought to 20 degC.
+/// Whether a feature is to be brought to 20 degC; also where its settings cannot be read.
 [[nodiscard]] bool asks_for_20_degC(const record::Feature& feature);
 
 /// The record with its tip centres brought to 20 degC; nothing when no feature asks for it.

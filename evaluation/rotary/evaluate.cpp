@@ -12,6 +12,9 @@
 #include "fit/geometry/registration.h"
 #include "fit/rotary/ball_center.h"
 #include "fit/rotary/ball_setup.h"
+#include "record/tasks/rotary_axes.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 using core::kDegree;
 using core::kMicrometre;
 using Eigen::Vector3d;
+using record::RotaryTask;
 
 constexpr double kZero_rad = 1e-9;    // of a commanded angle
 constexpr double kBeside_rad = 1e-6;  // of the other axis at a station: 0.1 um at a lever of 100 mm
@@ -51,14 +55,6 @@ struct Measurement {
   }
 };
 
-std::vector<std::string> ball_names(const record::Feature& feature) {
-  std::vector<std::string> out;
-  for (const record::Setting& setting : feature.settings) {
-    if (setting.name == "balls/id" && !setting.number) out.push_back(setting.text);
-  }
-  return out;
-}
-
 core::Result<fit::BallCenter> center_of(const std::vector<Vector3d>& tips, double radius_mm,
                                         double form_limit_mm, const std::string& name,
                                         const core::Pose& pose) {
@@ -79,12 +75,12 @@ core::Result<fit::BallCenter> center_of(const std::vector<Vector3d>& tips, doubl
 }
 
 /// Fits every ball of every pose, the radius held.
-core::Result<Measurement> measure(const record::RunRecord& record, int index, double tip_mm) {
-  const record::Feature& feature = record.features[static_cast<std::size_t>(index)];
+core::Result<Measurement> measure(const record::RunRecord& record, int index,
+                                  const RotaryTask& task, double tip_mm) {
   Measurement out;
-  out.names = ball_names(feature);
-  out.machine_u_mm = feature.number("machine_uncertainty_um").value_or(0.0) * kMicrometre;
-  const double radius_mm = 0.5 * feature.number("ball_diameter_mm").value_or(0.0) + tip_mm;
+  for (const record::BallTask& ball : task.balls) out.names.push_back(ball.id);
+  out.machine_u_mm = task.machine_uncertainty_um * kMicrometre;
+  const double radius_mm = 0.5 * task.ball_diameter_mm + tip_mm;
   double squares_mm2 = 0.0;
   int freedoms = 0;
   for (const record::PoseVisit& visit : record.poses) {
@@ -189,11 +185,6 @@ core::Result<std::shared_ptr<const fixture::StationMotion>> motion_of(
   return fixture::StationMotion::through(std::move(stations));
 }
 
-Vector3d vector_of(const std::vector<double>& numbers) {
-  return numbers.size() < 3 ? Vector3d(Vector3d::Zero())
-                            : Vector3d(numbers[0], numbers[1], numbers[2]);
-}
-
 /// Variance of a point at a combined pose, from the stations of both axes and its own ball.
 double variance_mm2(const fixture::Calibration& c, const core::Pose& pose, const Vector3d& p_W_mm,
                     const Vector3d& u_mm) {
@@ -290,10 +281,12 @@ void verify_combined(const Measurement& measured, RotaryResult& facts) {
   v.expected_mm = std::sqrt(sums.expected_mm2 / v.points);
 }
 
-core::Result<void> date_calibration(const record::RunRecord& record, int index,
+core::Result<void> date_calibration(const record::RunRecord& record, const RotaryTask& task,
                                     fixture::Calibration& out) {
+  const auto fixture = record::task_of<record::FixtureSettings>(record.settings, "fixture/");
+  if (!fixture) return core::fail(fixture.error());
   out.id = record.header.run_id;
-  out.fixture_id = record::word_in(record.settings, "fixture/id").value_or("");
+  out.fixture_id = fixture->id;
   out.measured_utc = record.header.started_utc;
   const auto start = core::parse_utc(out.measured_utc);
   if (!start) {
@@ -303,11 +296,10 @@ core::Result<void> date_calibration(const record::RunRecord& record, int index,
                     "cannot expire",
                     out.measured_utc));
   }
-  const double days =
-      record.features[static_cast<std::size_t>(index)].number("valid_for_days").value_or(0.0);
-  out.expires_utc = core::utc_text(*start + static_cast<std::int64_t>(days * kDay_s));
-  out.axis_point_mm = vector_of(record::numbers_in(record.settings, "fixture/axis_point_mm"));
-  out.axis_offset_mm = vector_of(record::numbers_in(record.settings, "fixture/axis_offset_mm"));
+  out.expires_utc =
+      core::utc_text(*start + static_cast<std::int64_t>(task.valid_for_days * kDay_s));
+  out.axis_point_mm = Vector3d::Map(fixture->axis_point_mm.data());
+  out.axis_offset_mm = Vector3d::Map(fixture->axis_offset_mm.data());
   return {};
 }
 
@@ -330,11 +322,14 @@ void judge_balls(const Measurement& measured, RotaryResult& facts) {
 }
 
 core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, double tip_mm) {
-  auto measured = measure(record, index, tip_mm);
+  const auto task =
+      record::task_of<RotaryTask>(record.features[static_cast<std::size_t>(index)].settings);
+  if (!task) return core::fail(task.error());
+  auto measured = measure(record, index, *task, tip_mm);
   if (!measured) return core::fail(measured.error());
   RotaryResult facts;
   fixture::Calibration& c = facts.calibration;
-  if (auto dated = date_calibration(record, index, c); !dated) return core::fail(dated.error());
+  if (auto dated = date_calibration(record, *task, c); !dated) return core::fail(dated.error());
   auto alpha = study_of(*measured, Role::kAlpha, Vector3d::UnitX(), c.axis_point_mm);
   if (!alpha)
     return core::fail(alpha.error().code, fmt::format("axis alpha: {}", alpha.error().what));

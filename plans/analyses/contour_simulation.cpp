@@ -16,6 +16,7 @@ namespace {
 
 using core::kDegree;
 using core::kMicrometre;
+using record::ContourTask;
 
 constexpr std::uint64_t kPartStream = 0xc0a7u;
 constexpr std::uint64_t kAxesStream = 0xc0a8u;
@@ -56,11 +57,11 @@ GroundWorld world_of(const SimulatedContourPlan& hidden, std::uint64_t seed, std
 }
 
 /// Samples of the controller, in the sense and sign that the plan states.
-record::Series axes_of(const GroundWorld& world, const ContourPlan& asked, std::uint64_t seed,
+record::Series axes_of(const GroundWorld& world, const ContourTask& asked, std::uint64_t seed,
                        std::uint64_t feature, std::uint64_t part) {
   const SimulatedContourPlan& hidden = world.hidden;
-  const double sign = asked.error == "command-minus-actual" ? -1.0 : 1.0;
-  const double sense = asked.c_axis == "against-wheel" ? -1.0 : 1.0;
+  const double sign = asked.error == ContourTask::Error::kCommandMinusActual ? -1.0 : 1.0;
+  const double sense = asked.c_axis == ContourTask::CAxis::kAgainstWheel ? -1.0 : 1.0;
   const double step = core::kTwoPi * hidden.speed_rpm / 60.0 * hidden.sampling_ms * 1e-3;
   const auto count = static_cast<std::uint64_t>(std::ceil(hidden.turns * core::kTwoPi / step));
   record::Series out;
@@ -129,12 +130,12 @@ double range_of(const std::vector<double>& values) {
 
 core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
                                             std::uint64_t seed) {
-  const ContourPlan& asked = *plan.features[index].contour;
+  const ContourTask& asked = *plan.features[index].contour;
   const SimulatedContourPlan& hidden = *plan.simulation->contour;
   const fit::CrankGeometry geometry = {asked.crank_radius_mm, asked.wheel_radius_mm,
                                        asked.pin_radius_mm};
   const auto points = static_cast<std::size_t>(hidden.gauge_points);
-  const double sense = asked.gauge == "clockwise" ? -1.0 : 1.0;
+  const double sense = asked.gauge == ContourTask::Gauge::kClockwise ? -1.0 : 1.0;
   const auto feature = static_cast<int>(index);
   AnalysisData out;
   for (int part = 0; part < hidden.parts; ++part) {

@@ -41,10 +41,11 @@ void check_stations(const std::vector<double>& stations_deg, const std::string& 
   }
 }
 
-void check_verification(const RotaryPlan& plan, const std::string& where, Findings& findings) {
+void check_verification(const record::RotaryTask& plan, const std::string& where,
+                        Findings& findings) {
   if (!findings.sound(where)) return;
   for (std::size_t i = 0; i < plan.verification.size(); ++i) {
-    const CombinedPosePlan& pose = plan.verification[i];
+    const record::CombinedPoseTask& pose = plan.verification[i];
     if (pose.alpha_deg != 0.0 && pose.beta_deg != 0.0) continue;
     findings.meaning(Code::kMeaning, item_pointer(where, i),
                      "an axis stands at 0, as at the stations; verify in poses of both axes");
@@ -56,7 +57,7 @@ void check_verification(const RotaryPlan& plan, const std::string& where, Findin
   }
 }
 
-void check_balls(const RotaryPlan& plan, const std::string& where, Findings& findings) {
+void check_balls(const record::RotaryTask& plan, const std::string& where, Findings& findings) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < plan.balls.size(); ++i) {
     if (!findings.sound(item_pointer(where, i)) || seen.insert(plan.balls[i].id).second) continue;
@@ -67,7 +68,7 @@ void check_balls(const RotaryPlan& plan, const std::string& where, Findings& fin
 }
 
 void check_rotary_axes(const FeaturePlan& feature, const std::string& where, Findings& findings) {
-  const RotaryPlan& plan = *feature.rotary_axes;
+  const record::RotaryTask& plan = *feature.rotary_axes;
   check_balls(plan, where + "/balls", findings);
   check_stations(plan.alpha_stations_deg, where + "/alpha_stations_deg", findings);
   check_stations(plan.beta_stations_deg, where + "/beta_stations_deg", findings);
@@ -84,8 +85,8 @@ void check_travel(const std::vector<double>& angles_deg, double min_deg, double 
   }
 }
 
-void check_angles(const RotaryPlan& plan, const FixturePlan& fixture, const std::string& where,
-                  Findings& findings) {
+void check_angles(const record::RotaryTask& plan, const FixturePlan& fixture,
+                  const std::string& where, Findings& findings) {
   check_travel(plan.alpha_stations_deg, fixture.min_alpha_deg, fixture.max_alpha_deg,
                where + "/alpha_stations_deg", findings);
   check_travel(plan.beta_stations_deg, fixture.min_beta_deg, fixture.max_beta_deg,
@@ -97,7 +98,7 @@ void check_angles(const RotaryPlan& plan, const FixturePlan& fixture, const std:
   const auto [alpha_low, alpha_high] = range(plan.alpha_stations_deg);
   const auto [beta_low, beta_high] = range(plan.beta_stations_deg);
   for (std::size_t i = 0; i < plan.verification.size(); ++i) {
-    const CombinedPosePlan& p = plan.verification[i];
+    const record::CombinedPoseTask& p = plan.verification[i];
     if (p.alpha_deg >= alpha_low && p.alpha_deg <= alpha_high && p.beta_deg >= beta_low &&
         p.beta_deg <= beta_high) {
       continue;

@@ -54,12 +54,14 @@ core::Result<void> ServedCell::choose_feature(int index) {
 }
 
 cmm::ipp::NamedPoint named_point_of(const MachinePlan& machine) {
-  return machine.point == "center" ? cmm::ipp::NamedPoint::kCenter : cmm::ipp::NamedPoint::kSurface;
+  return machine.point == MachinePlan::Point::kCenter ? cmm::ipp::NamedPoint::kCenter
+                                                      : cmm::ipp::NamedPoint::kSurface;
 }
 
 cmm::ipp::NumberForm number_form_of(const MachinePlan& machine) {
-  return machine.numbers == "16-characters" ? cmm::ipp::NumberForm::kSixteenCharacters
-                                            : cmm::ipp::NumberForm::kSixteenDigits;
+  return machine.numbers == MachinePlan::Numbers::kSixteenCharacters
+             ? cmm::ipp::NumberForm::kSixteenCharacters
+             : cmm::ipp::NumberForm::kSixteenDigits;
 }
 
 cmm::ipp::ServerOptions server_options(const Plan& plan) {

@@ -121,7 +121,7 @@ void SimulatedCell::mount(const FeaturePlan& feature) {
     machine_.remove_part();
     // The artefact has the same seat error in the ring as the simulated part.
     true_X_BP_ = true_seat(Eigen::Isometry3d::Identity(), simulation_.part, feature);
-    for (const BallPlan& ball : feature.rotary_axes->balls) {
+    for (const record::BallTask& ball : feature.rotary_axes->balls) {
       balls_.push_back({vector3(ball.center_mm), 0.5 * feature.rotary_axes->ball_diameter_mm});
     }
     return place_part();

@@ -76,11 +76,13 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   return plan;
 }
 
-std::string recorded_paper(std::string_view text) {
+record::Paper recorded_paper(std::string_view text) {
   const auto json = parse_json(text, "the plan in the journal");
   const JsonValue* reports = json ? json->find("reports") : nullptr;
   const JsonValue* paper = reports != nullptr ? reports->find("paper") : nullptr;
-  return paper != nullptr ? paper->text : ReportsPlan{}.paper;
+  const auto named =
+      paper != nullptr ? record::value_named<record::Paper>(paper->text) : std::nullopt;
+  return named.value_or(ReportsPlan{}.paper);
 }
 
 PlanOrProblems read_plan(const std::filesystem::path& path) {

@@ -16,6 +16,9 @@
 #include "core/version.h"
 #include "plans/schema/internal/plan_table.h"
 #include "plans/schema/json_text.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::plans {
 namespace {
@@ -110,47 +113,20 @@ SettingTable table_of(const std::string& path = {}) {
   return out;
 }
 
-SettingLimits within_limits(double least, double greatest) {
-  return {.is_number = true, .range = {.at_least = least, .at_most = greatest, .meaning = {}}};
-}
-
-/// Settings of the whole run, as settings_of() and fixture_settings() write them.
+/// Settings of the whole run.
 SettingTable run_table() {
-  SettingTable out = table_of<DecisionRulePlan>("decision_rule/");
-  out.merge(table_of<UncertaintyPlan>("uncertainty/"));
-  out["uncertainty/declared"] = {
-      .one_of = {"probe", "machine", "thermal", "fixture", "form_spectrum"}};
-  out["uncertainty/thermal/expansion_per_K"] = within_limits(-1.0, 1.0);
-  out["environment/declared"] = {};
-  out["environment/assumed_degC"] = within_limits(-1000.0, 1000.0);
-  out["fixture/id"] = {};
-  out["fixture/calibration"] = {};
-  for (const char* place : {"fixture/axis_point_mm", "fixture/axis_offset_mm"}) {
-    out[place] = within_limits(-1e6, 1e6);
-  }
-  for (const char* angle : {"fixture/min_alpha_deg", "fixture/max_alpha_deg",
-                            "fixture/min_beta_deg", "fixture/max_beta_deg"}) {
-    out[angle] = within_limits(-360.0, 360.0);
-  }
-  for (const char* limit : {"fixture/max_age_days", "fixture/max_residual_um"}) {
-    out[limit] = within_limits(0.0, 1e6);
-  }
+  SettingTable out = table_of<record::DecisionRuleTask>("decision_rule/");
+  out.merge(table_of<record::UncertaintyTask>("uncertainty/"));
+  out.merge(table_of<record::DeclaredUncertainty>("uncertainty/"));
+  out.merge(table_of<record::EnvironmentSettings>("environment/"));
+  out.merge(table_of<record::FixtureSettings>("fixture/"));
   return out;
 }
 
-/// Settings of a surface, as settings_of() writes them.
 SettingTable surface_table() {
-  SettingTable out;
-  out["merge"] = {.one_of = spec_of_words<record::Merge>({.meaning = {}}).one_of};
-  out["merged_poses"] = within_limits(1.0, 1000.0);
-  out["merged_poses"].is_whole = true;
-  for (const char* place : {"axis_point_mm", "axis_offset_mm"})
-    out[place] = within_limits(-1e6, 1e6);
-  for (const char* part : {"part_expansion_per_K", "part_expansion_uncertainty_per_K",
-                           "scale_expansion_per_K", "scale_expansion_uncertainty_per_K"}) {
-    out[part] = within_limits(-1.0, 1.0);
-  }
-  out["temperature_uncertainty_K"] = within_limits(0.0, 1000.0);
+  SettingTable out = table_of<record::SamplingSettings>();
+  out.merge(table_of<record::MergedPosesSettings>());
+  out.merge(table_of<record::ExpansionSettings>());
   return out;
 }
 
@@ -189,37 +165,118 @@ Fault check_settings(std::span<const record::Setting> settings, const SettingTab
   return {};
 }
 
-Fault check_needed(const record::Feature& feature, std::initializer_list<const char*> needed) {
-  for (const char* name : needed) {
-    const bool there = std::any_of(feature.settings.begin(), feature.settings.end(),
+/// Visitor of a task: the keys that a plan must give.
+class RequiredKeys {
+ public:
+  explicit RequiredKeys(std::string path = {}) : path_(std::move(path)) {}
+
+  template <class Text>
+  void text(std::string_view key, const Text&, const TextSpec& spec) {
+    if (spec.required) keys_.push_back(path_ + std::string(key));
+  }
+  template <class Number>
+  void number(std::string_view key, const Number&, const NumberSpec& spec) {
+    if (spec.required) keys_.push_back(path_ + std::string(key));
+  }
+  template <class Numbers>
+  void numbers(std::string_view key, const Numbers& values, const NumberSpec& spec) {
+    number(key, values, spec);
+  }
+  template <class Whole>
+  void whole(std::string_view key, Whole value, const NumberSpec& spec) {
+    number(key, value, spec);
+  }
+  template <class T>
+  void object(std::string_view, const std::optional<T>&, const GroupSpec&) {}
+  template <class T>
+  void list(std::string_view key, const std::vector<T>&, const GroupSpec& spec) {
+    if (!spec.required) return;
+    RequiredKeys inner(path_ + std::string(key) + "/");
+    T item{};
+    describe(inner, item);
+    for (std::string& name : inner.keys_) keys_.push_back(std::move(name));
+  }
+
+  [[nodiscard]] std::vector<std::string> take() { return std::move(keys_); }
+
+ private:
+  std::string path_;
+  std::vector<std::string> keys_;
+};
+
+/// Checks that the settings of a task are there: in a run of this version all keys that it writes
+/// whatever the plan says, in one of another version those that a plan must give.
+template <class Task>
+Fault check_needed(std::span<const record::Setting> settings, bool strict,
+                   const std::string& path = {}) {
+  RequiredKeys required(path);
+  Task task{};
+  describe(required, task);
+  std::vector<std::string> needed = required.take();
+  if (strict) {
+    for (record::Setting& setting : record::settings_of_task(Task{}, path)) {
+      needed.push_back(std::move(setting.name));
+    }
+  }
+  for (const std::string& name : needed) {
+    const bool there = std::any_of(settings.begin(), settings.end(),
                                    [&](const record::Setting& s) { return s.name == name; });
     if (!there) return fmt::format("setting \"{}\" is missing", name);
   }
   return {};
 }
 
+template <class Task>
+Fault check_task(const record::Feature& feature, bool strict) {
+  if (auto fault = check_needed<Task>(feature.settings, strict)) return fault;
+  return check_settings(feature.settings, table_of<Task>(), strict);
+}
+
 Fault check_feature_settings(const record::Feature& feature, bool strict) {
   switch (feature.shape) {
     case Shape::kSpindle:
-      if (auto fault = check_needed(feature, {"layout", "samples", "highest_order"})) return fault;
-      return check_settings(feature.settings, table_of<record::SpindleTask>(), strict);
+      return check_task<record::SpindleTask>(feature, strict);
     case Shape::kWheel:
-      if (auto fault = check_needed(feature, {"mode", "count"})) return fault;
-      return check_settings(feature.settings, table_of<record::WheelTask>(), strict);
+      return check_task<record::WheelTask>(feature, strict);
     case Shape::kContour:
-      if (auto fault = check_needed(feature, {"crank_radius_mm", "wheel_radius_mm", "pin_radius_mm",
-                                              "samples", "path_samples"})) {
-        return fault;
-      }
-      return check_settings(feature.settings, table_of<ContourPlan>(), strict);
+      return check_task<record::ContourTask>(feature, strict);
     case Shape::kRotaryAxes:
-      if (auto fault = check_needed(feature, {"balls/id", "ball_diameter_mm", "valid_for_days"})) {
-        return fault;
-      }
-      return check_settings(feature.settings, table_of<RotaryPlan>(), strict);
-    default:
-      return check_settings(feature.settings, surface_table(), false);
+      return check_task<record::RotaryTask>(feature, strict);
+    case Shape::kCylinder:
+    case Shape::kCircle:
+      break;
   }
+  if (feature.strategy == Strategy::kMerged) {
+    auto fault = check_needed<record::MergedPosesSettings>(feature.settings, strict);
+    if (fault) return fault;
+  }
+  return check_settings(feature.settings, surface_table(), strict);
+}
+
+/// Checks that head and settings name one decision rule; an earlier version wrote only the head.
+Fault check_rule(const RunRecord& record) {
+  const auto task = record::task_of<record::DecisionRuleTask>(record.settings, "decision_rule/");
+  if (!task) return task.error().what;
+  if (name_of(task->rule) == record.header.decision_rule) return {};
+  return fmt::format("the head names the decision rule {}, the settings {}",
+                     in_quotes(record.header.decision_rule), in_quotes(name_of(task->rule)));
+}
+
+/// Checks the settings of the whole run.
+Fault check_run_settings(std::span<const record::Setting> settings, bool strict) {
+  const auto has = [&](std::string_view path) {
+    return std::any_of(settings.begin(), settings.end(),
+                       [&](const record::Setting& s) { return s.name.starts_with(path); });
+  };
+  Fault fault;
+  if (strict) fault = check_needed<record::DecisionRuleTask>(settings, strict, "decision_rule/");
+  if (!fault && has("uncertainty/")) {
+    fault = check_needed<record::UncertaintyTask>(settings, strict, "uncertainty/");
+  }
+  if (!fault && has("fixture/")) {
+    fault = check_needed<record::FixtureSettings>(settings, strict, "fixture/");
+  }
+  return fault ? fault : check_settings(settings, run_table(), strict);
 }
 
 /// Columns that the evaluation of a series reads, with the name of the series.
@@ -341,39 +398,45 @@ Fault check_feature(const RunRecord& record, int index, bool strict) {
   return check_series(record, index);
 }
 
-/// Checks that the layer of a measuring touch belongs to its feature.
-Fault check_layer(const Touch& touch, const record::Feature& feature) {
-  const auto balls = std::count_if(feature.settings.begin(), feature.settings.end(),
-                                   [](const auto& setting) { return setting.name == "balls/id"; });
-  const std::int64_t layers =
-      feature.strategy == Strategy::kStations ? balls : std::int64_t{feature.layers};
-  if (feature.strategy == Strategy::kPointsFile || touch.layer < layers) return {};
-  return fmt::format("layer {} is none of its feature, which has {}", touch.layer, layers);
+/// How many layers the touches of a feature may count; balls of a calibration are its layers.
+std::int64_t layers_of(const record::Feature& feature) {
+  if (feature.strategy == Strategy::kPointsFile) return std::numeric_limits<std::int64_t>::max();
+  if (feature.strategy != Strategy::kStations) return feature.layers;
+  const auto task = record::task_of<record::RotaryTask>(feature.settings);
+  return task ? static_cast<std::int64_t>(task->balls.size()) : 0;
 }
 
+/// A feature by its index, and how many layers it has.
+struct PoseOwner {
+  int feature = 0;
+  std::int64_t layers = 0;
+};
+
 Fault check_touch(const Touch& touch, const RunRecord& record,
-                  const std::map<int, int>& feature_of_pose) {
+                  const std::map<int, PoseOwner>& owner_of_pose) {
   constexpr int kGreatestIndex = 100'000'000;
   for (const int index : {touch.layer, touch.point, touch.repeat}) {
     if (index >= 0 && index <= kGreatestIndex) continue;
     return fmt::format("layer {}, point {}, repeat {} are outside 0..{}", touch.layer, touch.point,
                        touch.repeat, kGreatestIndex);
   }
-  const auto pose = feature_of_pose.find(touch.pose);
-  if (touch.pose != -1 && pose == feature_of_pose.end()) {
+  const auto pose = owner_of_pose.find(touch.pose);
+  if (touch.pose != -1 && pose == owner_of_pose.end()) {
     return fmt::format("pose {} is not there", touch.pose);
   }
   constexpr double kUnit = 1e-6;  // in doubles a direction is a unit vector to some 1e-16
   const double length = touch.approach.norm();
-  const bool of_file =
-      pose != feature_of_pose.end() &&
-      record.features[static_cast<std::size_t>(pose->second)].strategy == Strategy::kPointsFile;
+  const bool of_file = pose != owner_of_pose.end() &&
+                       record.features[static_cast<std::size_t>(pose->second.feature)].strategy ==
+                           Strategy::kPointsFile;
   if (std::abs(length - 1.0) > kUnit && !(of_file && length == 0.0)) {
     return fmt::format("its direction has the length {:g}, not 1", length);
   }
   if (touch.purpose != Touch::Purpose::kMeasure) return {};
-  if (pose == feature_of_pose.end()) return "it was measured in no pose";
-  return check_layer(touch, record.features[static_cast<std::size_t>(pose->second)]);
+  if (pose == owner_of_pose.end()) return "it was measured in no pose";
+  const std::int64_t layers = pose->second.layers;
+  if (touch.layer < layers) return {};
+  return fmt::format("layer {} is none of its feature, which has {}", touch.layer, layers);
 }
 
 core::Result<void> refused(const std::string& place, const std::string& fault) {
@@ -386,18 +449,23 @@ core::Result<void> refused(const std::string& place, const std::string& fault) {
 
 core::Result<void> check_record(const RunRecord& record) {
   const bool strict = record.header.version == core::kVersion;
-  if (auto fault = check_settings(record.settings, run_table(), strict)) {
+  if (auto fault = check_run_settings(record.settings, strict)) {
     return refused("the run", *fault);
   }
+  if (auto fault = strict ? check_rule(record) : Fault()) return refused("the run", *fault);
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     if (auto fault = check_feature(record, static_cast<int>(i), strict)) {
       return refused("feature " + in_quotes(record.features[i].id), *fault);
     }
   }
-  std::map<int, int> feature_of_pose;
-  for (const record::PoseVisit& pose : record.poses) feature_of_pose[pose.id] = pose.feature;
+  std::vector<std::int64_t> layers;
+  for (const record::Feature& feature : record.features) layers.push_back(layers_of(feature));
+  std::map<int, PoseOwner> owner_of_pose;
+  for (const record::PoseVisit& pose : record.poses) {
+    owner_of_pose[pose.id] = {pose.feature, layers[static_cast<std::size_t>(pose.feature)]};
+  }
   for (const Touch& touch : record.touches) {
-    if (auto fault = check_touch(touch, record, feature_of_pose)) {
+    if (auto fault = check_touch(touch, record, owner_of_pose)) {
       return refused(fmt::format("touch {}", touch.id), *fault);
     }
   }

@@ -12,10 +12,12 @@ namespace rondure::plans {
 namespace {
 
 using core::Code;
+using record::DecisionRuleTask;
+using Rule = DecisionRuleTask::Rule;
 
 /// Checks the four statements of ASME B89.7.3.1: needed by its rules, without effect under others.
-void check_statements(const DecisionRulePlan& rule, Findings& findings) {
-  const bool needed = rule.rule == "n-to-1" || rule.rule == "guard-band";
+void check_statements(const DecisionRuleTask& rule, Findings& findings) {
+  const bool needed = rule.rule == Rule::kNToOne || rule.rule == Rule::kGuardBand;
   const std::array<std::pair<std::string_view, std::string_view>, 4> statements = {
       {{"zones", rule.zones},
        {"outcomes", rule.outcomes},
@@ -27,15 +29,16 @@ void check_statements(const DecisionRulePlan& rule, Findings& findings) {
     findings.meaning(Code::kMissingKey, where,
                      fmt::format("this key is missing: ASME B89.7.3.1 requires its statement under "
                                  "the rule {}; write it in words",
-                                 rule.rule));
+                                 name_of(rule.rule)));
   }
 }
 
-void check_prior(const DecisionRulePlan& rule, Findings& findings) {
+void check_prior(const DecisionRuleTask& rule, Findings& findings) {
   constexpr std::string_view kWhere = "/decision_rule/prior/standard_deviation_um";
   if (!rule.prior || !findings.sound("/decision_rule/prior")) return;
-  const PriorPlan& prior = *rule.prior;
-  if (prior.distribution == "gamma" && prior.standard_deviation_um > prior.mean_um) {
+  const record::PriorTask& prior = *rule.prior;
+  if (prior.distribution == record::PriorTask::Distribution::kGamma &&
+      prior.standard_deviation_um > prior.mean_um) {
     findings.meaning(Code::kMeaning, std::string(kWhere),
                      fmt::format("{} um is above the mean of {} um, and a gamma distribution would "
                                  "have no top; correct one of them, or give \"normal\"",
@@ -43,10 +46,10 @@ void check_prior(const DecisionRulePlan& rule, Findings& findings) {
   }
 }
 
-void check_rule(const DecisionRulePlan& rule, Findings& findings) {
+void check_rule(const DecisionRuleTask& rule, Findings& findings) {
   check_statements(rule, findings);
   check_prior(rule, findings);
-  if (rule.rule == "guard-band" &&
+  if (rule.rule == Rule::kGuardBand &&
       rule.acceptance_guard_percent + rule.rejection_guard_percent < 0.0) {
     findings.meaning(
         Code::kMeaning, "/decision_rule/rejection_guard_percent",
@@ -54,31 +57,31 @@ void check_rule(const DecisionRulePlan& rule, Findings& findings) {
                     "and rejected; their sum must not be below 0",
                     plain(rule.acceptance_guard_percent), plain(rule.rejection_guard_percent)));
   }
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOwners = {
-      {{"guard_factor", "iso-14253-1"},
-       {"consumer_risk_percent", "jcgm-106"},
-       {"producer_risk_percent", "jcgm-106"},
-       {"ratio", "n-to-1"},
-       {"acceptance_guard_percent", "guard-band"},
-       {"rejection_guard_percent", "guard-band"}}};
+  constexpr std::array<std::pair<std::string_view, Rule>, 6> kOwners = {
+      {{"guard_factor", Rule::kIso14253},
+       {"consumer_risk_percent", Rule::kJcgm106},
+       {"producer_risk_percent", Rule::kJcgm106},
+       {"ratio", Rule::kNToOne},
+       {"acceptance_guard_percent", Rule::kGuardBand},
+       {"rejection_guard_percent", Rule::kGuardBand}}};
   for (const auto& [key, owner] : kOwners) {
     const std::string where = fmt::format("/decision_rule/{}", key);
     if (rule.rule == owner || !findings.is_given(where) || !findings.sound(where)) continue;
     findings.meaning(Code::kMeaning, where,
                      fmt::format("this key belongs to the rule {} and has no effect under {}; take "
                                  "it out",
-                                 owner, rule.rule));
+                                 name_of(owner), name_of(rule.rule)));
   }
 }
 
-bool any_terms(const MachineInfluencesPlan& machine) {
+bool any_terms(const record::MachineInfluencesTask& machine) {
   return !machine.translations.empty() || !machine.rotations.empty() ||
          machine.squareness_xy_urad + machine.squareness_xz_urad + machine.squareness_yz_urad > 0.0;
 }
 
 /// Checks that nothing is counted twice: limits of ISO 10360 include all errors of the machine or
 /// the probe, so the single errors must not be given as well.
-void check_limits(const UncertaintyPlan& u, Findings& findings) {
+void check_limits(const record::UncertaintyTask& u, Findings& findings) {
   if (u.machine && u.machine->length_limit_um + u.machine->length_limit_um_m > 0.0 &&
       any_terms(*u.machine)) {
     findings.meaning(
@@ -101,32 +104,32 @@ void check_limits(const UncertaintyPlan& u, Findings& findings) {
 }  // namespace
 
 void check_uncertainty(const Plan& plan, Findings& findings) {
-  const DecisionRulePlan& rule = plan.decision_rule;
+  const DecisionRuleTask& rule = plan.decision_rule;
   if (!findings.sound("/decision_rule/rule")) return;
   check_rule(rule, findings);
-  const bool needed = rule.rule != "simple-acceptance";
+  const bool needed = rule.rule != Rule::kSimpleAcceptance;
   if (needed && !findings.is_given("/uncertainty")) {
     findings.meaning(
         Code::kMissingKey, "/uncertainty",
         fmt::format("this key is missing: the rule {} needs the interval of the value; "
                     "declare what acts on the measurement",
-                    rule.rule));
+                    name_of(rule.rule)));
   }
   if (!plan.uncertainty || !findings.sound("/uncertainty")) return;
-  const UncertaintyPlan& u = *plan.uncertainty;
+  const record::UncertaintyTask& u = *plan.uncertainty;
   if (u.most_trials < u.least_trials) {
     findings.meaning(Code::kMeaning, "/uncertainty/most_trials",
                      fmt::format("{} is below least_trials {}", u.most_trials, u.least_trials));
   }
   check_limits(u, findings);
-  if (needed && rule.measurand == "whole-surface" && !u.form_spectrum) {
+  if (needed && rule.measurand == DecisionRuleTask::Measurand::kWholeSurface && !u.form_spectrum) {
     findings.meaning(Code::kMissingKey, "/uncertainty/form_spectrum",
                      "this key is missing: a verdict about the whole surface needs the forms that "
                      "it may have between the points");
   }
   if (!u.form_spectrum) return;
   for (std::size_t i = 0; i < u.form_spectrum->terms.size(); ++i) {
-    const FormTermPlan& term = u.form_spectrum->terms[i];
+    const record::FormTermTask& term = u.form_spectrum->terms[i];
     const std::string where = item_pointer("/uncertainty/form_spectrum/terms", i);
     if (term.undulations + term.degree == 0 || (term.undulations == 1 && term.degree < 2)) {
       findings.meaning(Code::kMeaning, where,

@@ -18,6 +18,8 @@
 #include "plans/run/internal/run_head.h"
 #include "record/csv/points.h"
 #include "record/sha256.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::plans {
 namespace {
@@ -254,8 +256,9 @@ std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& p
       changes.push_back(points_changed(i, run.features[i], known.data[i].sha256));
     }
   }
+  const auto fixture = record::task_of<record::FixtureSettings>(run.settings, "fixture/");
   if (changes.empty() && known.calibration &&
-      record::word_in(run.settings, "fixture/calibration") != known.calibration->text) {
+      (!fixture || fixture->calibration != known.calibration->text)) {
     changes.push_back({core::Code::kMeaning,
                        "the calibration of the fixture is not the one the run began with; put its "
                        "file back, or start a new run",

@@ -12,32 +12,6 @@
 namespace rondure::plans {
 
 template <class Visitor>
-void describe(Visitor& v, TranslationErrorPlan& p) {
-  v.text("error", p.error,
-         {.one_of = {"EXX", "EYX", "EZX", "EXY", "EYY", "EZY", "EXZ", "EYZ", "EZZ"},
-          .required = true,
-          .meaning = "Which error, as ISO 230-1 names it: EYX is along y, of the x axis."});
-  v.number("linear_um_m", p.linear_um_m, within(10'000.0, "In proportion to the travel."));
-  v.number("quadratic_um_m2", p.quadratic_um_m2, within(10'000.0, "With its square."));
-  v.number("wave_um", p.wave_um, within(1000.0, "Amplitude of a wave along the travel."));
-  v.number("wave_period_mm", p.wave_period_mm, range(0.1, 100'000.0, "Its length."));
-  v.number("wave_phase_deg", p.wave_phase_deg, within(360.0, "Its phase at the machine origin."));
-}
-
-template <class Visitor>
-void describe(Visitor& v, RotationErrorPlan& p) {
-  v.text("error", p.error,
-         {.one_of = {"EAX", "EBX", "ECX", "EAY", "EBY", "ECY", "EAZ", "EBZ", "ECZ"},
-          .required = true,
-          .meaning = "Which error, as ISO 230-1 names it: EAX is about x (A), of the x axis."});
-  v.number("linear_urad_m", p.linear_urad_m, within(10'000.0, "In proportion to the travel."));
-  v.number("quadratic_urad_m2", p.quadratic_urad_m2, within(10'000.0, "With its square."));
-  v.number("wave_urad", p.wave_urad, within(1000.0, "Amplitude of a wave along the travel."));
-  v.number("wave_period_mm", p.wave_period_mm, range(0.1, 100'000.0, "Its length."));
-  v.number("wave_phase_deg", p.wave_phase_deg, within(360.0, "Its phase at the machine origin."));
-}
-
-template <class Visitor>
 void describe(Visitor& v, PretravelLobePlan& p) {
   v.whole(
       "order", p.order,
@@ -67,8 +41,7 @@ void describe_probe(Visitor& v, SimulatedMachinePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, SimulatedMachinePlan& p) {
   v.text("errors", p.errors,
-         {.one_of = {"off", "typical"},
-          .meaning = "What every error is that is not given: 0, or as of a good bridge machine "
+         {.meaning = "What every error is that is not given: 0, or as of a good bridge machine "
                      "(docs/simulation.md)."});
   v.list("translations", p.translations,
          {.meaning = "Position and straightness errors of the axes; each takes the place of the "

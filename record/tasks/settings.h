@@ -88,8 +88,9 @@ class SettingList {
 
 /// Visitor that fills a task from settings, the reverse of SettingList. A key that the settings do
 /// not have, as in a journal of an earlier version, leaves the default of the task; an object is
-/// there when one of its keys is. An item of a list begins where its first key stands again, so
-/// that key must be a single value which SettingList always writes.
+/// there when one of its keys is, and then must have all keys that a plan must give. An item of a
+/// list begins where its first key stands again, so that key must be a single value which
+/// SettingList always writes.
 class SettingReader {
  public:
   /// @param settings  Not copied; must outlive the reader.
@@ -97,29 +98,38 @@ class SettingReader {
       : settings_(settings), path_(std::move(path)) {}
 
   void text(std::string_view key, std::string& value, const TextSpec& spec) {
-    const Setting* const setting = text_at(key);
+    const Setting* const setting = text_at(key, spec.required);
     if (setting == nullptr) return;
-    const bool known = spec.one_of.empty() || std::find(spec.one_of.begin(), spec.one_of.end(),
-                                                        setting->text) != spec.one_of.end();
-    if (!known) return refuse_word(*setting);
+    if (!allows(spec, setting->text)) return refuse_word(*setting);
     value = setting->text;
   }
   void text(std::string_view key, std::optional<std::string>& value, const TextSpec& spec) {
-    if (text_at(key) != nullptr) text(key, value.emplace(), spec);
+    if (text_at(key, spec.required) != nullptr) text(key, value.emplace(), spec);
   }
   template <Worded Enum>
-  void text(std::string_view key, Enum& value, const TextSpec&) {
-    const Setting* const setting = text_at(key);
+  void text(std::string_view key, Enum& value, const TextSpec& spec) {
+    const Setting* const setting = text_at(key, spec.required);
     if (setting == nullptr) return;
     const auto named = value_named<Enum>(setting->text);
     if (!named) return refuse_word(*setting);
     value = *named;
   }
-  void number(std::string_view key, double& value, const NumberSpec&) {
-    if (const Setting* const setting = number_at(key)) value = *setting->number;
+  void texts(std::string_view key, std::vector<std::string>& values, const TextSpec& spec) {
+    const std::string name = path_ + std::string(key);
+    std::vector<std::string> given;
+    for (const Setting& setting : settings_) {  // no item may be passed over
+      if (setting.name != name) continue;
+      if (setting.number) return refuse(name, kNeedsText);
+      if (!allows(spec, setting.text)) return refuse_word(setting);
+      given.push_back(setting.text);
+    }
+    if (!given.empty()) values = std::move(given);
   }
-  void number(std::string_view key, std::optional<double>& value, const NumberSpec&) {
-    if (const Setting* const setting = number_at(key)) value = setting->number;
+  void number(std::string_view key, double& value, const NumberSpec& spec) {
+    if (const Setting* const setting = number_at(key, spec.required)) value = *setting->number;
+  }
+  void number(std::string_view key, std::optional<double>& value, const NumberSpec& spec) {
+    if (const Setting* const setting = number_at(key, spec.required)) value = setting->number;
   }
   void numbers(std::string_view key, std::array<double, 3>& values, const NumberSpec& spec) {
     std::vector<double> given;
@@ -131,16 +141,20 @@ class SettingReader {
              "has " + std::to_string(given.size()) + " numbers, 3 are needed");
     }
   }
-  void numbers(std::string_view key, std::vector<double>& values, const NumberSpec&) {
+  void numbers(std::string_view key, std::vector<double>& values, const NumberSpec& spec) {
     const std::string name = path_ + std::string(key);
+    if (at(key, spec.required) == nullptr) return;
+    std::vector<double> given;
     for (const Setting& setting : settings_) {  // no item may be passed over
-      if (setting.name == name && !setting.number) return refuse(name, kNeedsNumber);
+      if (setting.name != name) continue;
+      if (!setting.number) return refuse(name, kNeedsNumber);
+      given.push_back(*setting.number);
     }
-    if (at(key) != nullptr) values = numbers_in(settings_, name);
+    values = std::move(given);
   }
   template <class Whole>
   void whole(std::string_view key, Whole& value, const NumberSpec& spec) {
-    const Setting* const setting = number_at(key);
+    const Setting* const setting = number_at(key, spec.required);
     if (setting == nullptr) return;
     const double given = *setting->number;
     // Also keeps what does not fit into the type out of the conversion.
@@ -183,21 +197,28 @@ class SettingReader {
 
  private:
   static constexpr const char* kNeedsNumber = "is a text, a number is needed";
+  static constexpr const char* kNeedsText = "is a number, a text is needed";
 
-  [[nodiscard]] const Setting* at(std::string_view key) const {
+  static bool allows(const TextSpec& spec, const std::string& word) {
+    return spec.one_of.empty() ||
+           std::find(spec.one_of.begin(), spec.one_of.end(), word) != spec.one_of.end();
+  }
+  const Setting* at(std::string_view key, bool required) {
     const std::string name = path_ + std::string(key);
     const auto found = std::find_if(settings_.begin(), settings_.end(),
                                     [&](const Setting& setting) { return setting.name == name; });
-    return found == settings_.end() ? nullptr : &*found;
-  }
-  const Setting* text_at(std::string_view key) {
-    const Setting* const setting = at(key);
-    if (setting == nullptr || !setting->number) return setting;
-    refuse(setting->name, "is a number, a text is needed");
+    if (found != settings_.end()) return &*found;
+    if (nested_ && required) refuse(name, "is missing");
     return nullptr;
   }
-  const Setting* number_at(std::string_view key) {
-    const Setting* const setting = at(key);
+  const Setting* text_at(std::string_view key, bool required) {
+    const Setting* const setting = at(key, required);
+    if (setting == nullptr || !setting->number) return setting;
+    refuse(setting->name, kNeedsText);
+    return nullptr;
+  }
+  const Setting* number_at(std::string_view key, bool required) {
+    const Setting* const setting = at(key, required);
     if (setting == nullptr || setting->number) return setting;
     refuse(setting->name, kNeedsNumber);
     return nullptr;
@@ -205,6 +226,7 @@ class SettingReader {
   template <class T>
   void inner(std::span<const Setting> settings, const std::string& path, T& value) {
     SettingReader reader(settings, path);
+    reader.nested_ = true;
     describe(reader, value);
     if (!fault_) fault_ = reader.fault_;
   }
@@ -218,6 +240,7 @@ class SettingReader {
 
   std::span<const Setting> settings_;
   std::string path_;
+  bool nested_ = false;  ///< Reads an object or an item of a list, which a plan gives whole.
   std::optional<std::string> fault_;
 };
 
@@ -230,7 +253,8 @@ template <class Task>
 }
 
 /// The task of which settings_of_task() wrote these settings, with the same bits; other settings
-/// are passed over. kMeaning names a setting with an unknown word, or a text in place of a number.
+/// are passed over. kMeaning names a setting with an unknown word, a text in place of a number, or
+/// a missing key of an object.
 template <class Task>
 [[nodiscard]] core::Result<Task> task_of(std::span<const Setting> settings,
                                          const std::string& path = {}) {

@@ -21,6 +21,8 @@ namespace rondure::reports {
 
 namespace {
 
+using record::Format;
+
 constexpr const char* kSeriesFile = "series.csv";
 constexpr const char* kCalibrationFile = "fixture-calibration.json";
 
@@ -48,7 +50,7 @@ std::string enumerated(const std::vector<std::string>& words) {
 /// Before it is written: a QIF file whose references dangle would be refused somewhere else, weeks
 /// later.
 core::Result<void> look_through(const Export& what, const std::string& bytes) {
-  if (what.format != "qif") return {};
+  if (what.format != Format::kQif) return {};
   const auto faults = check_qif(bytes);
   if (faults.empty()) return {};
   return core::fail(core::Code::kInternal,
@@ -59,7 +61,7 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
 core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& path,
                                          const record::Header& header, std::string bytes,
                                          Paper paper) {
-  if (what.format == "pdf") {
+  if (what.format == Format::kPdf) {
     auto printed = print_pdf(header, bytes, paper);
     if (!printed) return core::fail(printed.error());
     bytes = std::move(*printed);
@@ -73,16 +75,19 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
 
 const std::vector<Export>& exports() {
   static const std::vector<Export> all = {
-      {"html", "report.html"}, {"json", "report.json"},    {"csv", "touches.csv"},
-      {"csv", kSeriesFile},    {"csv", kResultsFile},      {"qif", "report.qif"},
-      {"dmis", "report.dmo"},  {"json", kCalibrationFile}, {"pdf", "report.pdf"}};
+      {Format::kHtml, "report.html"}, {Format::kJson, "report.json"},
+      {Format::kCsv, "touches.csv"},  {Format::kCsv, kSeriesFile},
+      {Format::kCsv, kResultsFile},   {Format::kQif, "report.qif"},
+      {Format::kDmis, "report.dmo"},  {Format::kJson, kCalibrationFile},
+      {Format::kPdf, "report.pdf"}};
   return all;
 }
 
 std::vector<std::string> all_formats() {
   std::vector<std::string> out;
   for (const Export& e : exports()) {
-    if (std::find(out.begin(), out.end(), e.format) == out.end()) out.push_back(e.format);
+    const std::string format(name_of(e.format));
+    if (std::find(out.begin(), out.end(), format) == out.end()) out.push_back(format);
   }
   return out;
 }
@@ -104,20 +109,20 @@ std::string render(const Export& what, const record::RunRecord& record,
                    const evaluation::Evaluation& evaluation, Language language,
                    const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
-  if (what.format == "html" || what.format == "pdf") {
+  if (what.format == Format::kHtml || what.format == Format::kPdf) {
     return write_html(record, evaluation, language, earlier);
   }
-  if (what.format == "json") return write_json(record, evaluation);
-  if (what.format == "qif") return write_qif(record, evaluation);
-  if (what.format == "dmis") return write_dmis(record, evaluation);
+  if (what.format == Format::kJson) return write_json(record, evaluation);
+  if (what.format == Format::kQif) return write_qif(record, evaluation);
+  if (what.format == Format::kDmis) return write_dmis(record, evaluation);
   if (what.file == kSeriesFile) return write_series_csv(record);
   if (what.file == kResultsFile) return write_results_csv(record, evaluation);
   return write_touches_csv(record);
 }
 
 Language language_of(const Export& what, std::string_view bytes) {
-  if (what.format == "pdf") return language_of_pdf(bytes);
-  return what.format == "html" ? language_of_page(bytes) : Language::kEnglish;
+  if (what.format == Format::kPdf) return language_of_pdf(bytes);
+  return what.format == Format::kHtml ? language_of_page(bytes) : Language::kEnglish;
 }
 
 bool exports_are_current(const std::filesystem::path& directory,
@@ -127,10 +132,11 @@ bool exports_are_current(const std::filesystem::path& directory,
   if (!earlier) return false;
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
-    if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
+    if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
     const std::string made = render(e, record, evaluation, language, *earlier);
-    return bytes && (e.format == "pdf" ? is_printed_from(made, *bytes, paper) : *bytes == made);
+    return bytes &&
+           (e.format == Format::kPdf ? is_printed_from(made, *bytes, paper) : *bytes == made);
   });
 }
 
@@ -153,7 +159,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   core::Result<void> done;
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
-    if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
+    if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) continue;
     auto sum = write_one(e, directory / e.file, record.header,
                          render(e, record, evaluation, language, *earlier), paper);
     if (!sum) {

@@ -16,12 +16,13 @@ namespace rondure::reports {
 
 /// One file that is derived from a record.
 struct Export {
-  std::string format;  ///< "html", "pdf", "json", "csv", "qif", "dmis".
-  std::string file;    ///< Name in the run directory: report.html, touches.csv, ...
+  record::Format format = record::Format::kHtml;
+  std::string file;  ///< Name in the run directory: report.html, touches.csv, ...
 };
 
 /// All exports, in the order in which they are written.
 [[nodiscard]] const std::vector<Export>& exports();
+/// The words of the formats, each once.
 [[nodiscard]] std::vector<std::string> all_formats();
 
 /// Whether a run has this export: series.csv only where series were recorded,

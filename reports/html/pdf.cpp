@@ -22,8 +22,6 @@ constexpr std::string_view kDigestMark = "page-sha256-";
 constexpr std::string_view kPaperMark = ", paper-";
 constexpr std::string_view kPageLanguageMark = ", page-language-";
 
-std::string_view name_of_paper(Paper paper) { return paper == Paper::kLetter ? "letter" : "a4"; }
-
 std::string page_mark(std::string_view html) {
   return fmt::format("{}{}", kDigestMark, record::sha256_hex(std::string(html)));
 }
@@ -87,7 +85,7 @@ std::string sheet_style(const record::Header& header, Paper paper) {
   };
   const std::string part =
       header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
-  return fmt::format("<style>@page{{size:{};{}{}{}}}</style>", name_of_paper(paper),
+  return fmt::format("<style>@page{{size:{};{}{}{}}}</style>", record::name_of(paper),
                      field("left", tr("Part"), part),
                      field("center", tr("Revision"), header.plan_revision),
                      field("right", tr("Run"), header.run_id));
@@ -149,14 +147,6 @@ tl::unexpected<core::Error> not_printed(const std::string& why) {
 
 }  // namespace
 
-std::optional<Paper> paper_named(std::string_view name) {
-  if (name == "a4") return Paper::kA4;
-  if (name == "letter") return Paper::kLetter;
-  return std::nullopt;
-}
-
-std::vector<std::string> paper_names() { return {"a4", "letter"}; }
-
 core::Result<fs::path> find_browser() {
   fs::path browser =
       record::find_program({"chromium", "chromium-browser", "google-chrome", "google-chrome-stable",
@@ -191,7 +181,7 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
   }
   // A comment where no offset of the document is counted across it.
   bytes->insert(end,
-                fmt::format("% {}{}{}{}{}\n", page_mark(html), kPaperMark, name_of_paper(paper),
+                fmt::format("% {}{}{}{}{}\n", page_mark(html), kPaperMark, record::name_of(paper),
                             kPageLanguageMark, tag_of(language_of_page(html))));
   return std::move(*bytes);
 }
@@ -199,7 +189,7 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
 bool is_printed_from(std::string_view html, std::string_view pdf, std::optional<Paper> paper) {
   const std::string_view statement = print_statement(pdf);
   if (!statement.starts_with(page_mark(html))) return false;
-  return !paper || statement.find(fmt::format("{}{},", kPaperMark, name_of_paper(*paper))) !=
+  return !paper || statement.find(fmt::format("{}{},", kPaperMark, record::name_of(*paper))) !=
                        std::string_view::npos;
 }
 

@@ -8,18 +8,13 @@
 #include <vector>
 
 #include "core/result.h"
+#include "record/report_words.h"
 #include "record/run_record.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
 
-/// Paper of report.pdf.
-enum class Paper { kA4, kLetter };
-
-/// "a4" or "letter"; nothing for any other name.
-[[nodiscard]] std::optional<Paper> paper_named(std::string_view name);
-/// Every name that paper_named() knows.
-[[nodiscard]] std::vector<std::string> paper_names();
+using record::Paper;
 
 /// The Chromium of this machine, which prints report.pdf; kFile, naming the package to install,
 /// when none is on PATH.

@@ -26,6 +26,7 @@ namespace rondure::reports {
 namespace {
 
 using core::printable;
+using record::Format;
 
 namespace fs = std::filesystem;
 using State = ListedFiles::State;
@@ -95,19 +96,19 @@ std::size_t compare_results(const std::vector<record::StoredResult>& stored,
 std::optional<std::string> compare_export(const Export& what, const std::string& expected,
                                           const std::string& found, const Exactness& exactness) {
   const double tolerance = exactness.tolerance();
-  if (what.format == "pdf") {
+  if (what.format == Format::kPdf) {
     // Its bytes are those of a browser and its fonts, and its numbers are drawn: SHA256SUMS holds
     // them. What can be compared is the page that it names, where that is the same bit for bit.
     if (tolerance > 0.0 || is_printed_from(expected, found)) return std::nullopt;
     return "it was printed from another page than the journal gives";
   }
   if (!exactness.same_version) {
-    if (what.format == "json") return compare_json_values(expected, found, tolerance);
-    if (what.format == "csv") return compare_csv_values(expected, found, tolerance);
+    if (what.format == Format::kJson) return compare_json_values(expected, found, tolerance);
+    if (what.format == Format::kCsv) return compare_csv_values(expected, found, tolerance);
     return std::nullopt;  // its words are those of the other version; SHA256SUMS holds them
   }
-  if (what.format == "json") return first_json_difference(expected, found, tolerance);
-  if (what.format == "csv") return first_csv_difference(expected, found, tolerance);
+  if (what.format == Format::kJson) return first_json_difference(expected, found, tolerance);
+  if (what.format == Format::kCsv) return first_csv_difference(expected, found, tolerance);
   return first_text_difference(expected, found, tolerance);
 }
 
@@ -132,7 +133,8 @@ std::string difference_line(const Export& what, const std::optional<std::string>
 /// plan asks for unless it says otherwise.
 bool was_written(const Export& what, const record::RunRecord& record, const ListedFiles& listed) {
   if (listed.list_found) return listed.state_of(what.file).has_value();
-  const bool usual = what.format == "html" || what.format == "json" || what.format == "csv";
+  const bool usual =
+      what.format == Format::kHtml || what.format == Format::kJson || what.format == Format::kCsv;
   return usual && applies(what, record);
 }
 

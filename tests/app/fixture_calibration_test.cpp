@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 
@@ -90,7 +92,9 @@ TEST_F(CalibratedFixture, CarriesAnInspectionWhoseReportNamesIt) {
   EXPECT_THAT(read(folder / "run" / "report.html"), HasSubstr("Calibration of the fixture"));
   // Evaluation needs no other file.
   const record::RunRecord journal = journal_of(folder / "run");
-  EXPECT_TRUE(record::word_in(journal.settings, "fixture/calibration"));
+  const auto fixture = record::task_of<record::FixtureSettings>(journal.settings, "fixture/");
+  ASSERT_TRUE(fixture);
+  EXPECT_TRUE(fixture->calibration);
 }
 
 TEST_F(CalibratedFixture, IsRefusedWhereItDoesNotHold) {

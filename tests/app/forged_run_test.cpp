@@ -235,7 +235,19 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
        "series \"x\" is none of a spindle"},
       {"05_spindle_three_probe.json", set("samples", 1e9), "setting \"samples\" is 1e+09, outside"},
       {"05_spindle_three_probe.json", rename("layout", "x"), "setting \"layout\" is missing"},
-      {"05_spindle_three_probe.json", rename("filter", "x"), "setting \"x\" is none of this run"},
+      {"05_spindle_three_probe.json", rename("filter", "x"), "setting \"filter\" is missing"},
+      {"05_spindle_three_probe.json",
+       [](auto& run) {
+         run.features.front().settings.push_back({"x", 1.0, {}});
+       },
+       "setting \"x\" is none of this run"},
+      {"05_spindle_three_probe.json",
+       [](auto& run) {
+         std::erase_if(run.settings, [](const record::Setting& setting) {
+           return setting.name == "decision_rule/measurand";
+         });
+       },
+       "setting \"decision_rule/measurand\" is missing"},
       {"05_spindle_three_probe.json",
        [](auto& run) { run.series.front().columns.front().name = "x"; }, "has no column alpha_deg"},
       {"05_spindle_three_probe.json", [](auto& run) { run.series.clear(); }, "series are missing"},
@@ -254,6 +266,9 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
        "layer 17 is none of its feature"},
       {"09_axle_points_file.json", set("uncertainty/most_trials", 1e9),
        "setting \"uncertainty/most_trials\" is 1e+09, outside"},
+      {"09_axle_points_file.json",
+       [](auto& run) { run.header.decision_rule = "simple-acceptance"; },
+       "the head names the decision rule \"simple-acceptance\", the settings \"n-to-1\""},
       {"01_spool_simulated.json", [](auto& run) { run.touches.back().approach *= 1e8; },
        "its direction has the length 1e+08, not 1"},
       {"01_spool_simulated.json", [](auto& run) { run.touches.back().layer = 2147483647; },

@@ -597,8 +597,13 @@ TEST(Verdict, IsVoidWhereAWordOfTheJournalIsUnknown) {
   run.settings.push_back({"decision_rule/measurand", std::nullopt, "every-surface"});
   evaluation::CharacteristicResult result = result_of(run);
   EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
-  EXPECT_THAT(result.reason, ::testing::HasSubstr("unknown measurand \"every-surface\""));
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("\"every-surface\", which is not known"));
   run.settings.pop_back();
+  run.features[0].settings.push_back({"sampling_method", std::nullopt, "scanned"});
+  result = result_of(run);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("\"scanned\", which is not known"));
+  run.features[0].settings.pop_back();
   run.features[0].strategy = record::Strategy::kMerged;
   run.features[0].settings.push_back({"merge", std::nullopt, "by-guess"});
   result = result_of(run);

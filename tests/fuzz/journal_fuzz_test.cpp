@@ -27,7 +27,7 @@ std::string wrong_with_reports(const record::RunRecord& record,
                                const evaluation::Evaluation& evaluation) {
   for (const reports::Export& what : reports::exports()) {
     if (!reports::applies(what, record)) continue;
-    if (what.format == "pdf") continue;
+    if (what.format == record::Format::kPdf) continue;
     if (auto wrong = wrong_with_text(reports::render(what, record, evaluation)); !wrong.empty()) {
       return what.file + ": " + wrong;
     }

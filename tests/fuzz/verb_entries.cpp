@@ -79,7 +79,8 @@ std::string try_spindle(std::string_view bytes) {
   if (bytes.empty()) return {};
   Choices choices(bytes);
   app::SpindleArguments arguments;
-  arguments.layout = choices.yes() ? "reference" : "published-a";
+  using Layout = record::SpindleTask::Layout;
+  arguments.layout = choices.yes() ? Layout::kReference : Layout::kPublishedA;
   if (choices.yes()) {
     arguments.crank_radius_mm = 49.0;
     arguments.wheel_radius_mm = 299.88;
@@ -116,9 +117,12 @@ std::string try_wheel(std::string_view bytes) {
   if (bytes.empty()) return {};
   Choices choices(bytes);
   app::WheelArguments arguments;
-  arguments.mode = choices.yes() ? "envelope" : "indexed";
-  if (arguments.mode == "indexed" && choices.yes()) arguments.axis_mm = {12.02, -7.0};
-  const std::array<const char*, 3> centers = {"least-squares", "as-published", "weighted"};
+  using Mode = record::WheelTask::Mode;
+  using Center = record::WheelTask::Center;
+  arguments.mode = choices.yes() ? Mode::kEnvelope : Mode::kIndexed;
+  if (arguments.mode == Mode::kIndexed && choices.yes()) arguments.axis_mm = {12.02, -7.0};
+  const std::array<Center, 3> centers = {Center::kLeastSquares, Center::kAsPublished,
+                                         Center::kWeighted};
   arguments.center = centers[choices.below(centers.size())];
   arguments.robust = choices.yes();
   arguments.override_arc = choices.yes();
@@ -147,8 +151,10 @@ std::string try_contour(std::string_view bytes) {
   arguments.samples = 360;
   arguments.path_samples = 360;
   arguments.cutoff_upr = 15.0;
-  arguments.method = choices.yes() ? "as-published" : "corrected";
-  arguments.base = choices.yes() ? "geometric" : "limacon";
+  using Method = record::ContourTask::Method;
+  using BaseCircle = record::ContourTask::BaseCircle;
+  arguments.method = choices.yes() ? Method::kAsPublished : Method::kCorrected;
+  arguments.base = choices.yes() ? BaseCircle::kGeometric : BaseCircle::kLimacon;
   arguments.prefiltered = choices.yes();
   arguments.map_main = choices.yes();
   arguments.json = choices.yes();

@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Strategies, ForecastOf,
 
 /// The plan in a fixture that a hand sets: three spheres on the ring show each pose.
 Plan by_hand(Plan plan) {
-  plan.fixture->driver = "manual";
+  plan.fixture->driver = FixturePlan::Driver::kManual;
   plan.fixture->reached_pose.emplace().spheres = {
       {{70.0, 0.0, -40.0}}, {{-35.0, 60.0, -40.0}}, {{-35.0, -60.0, -40.0}}};
   return plan;

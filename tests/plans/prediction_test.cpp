@@ -31,12 +31,13 @@ using ::testing::HasSubstr;
 /// A plan, and what the form of the parts is that are inspected by it.
 struct Drawn {
   Plan plan;
-  FormSpectrumPlan form;
+  record::FormSpectrumTask form;
 };
 
-FormSpectrumPlan drawn_form(core::KeyedNoise& noise, bool section, bool declared) {
-  FormSpectrumPlan out;
-  out.amplitudes = noise.uniform() < 0.5 ? "absolute" : "relative";
+record::FormSpectrumTask drawn_form(core::KeyedNoise& noise, bool section, bool declared) {
+  record::FormSpectrumTask out;
+  out.amplitudes = noise.uniform() < 0.5 ? record::FormSpectrumTask::Amplitudes::kAbsolute
+                                         : record::FormSpectrumTask::Amplitudes::kRelative;
   const double size_um = 0.5 + 2.0 * noise.uniform();
   if (declared) {
     for (const int n : {2, 3, 4, 5, 7}) {
@@ -52,7 +53,7 @@ FormSpectrumPlan drawn_form(core::KeyedNoise& noise, bool section, bool declared
   return out;
 }
 
-void declare_influences(core::KeyedNoise& noise, UncertaintyPlan& out) {
+void declare_influences(core::KeyedNoise& noise, record::UncertaintyTask& out) {
   const auto sometimes = [&] { return noise.uniform() < 0.5; };
   out.probe.emplace();
   out.probe->repeatability_um = 0.1 * std::pow(15.0, noise.uniform());
@@ -85,7 +86,7 @@ Drawn drawn(std::uint64_t seed) {
   feature.sampling.points_per_layer = section ? 8 + static_cast<int>(25.0 * noise.uniform())
                                               : 6 + static_cast<int>(11.0 * noise.uniform());
   feature.pose_search.repeats = 2 + static_cast<int>(5.0 * noise.uniform());
-  UncertaintyPlan& uncertainty = out.plan.uncertainty.emplace();
+  record::UncertaintyTask& uncertainty = out.plan.uncertainty.emplace();
   uncertainty.most_trials = 2000;
   uncertainty.budget_trials = 0;
   uncertainty.seed = seed;
@@ -94,15 +95,17 @@ Drawn drawn(std::uint64_t seed) {
   out.form = drawn_form(noise, section, declared);
   if (declared) uncertainty.form_spectrum = out.form;
   double variance_um2 = 0.0;
-  for (const FormTermPlan& term : out.form.terms) variance_um2 += std::pow(term.amplitude_um, 2);
+  for (const record::FormTermTask& term : out.form.terms)
+    variance_um2 += std::pow(term.amplitude_um, 2);
   feature.characteristics.front().tolerance_um =
       8.4 * std::sqrt(variance_um2) * (0.7 + 0.7 * noise.uniform());
   return out;
 }
 
-void draw_part(const FormSpectrumPlan& form, core::KeyedNoise& noise, SimulatedPartPlan& part) {
+void draw_part(const record::FormSpectrumTask& form, core::KeyedNoise& noise,
+               SimulatedPartPlan& part) {
   part = {};
-  for (const FormTermPlan& term : form.terms) {
+  for (const record::FormTermTask& term : form.terms) {
     const double a_um = noise.normal() * term.amplitude_um;
     const double b_um = noise.normal() * term.amplitude_um;
     const double phase_deg = std::atan2(b_um, a_um) / core::kDegree;
@@ -125,7 +128,7 @@ Plan simulated(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
   core::KeyedNoise noise(seed, {78});
   plan.simulation->seed = seed;
   draw_part(drawn.form, noise, plan.simulation->part);
-  const UncertaintyPlan& said = *plan.uncertainty;
+  const record::UncertaintyTask& said = *plan.uncertainty;
   plan.simulation->probe.repeatability_um = *said.probe->repeatability_um;
   SimulatedMachinePlan& machine = plan.simulation->machine;
   for (const LobeInfluencePlan& lobe : said.probe->lobes) {
@@ -269,7 +272,7 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
 Plan small(double repeatability_um, int repeats) {
   Plan plan = test::random_plan(3, "guided", 0.01);
   plan.features[0].pose_search.repeats = repeats;
-  UncertaintyPlan& said = plan.uncertainty.emplace();
+  record::UncertaintyTask& said = plan.uncertainty.emplace();
   said.probe.emplace();
   said.probe->repeatability_um = repeatability_um;
   said.form_spectrum.emplace();

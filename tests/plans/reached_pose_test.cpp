@@ -34,7 +34,7 @@ Plan plan_by_hand() {
   plan->fixture->datum->spheres = {
       {{-200.0, -150.0, 60.0}}, {{-200.0, 150.0, 60.0}}, {{200.0, -150.0, 60.0}}};
   plan->fixture->datum->uncertainty_mm = 3.0;
-  plan->fixture->driver = "manual";
+  plan->fixture->driver = FixturePlan::Driver::kManual;
   plan->fixture->resolution_deg = 0.5;
   plan->fixture->reached_pose.emplace();
   plan->fixture->reached_pose->spheres = {

@@ -115,11 +115,11 @@ Plan shaft() {
 }
 
 Plan over_wire(Plan plan, std::uint16_t port) {
-  plan.machine->driver = "ippdme";
+  plan.machine->driver = MachinePlan::Driver::kIppdme;
   plan.machine->host = "127.0.0.1";
   plan.machine->port = port;
   plan.machine->tool = "T1";
-  plan.fixture->driver = "ippdme";
+  plan.fixture->driver = FixturePlan::Driver::kIppdme;
   return plan;
 }
 

@@ -97,7 +97,7 @@ TEST(Scanning, ALobeThatFewTouchesMissIsSeen) {
 TEST(Scanning, TypicalErrorsShowAsSomeMicrometres) {
   Plan plan = perfect_plan("scan");
   plan.features.front().sampling.points_per_layer = 72;
-  plan.simulation->machine.errors = "typical";
+  plan.simulation->machine.errors = SimulatedMachinePlan::Errors::kTypical;
   const double zone = zone_mm(test::inspect(plan));
   EXPECT_GT(zone, 0.5e-3);
   EXPECT_LT(zone, 5e-3);

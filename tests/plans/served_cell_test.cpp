@@ -135,10 +135,11 @@ std::optional<Vector3d> point_of(const cmm::ipp::Response& response) {
   return Vector3d(*single_number(*x), *single_number(*y), *single_number(*z));
 }
 
-void expect_same_bits(const std::string& named) {
+void expect_same_bits(MachinePlan::Point named) {
   Plan plan = testing::plan_of("01_spool_simulated.json");
   plan.machine->point = named;
-  const double radius_mm = named == "surface" ? 0.5 * plan.probe->tip_diameter_mm : 0.0;
+  const double radius_mm =
+      named == MachinePlan::Point::kSurface ? 0.5 * plan.probe->tip_diameter_mm : 0.0;
   const core::Pose pose = example_pose();
   const Tour way = tour(plan, pose);
   const std::vector<Vector3d> wanted = read_directly(plan, way, pose);
@@ -162,8 +163,9 @@ void expect_same_bits(const std::string& named) {
 }
 
 TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
-  for (const char* named : {"surface", "center"}) {
-    SCOPED_TRACE(named);
+  for (const MachinePlan::Point named :
+       {MachinePlan::Point::kSurface, MachinePlan::Point::kCenter}) {
+    SCOPED_TRACE(name_of(named));
     expect_same_bits(named);
   }
 }

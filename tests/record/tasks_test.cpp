@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -7,8 +8,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/tasks/contour.h"
+#include "record/tasks/decision_rule.h"
+#include "record/tasks/rotary_axes.h"
+#include "record/tasks/run.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/spindle.h"
+#include "record/tasks/surface.h"
+#include "record/tasks/uncertainty.h"
 #include "record/tasks/wheel.h"
 
 namespace rondure::record {
@@ -40,11 +47,13 @@ void comes_back(const Task& task) {
 }
 
 /// Expects that no text of a task can be another word, and that each key keeps its kind.
+/// @param free  Keys whose text may be anything.
 template <class Task>
-void refuses_other_words(const Task& task) {
+void refuses_other_words(const Task& task, const std::vector<std::string>& free = {}) {
   const auto settings = settings_of_task(task);
   for (std::size_t i = 0; i < settings.size(); ++i) {
     SCOPED_TRACE(settings[i].name);
+    if (std::find(free.begin(), free.end(), settings[i].name) != free.end()) continue;
     auto other = settings;
     other[i].text = "nothing-of-that";
     if (!other[i].number) {
@@ -101,7 +110,87 @@ WheelTask full_wheel() {
   return out;
 }
 
+ContourTask full_contour() {
+  ContourTask out;
+  out.crank_radius_mm = kOdd;
+  out.method = ContourTask::Method::kAsPublished;
+  out.error = ContourTask::Error::kCommandMinusActual;
+  out.c_axis = ContourTask::CAxis::kAgainstWheel;
+  out.gauge = ContourTask::Gauge::kClockwise;
+  out.phase_offset_deg = -0.0;
+  out.samples = 16;
+  out.filter = ContourTask::Filter::kDoneByGauge;
+  out.base_circle = ContourTask::BaseCircle::kGeometric;
+  out.main_journal = ContourTask::MainJournal::kMapped;
+  out.parts = {{"", "a1.csv", "p1.csv", ""}, {"second", "a2.csv", "p2.csv", "m2.csv"}};
+  return out;
+}
+
+RotaryTask full_rotary_axes() {
+  RotaryTask out;
+  out.balls = {{"A", {kOdd, -0.0, 1.0}}, {"B", {0.0, 0.0, kOdd}}};
+  out.ball_diameter_mm = kOdd * 100.0;
+  out.alpha_stations_deg = {-10.0, kOdd};
+  out.beta_stations_deg = {5.0};
+  out.verification = {{kOdd, -kOdd}, {1.0, 2.0}};
+  out.machine_uncertainty_um = kOdd;
+  return out;
+}
+
+DecisionRuleTask full_rule() {
+  DecisionRuleTask out;
+  out.rule = DecisionRuleTask::Rule::kGuardBand;
+  out.measurand = DecisionRuleTask::Measurand::kWholeSurface;
+  out.judge = DecisionRuleTask::Judge::kCorrected;
+  out.guard_factor = kOdd;
+  out.prior = PriorTask{PriorTask::Distribution::kNormal, kOdd, kOdd / 3.0};
+  out.rejection_guard_percent = -kOdd;
+  out.zones = "two";
+  return out;
+}
+
+UncertaintyTask full_uncertainty() {
+  UncertaintyTask out;
+  out.coverage_percent = 99.0 + kOdd;
+  out.seed = 9007199254740991;
+  ProbeInfluencesTask& probe = out.probe.emplace();
+  probe.repeatability_um = kOdd;
+  probe.lobes = {{3, kOdd}, {5, 0.0}};
+  MachineInfluencesTask& machine = out.machine.emplace();
+  machine.translations = {{.error = "EYX", .linear_um_m = kOdd}, {.error = "EZZ"}};
+  machine.rotations = {{.error = "ECZ", .wave_urad = kOdd}};
+  out.thermal.emplace().drift_K = kOdd;
+  out.fixture.emplace();
+  FormSpectrumTask& spectrum = out.form_spectrum.emplace();
+  spectrum.amplitudes = FormSpectrumTask::Amplitudes::kAbsolute;
+  spectrum.terms = {{2, 0, kOdd}, {3, 4, 1.0}};
+  return out;
+}
+
+FixtureSettings full_fixture() {
+  FixtureSettings out;
+  out.id = "F-01";
+  out.axis_point_mm = {kOdd, -0.0, -kOdd};
+  out.max_beta_deg = 90.0;
+  out.max_age_days = kOdd;
+  out.calibration = "{}";
+  return out;
+}
+
 TEST(Tasks, ComeBackFromTheirSettingsWithTheSameBits) {
+  comes_back(ContourTask());
+  comes_back(full_contour());
+  comes_back(RotaryTask());
+  comes_back(full_rotary_axes());
+  comes_back(DecisionRuleTask());
+  comes_back(full_rule());
+  comes_back(UncertaintyTask());
+  comes_back(full_uncertainty());
+  comes_back(EnvironmentSettings{"limits", kOdd});
+  comes_back(FixtureSettings());
+  comes_back(full_fixture());
+  comes_back(MergedPosesSettings{Merge::kKinematics, 3, {kOdd, 1.0, -0.0}, {0.0, kOdd, 2.0}});
+  comes_back(ExpansionSettings{kOdd, 1e-6, std::nullopt, std::nullopt, 0.1});
   comes_back(SpindleTask());
   comes_back(full_spindle());
   comes_back(WheelTask());
@@ -120,6 +209,43 @@ TEST(Tasks, HaveTheirDefaultsWhereAJournalSaysNothing) {
 TEST(Tasks, RefuseAnUnknownWordByTheNameOfItsSetting) {
   refuses_other_words(full_spindle());
   refuses_other_words(full_wheel());
+  refuses_other_words(full_contour(), {"parts/name", "parts/axes", "parts/pin", "parts/main"});
+  refuses_other_words(full_rotary_axes(), {"balls/id"});
+  refuses_other_words(full_rule(), {"zones", "outcomes", "repeats", "outliers"});
+  refuses_other_words(full_uncertainty());
+  refuses_other_words(SamplingSettings{SamplingMethod::kScan});
+  refuses_other_words(MergedPosesSettings());
+}
+
+TEST(Tasks, RefuseAnObjectThatLacksAKeyWhichAPlanMustGive) {
+  auto settings = settings_of_task(full_rule(), "decision_rule/");
+  std::erase_if(settings, [](const Setting& s) { return s.name.ends_with("prior/mean_um"); });
+  const auto rule = task_of<DecisionRuleTask>(settings, "decision_rule/");
+  ASSERT_FALSE(rule);
+  EXPECT_THAT(rule.error().what, HasSubstr("\"decision_rule/prior/mean_um\" is missing"));
+  settings = settings_of_task(full_uncertainty(), "uncertainty/");
+  std::erase_if(settings, [](const Setting& s) { return s.name.ends_with("translations/error"); });
+  EXPECT_FALSE(recorded_uncertainty(settings)) << "an error of no axis";
+}
+
+TEST(Tasks, CountAGroupOfInfluencesWhereItIsDeclaredAndOnlyThere) {
+  auto settings = settings_of_uncertainty(full_uncertainty(), 11.5e-6);
+  auto recorded = recorded_uncertainty(settings);
+  ASSERT_TRUE(recorded && *recorded);
+  EXPECT_EQ((*recorded)->expansion_per_K, 11.5e-6);
+  EXPECT_EQ(lines_of(settings_of_uncertainty((*recorded)->task, 11.5e-6)), lines_of(settings));
+  std::erase_if(settings, [](const Setting& s) { return s.text == "probe"; });
+  recorded = recorded_uncertainty(settings);
+  ASSERT_TRUE(recorded && *recorded);
+  EXPECT_FALSE((*recorded)->task.probe);
+  EXPECT_TRUE((*recorded)->task.fixture) << "declared, with the defaults of its keys";
+  settings.push_back({"uncertainty/declared", std::nullopt, "prob"});
+  recorded = recorded_uncertainty(settings);
+  ASSERT_FALSE(recorded);
+  EXPECT_THAT(recorded.error().what, HasSubstr("\"prob\", which is not known"));
+  recorded = recorded_uncertainty({});
+  ASSERT_TRUE(recorded);
+  EXPECT_FALSE(*recorded) << "nothing is declared";
 }
 
 TEST(Tasks, RefuseAWholeNumberThatIsNone) {

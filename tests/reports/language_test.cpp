@@ -371,9 +371,10 @@ TEST(ChineseReport, FormatsForProgramsStayEnglish) {
   for (const Export& e : exports()) {
     const std::string english = render(e, made.record, made.evaluation);
     const std::string chinese = render(e, made.record, made.evaluation, Language::kChinese);
-    const bool for_people = e.format == "html" || e.format == "pdf";
+    const bool for_people = e.format == record::Format::kHtml || e.format == record::Format::kPdf;
     EXPECT_EQ(english == chinese, !for_people) << e.file;
-    if (e.format == "pdf") continue;  // it states the language of its page: pdf_test.cpp
+    if (e.format == record::Format::kPdf)
+      continue;  // it states the language of its page: pdf_test.cpp
     EXPECT_EQ(language_of(e, chinese), for_people ? Language::kChinese : Language::kEnglish);
   }
 }

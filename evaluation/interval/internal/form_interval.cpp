@@ -6,6 +6,7 @@
 
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
+#include "record/tasks/uncertainty.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -55,8 +56,7 @@ core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) 
 }  // namespace
 
 core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
-                                                      const Declared& declared,
-                                                      const record::Feature& feature) {
+                                                      const Declared& declared) {
   if (!declared.spectrum) return std::optional<FormSpectrum>();
   FormSpectrum out = *declared.spectrum;
   if (out.terms.empty()) return std::optional<FormSpectrum>(std::move(out));
@@ -68,9 +68,8 @@ core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
   const auto [low, high] = std::minmax_element(
       cloud.points.begin(), cloud.points.end(),
       [](const FormPoint& a, const FormPoint& b) { return a.height_mm < b.height_mm; });
-  const double margin_mm = feature.number("margin_mm").value_or(0.0);
-  out.low_mm = low->height_mm - margin_mm;
-  out.high_mm = high->height_mm + margin_mm;
+  out.low_mm = low->height_mm;
+  out.high_mm = high->height_mm;
   return std::optional<FormSpectrum>(std::move(out));
 }
 
@@ -83,9 +82,9 @@ core::Result<FormCloud> surface_cloud(const FeatureResult& result) {
 
 std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
                                             const record::Feature& feature) {
-  if (!record::number_in(record.settings, "uncertainty/coverage_percent")) {
-    return core::phrase("the plan declares no uncertainty");
-  }
+  const auto recorded = record::recorded_uncertainty(record.settings);
+  if (!recorded) return recorded.error().said();
+  if (!*recorded) return core::phrase("the plan declares no uncertainty");
   // The influences act in the machine frame; a merged cloud stands in the frame of the part.
   if (feature.strategy == record::Strategy::kMerged) {
     return core::phrase(
@@ -112,7 +111,7 @@ tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
   auto cloud = cloud_of(result, rows);
   if (!cloud) return none(cloud.error().said());
   cloud->reference = asked.reference;
-  auto spectrum = spectrum_on(*cloud, *declared, result.feature);
+  auto spectrum = spectrum_on(*cloud, *declared);
   if (!spectrum) return none(spectrum.error().said());
   return UncertaintyQuestion{*std::move(cloud), declared->influences, *std::move(spectrum),
                              declared->options};

@@ -28,8 +28,7 @@ struct UncertaintyQuestion {
 /// The declared spectrum on a cloud, or none of its own terms where the part's own was asked for;
 /// nothing where nobody asked.
 [[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
-                                                                    const Declared& declared,
-                                                                    const record::Feature& feature);
+                                                                    const Declared& declared);
 
 /// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
 [[nodiscard]] std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,

@@ -188,7 +188,7 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
                                          const record::Characteristic& asked) {
   const FormCloud& cloud = rehearsal.nominal();
   if (declared.spectrum && !declared.spectrum->terms.empty()) {
-    auto stated = spectrum_on(cloud, declared, rehearsal.result().feature);
+    auto stated = spectrum_on(cloud, declared);
     if (!stated) return core::fail(stated.error());
     if (*stated) {
       FormSpectrum out = **stated;

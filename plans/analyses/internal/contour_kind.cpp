@@ -37,7 +37,7 @@ std::vector<SeriesFile> contour_files(const FeaturePlan& feature) {
     out.push_back(std::move(one));
   };
   for (std::size_t i = 0; i < feature.contour->parts.size(); ++i) {
-    const ContourPartPlan& part = feature.contour->parts[i];
+    const record::ContourPartTask& part = feature.contour->parts[i];
     add(i, "axes", part.axes, kAxes);
     add(i, "pin", part.pin, kGauge);
     if (!part.main.empty()) add(i, "main", part.main, kGauge);
@@ -46,7 +46,7 @@ std::vector<SeriesFile> contour_files(const FeaturePlan& feature) {
 }
 
 void check_contour(const FeaturePlan& feature, const std::string& where, Findings& findings) {
-  const ContourPlan& plan = *feature.contour;
+  const record::ContourTask& plan = *feature.contour;
   if (feature.source) {
     findings.meaning(Code::kMeaning, where.substr(0, where.rfind('/')) + "/source",
                      "has no effect: the files of a contour stand in contour/parts; remove it");
@@ -56,7 +56,7 @@ void check_contour(const FeaturePlan& feature, const std::string& where, Finding
   if (const auto checked = fit::check_geometry(geometry); !checked) {
     findings.meaning(checked.error().code, where + "/crank_radius_mm", checked.error().what);
   }
-  if (plan.filter != "none") {
+  if (plan.filter != record::ContourTask::Filter::kNone) {
     fit::FilterOptions filter;
     filter.cutoff_upr = plan.cutoff_upr;
     const auto sampling = fit::check_sampling(static_cast<std::size_t>(plan.samples), filter);

@@ -20,7 +20,7 @@ fixture::ZaberAxisOptions axis_options(const ZaberAxisPlan& plan, int usual_axis
   fixture::ZaberAxisOptions out;
   out.axis = plan.axis == 0 ? usual_axis : plan.axis;
   out.microstep_rad = plan.microstep_deg * kDegree;
-  out.reversed = plan.sense == "reversed";
+  out.reversed = plan.sense == StageSense::kReversed;
   out.zero_rad = plan.zero_deg * kDegree;
   out.max_speed_rad_s = plan.max_speed_deg_s * kDegree;
   return out;
@@ -30,7 +30,7 @@ core::Result<std::unique_ptr<fixture::Fixture>> open_zaber(const FixturePlan& fi
                                                            const CellOptions& cell) {
   const ZaberPlan plan = fixture.zaber.value_or(ZaberPlan{});
   fixture::ZaberConnection connection;
-  if (plan.connection == "serial") connection.device = plan.device;
+  if (plan.connection == ZaberPlan::Connection::kSerial) connection.device = plan.device;
   connection.usb_serial = plan.usb_serial;
   connection.baud = plan.baud;
   connection.wire_log = cell.wire_log;
@@ -63,15 +63,23 @@ core::Result<std::unique_ptr<fixture::Fixture>> open_manual(const FixturePlan& p
 }  // namespace
 
 bool drives_fixture(const Plan& plan) {
-  const std::string& driver = plan.fixture->driver;
-  if (driver == "manual") return plan.machine->driver != "simulated";
-  return driver == "zaber" || driver == "thorlabs";
+  switch (plan.fixture->driver) {
+    case FixturePlan::Driver::kManual:
+      return plan.machine->driver != MachinePlan::Driver::kSimulated;
+    case FixturePlan::Driver::kZaber:
+    case FixturePlan::Driver::kThorlabs:
+      return true;
+    case FixturePlan::Driver::kSimulated:
+    case FixturePlan::Driver::kIppdme:
+      break;
+  }
+  return false;
 }
 
 core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(const FixturePlan& plan,
                                                              const CellOptions& options) {
-  if (plan.driver == "thorlabs") return open_thorlabs(plan);
-  if (plan.driver == "manual") return open_manual(plan, options);
+  if (plan.driver == FixturePlan::Driver::kThorlabs) return open_thorlabs(plan);
+  if (plan.driver == FixturePlan::Driver::kManual) return open_manual(plan, options);
   return open_zaber(plan, options);
 }
 

@@ -28,13 +28,13 @@ std::size_t component_of(const std::string& error, char first) {
 std::size_t axis_of(const std::string& error) { return static_cast<std::size_t>(error[2] - 'X'); }
 
 void take_geometry(const SimulatedMachinePlan& plan, cmm::GeometricErrors& out) {
-  for (const TranslationErrorPlan& e : plan.translations) {
+  for (const record::TranslationError& e : plan.translations) {
     constexpr double kUm = core::kMicrometre;
     out.axes[axis_of(e.error)].translation[component_of(e.error, 'X')] = {
         e.linear_um_m * kUm / kMm_per_m, e.quadratic_um_m2 * kUm / (kMm_per_m * kMm_per_m),
         e.wave_um * kUm, e.wave_period_mm, e.wave_phase_deg * core::kDegree};
   }
-  for (const RotationErrorPlan& e : plan.rotations) {
+  for (const record::RotationError& e : plan.rotations) {
     out.axes[axis_of(e.error)].rotation[component_of(e.error, 'A')] = {
         e.linear_urad_m * kMicroradian / kMm_per_m,
         e.quadratic_urad_m2 * kMicroradian / (kMm_per_m * kMm_per_m), e.wave_urad * kMicroradian,
@@ -91,7 +91,7 @@ void put_marks(const SimulatedPartPlan& part, double middle_mm, cmm::PartSurface
 cmm::MachineErrors machine_errors(const SimulationPlan& simulation) {
   const SimulatedMachinePlan& plan = simulation.machine;
   cmm::MachineErrors out;
-  if (plan.errors == "typical") out = cmm::typical_errors();
+  if (plan.errors == SimulatedMachinePlan::Errors::kTypical) out = cmm::typical_errors();
   out.repeatability_mm = simulation.probe.repeatability_um * core::kMicrometre;
   out.tip_radius_error_mm = simulation.probe.tip_radius_error_um * core::kMicrometre;
   take_geometry(plan, out.geometry);

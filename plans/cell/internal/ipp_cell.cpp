@@ -49,8 +49,8 @@ cmm::IppMachineOptions machine_options(const Plan& plan, const CellOptions& opti
   out.speeds.scan_mm_s = machine.scan_speed_mm_s;
   out.answer_limit = milliseconds_of(machine.answer_limit_s);
   out.motion_limit = milliseconds_of(machine.motion_limit_s);
-  out.abort_works = machine.abort == "works";
-  out.returns_to_approach = machine.retract == "to-approach";
+  out.abort_works = machine.abort == MachinePlan::Abort::kWorks;
+  out.returns_to_approach = machine.retract == MachinePlan::Retract::kToApproach;
   out.point = named_point_of(machine);
   out.numbers = number_form_of(machine);
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;

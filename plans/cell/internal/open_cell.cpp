@@ -34,7 +34,7 @@ core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOption
     if (!opened) return core::fail(opened.error());
     driven = *std::move(opened);
   }
-  if (plan.machine->driver != "ippdme") {
+  if (plan.machine->driver != MachinePlan::Driver::kIppdme) {
     return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed, std::move(driven));
   }
   auto cell = IppCell::open(plan, options, std::move(driven));

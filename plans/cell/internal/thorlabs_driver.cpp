@@ -18,17 +18,17 @@ constexpr std::uint16_t kProduct = 0xfaf0;
 fixture::ThorlabsAxis axis_of(const ThorlabsAxisPlan& plan) {
   fixture::ThorlabsAxis out;
   out.serial = plan.serial;
-  out.stage = fixture::thorlabs_stage(plan.stage).value_or(fixture::ThorlabsStage{});
+  out.stage = fixture::thorlabs_stage(name_of(plan.stage)).value_or(fixture::ThorlabsStage{});
   if (out.stage.name.empty()) {
-    out.stage.name = plan.stage;
-    out.stage.dc_servo = plan.motor == "dc-servo";
+    out.stage.name = name_of(plan.stage);
+    out.stage.dc_servo = plan.motor == ThorlabsAxisPlan::Motor::kDcServo;
   }
   out.stage.counts_per_deg = plan.counts_per_deg.value_or(out.stage.counts_per_deg);
   out.stage.velocity_per_deg_s = plan.velocity_per_deg_s.value_or(out.stage.velocity_per_deg_s);
   out.stage.acceleration_per_deg_s2 =
       plan.acceleration_per_deg_s2.value_or(out.stage.acceleration_per_deg_s2);
   out.zero_rad = plan.zero_deg * core::kDegree;
-  out.direction = plan.sense == "reversed" ? -1 : 1;
+  out.direction = plan.sense == StageSense::kReversed ? -1 : 1;
   out.speed_rad_s = plan.speed_deg_s * core::kDegree;
   out.acceleration_rad_s2 = plan.acceleration_deg_s2 * core::kDegree;
   out.tolerance_rad = plan.tolerance_deg * core::kDegree;

@@ -6,6 +6,8 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/internal/series_file.h"
 #include "plans/path/internal/nominal_geometry.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::plans {
 namespace {
@@ -58,24 +60,22 @@ core::Result<std::optional<UsedCalibration>> used_calibration(const Plan& plan,
 
 std::vector<record::Setting> fixture_settings(const Plan& plan,
                                               const std::optional<UsedCalibration>& calibration) {
-  std::vector<record::Setting> out;
-  if (!plan.fixture) return out;
+  if (!plan.fixture) return {};
   const FixturePlan& fixture = *plan.fixture;
-  const auto add = [&](const char* name, double number) {
-    out.push_back({std::string("fixture/") + name, number, {}});
-  };
-  out.push_back({"fixture/id", std::nullopt, fixture.id});
-  for (const double x : fixture.axis_point_mm) add("axis_point_mm", x);
-  for (const double x : fixture.axis_offset_mm) add("axis_offset_mm", x);
-  add("min_alpha_deg", fixture.min_alpha_deg);
-  add("max_alpha_deg", fixture.max_alpha_deg);
-  add("min_beta_deg", fixture.min_beta_deg);
-  add("max_beta_deg", fixture.max_beta_deg);
-  if (!calibration) return out;
-  if (const auto& days = fixture.calibration->max_age_days) add("max_age_days", *days);
-  if (const auto& limit = fixture.calibration->max_residual_um) add("max_residual_um", *limit);
-  out.push_back({"fixture/calibration", std::nullopt, calibration->text});
-  return out;
+  record::FixtureSettings out;
+  out.id = fixture.id;
+  out.axis_point_mm = fixture.axis_point_mm;
+  out.axis_offset_mm = fixture.axis_offset_mm;
+  out.min_alpha_deg = fixture.min_alpha_deg;
+  out.max_alpha_deg = fixture.max_alpha_deg;
+  out.min_beta_deg = fixture.min_beta_deg;
+  out.max_beta_deg = fixture.max_beta_deg;
+  if (calibration) {
+    out.max_age_days = fixture.calibration->max_age_days;
+    out.max_residual_um = fixture.calibration->max_residual_um;
+    out.calibration = calibration->text;
+  }
+  return record::settings_of_task(std::move(out), "fixture/");
 }
 
 void check_calibration_use(const Plan& plan, Findings& findings) {

@@ -134,8 +134,9 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
                     "give the feature a \"source\" file",
                     touched + 1));
   }
-  const bool simulated = (plan.machine && plan.machine->driver == "simulated") ||
-                         (plan.fixture && plan.fixture->driver == "simulated");
+  const bool simulated =
+      (plan.machine && plan.machine->driver == MachinePlan::Driver::kSimulated) ||
+      (plan.fixture && plan.fixture->driver == FixturePlan::Driver::kSimulated);
   if (simulated && !findings.is_given("/simulation")) {
     findings.meaning(
         Code::kMissingKey, "/simulation",
@@ -195,14 +196,15 @@ void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
 /// Checks the settings of the driver "zaber", and that no other driver has settings it ignores.
 void check_zaber(const FixturePlan& fixture, Findings& findings) {
   constexpr std::string_view kWhere = "/fixture/zaber";
-  const bool is_zaber = fixture.driver == "zaber";
+  const bool is_zaber = fixture.driver == FixturePlan::Driver::kZaber;
   if (!is_zaber && findings.is_given(std::string(kWhere))) {
-    findings.meaning(Code::kMeaning, std::string(kWhere),
-                     fmt::format("has no effect: the driver is \"{}\"; remove it", fixture.driver));
+    findings.meaning(
+        Code::kMeaning, std::string(kWhere),
+        fmt::format("has no effect: the driver is \"{}\"; remove it", name_of(fixture.driver)));
   }
   if (!is_zaber || !findings.sound(kWhere)) return;
   const ZaberPlan stages = fixture.zaber.value_or(ZaberPlan{});
-  if (stages.connection == "serial" && stages.device.empty()) {
+  if (stages.connection == ZaberPlan::Connection::kSerial && stages.device.empty()) {
     findings.meaning(Code::kMissingKey, "/fixture/zaber/device",
                      "this key is missing: the connection is \"serial\"; give its device, e.g. "
                      "\"/dev/ttyUSB0\"");
@@ -222,12 +224,12 @@ void check_drivers(const Plan& plan, Findings& findings) {
       !findings.sound("/fixture/driver")) {
     return;
   }
-  const std::string& machine = plan.machine->driver;
-  const std::string& fixture = plan.fixture->driver;
+  const std::string_view machine = name_of(plan.machine->driver);
+  const std::string_view fixture = name_of(plan.fixture->driver);
   check_zaber(*plan.fixture, findings);
-  if (fixture == "manual" || fixture == "thorlabs" || fixture == "zaber" || machine == fixture) {
-    return;
-  }
+  const bool of_machine = plan.fixture->driver == FixturePlan::Driver::kSimulated ||
+                          plan.fixture->driver == FixturePlan::Driver::kIppdme;
+  if (!of_machine || machine == fixture) return;
   findings.meaning(Code::kMeaning, "/fixture/driver",
                    fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
                                "give both the same driver",
@@ -235,17 +237,19 @@ void check_drivers(const Plan& plan, Findings& findings) {
 }
 
 /// Checks a section that one driver needs and no other reads.
-void check_driver_section(const FixturePlan& fixture, std::string_view driver, std::string_view key,
-                          bool given, std::string_view what, Findings& findings) {
+void check_driver_section(const FixturePlan& fixture, FixturePlan::Driver driver,
+                          std::string_view key, bool given, std::string_view what,
+                          Findings& findings) {
   const std::string where = fmt::format("/fixture/{}", key);
   if (fixture.driver == driver && !given && !findings.is_given(where)) {
     findings.meaning(
         Code::kMissingKey, where,
-        fmt::format("this key is missing: the driver is \"{}\"; say {}", driver, what));
+        fmt::format("this key is missing: the driver is \"{}\"; say {}", name_of(driver), what));
   }
   if (fixture.driver != driver && given) {
-    findings.meaning(Code::kMeaning, where,
-                     fmt::format("has no effect: the driver is not \"{}\"; remove it", driver));
+    findings.meaning(
+        Code::kMeaning, where,
+        fmt::format("has no effect: the driver is not \"{}\"; remove it", name_of(driver)));
   }
 }
 
@@ -254,12 +258,12 @@ void check_thorlabs_axis(const ThorlabsAxisPlan& axis, const std::string& where,
   if (!findings.sound(where)) return;
   const bool complete =
       axis.counts_per_deg && axis.velocity_per_deg_s && axis.acceleration_per_deg_s2;
-  if (axis.stage == "other" && !complete) {
+  if (axis.stage == ThorlabsAxisPlan::Stage::kOther && !complete) {
     findings.meaning(Code::kMissingKey, where + "/counts_per_deg",
                      "this key is missing: of the stage \"other\" counts_per_deg, "
                      "velocity_per_deg_s and acceleration_per_deg_s2 must be given");
   }
-  if (axis.stage != "other" && findings.is_given(where + "/motor")) {
+  if (axis.stage != ThorlabsAxisPlan::Stage::kOther && findings.is_given(where + "/motor")) {
     findings.meaning(Code::kMeaning, where + "/motor",
                      "has no effect: the stage is not \"other\"; remove it");
   }
@@ -268,10 +272,11 @@ void check_thorlabs_axis(const ThorlabsAxisPlan& axis, const std::string& where,
 /// Checks the sections of single drivers.
 void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
   if (!findings.sound("/fixture/driver")) return;
-  check_driver_section(fixture, "thorlabs", "thorlabs", fixture.thorlabs.has_value(),
-                       "which unit turns which axis", findings);
-  check_driver_section(fixture, "manual", "reached_pose", fixture.reached_pose.has_value(),
-                       "on which spheres the pose is measured", findings);
+  check_driver_section(fixture, FixturePlan::Driver::kThorlabs, "thorlabs",
+                       fixture.thorlabs.has_value(), "which unit turns which axis", findings);
+  check_driver_section(fixture, FixturePlan::Driver::kManual, "reached_pose",
+                       fixture.reached_pose.has_value(), "on which spheres the pose is measured",
+                       findings);
   if (fixture.thorlabs) {
     check_thorlabs_axis(fixture.thorlabs->alpha, "/fixture/thorlabs/alpha", findings);
     check_thorlabs_axis(fixture.thorlabs->beta, "/fixture/thorlabs/beta", findings);

@@ -71,7 +71,7 @@ core::Result<void> check_room(const Plan& plan) {
         std::max(std::abs(feature.nominal.from_mm), std::abs(feature.nominal.to_mm));
     reach_mm = std::max(reach_mm, std::hypot(0.5 * feature.nominal.diameter_mm, height));
     if (!feature.rotary_axes) continue;
-    for (const BallPlan& ball : feature.rotary_axes->balls) {
+    for (const record::BallTask& ball : feature.rotary_axes->balls) {
       reach_mm = std::max(reach_mm, vector3(ball.center_mm).norm() +
                                         0.5 * feature.rotary_axes->ball_diameter_mm +
                                         feature.rotary_axes->uncertainty_mm);

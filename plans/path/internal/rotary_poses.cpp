@@ -16,7 +16,7 @@ using core::kDegree;
 using Eigen::Vector3d;
 
 /// Whether the tip can reach ball `i`, go around it and leave without meeting ball `other`.
-bool is_free(const Plan& plan, const RotaryPlan& rotary, const Vector3d& ball,
+bool is_free(const Plan& plan, const record::RotaryTask& rotary, const Vector3d& ball,
              const Vector3d& other) {
   const double radius_mm = 0.5 * rotary.ball_diameter_mm;
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
@@ -28,7 +28,7 @@ bool is_free(const Plan& plan, const RotaryPlan& rotary, const Vector3d& ball,
   return !above || (other - ball).head<2>().norm() >= room_mm;
 }
 
-std::vector<std::size_t> reachable_balls(const Plan& plan, const RotaryPlan& rotary,
+std::vector<std::size_t> reachable_balls(const Plan& plan, const record::RotaryTask& rotary,
                                          const std::vector<Vector3d>& centers) {
   const double lowest_mm = plan.fixture->rim_height_mm + 0.5 * plan.probe->tip_diameter_mm +
                            plan.machine->clearance_mm + rotary.uncertainty_mm;
@@ -48,8 +48,8 @@ std::string in_words(const core::Pose& pose) {
 }
 
 /// Checks that the balls of a visit determine six errors about an axis.
-core::Result<void> check_visit(const RotaryPlan& rotary, const std::vector<Vector3d>& centers,
-                               const RotaryVisit& visit) {
+core::Result<void> check_visit(const record::RotaryTask& rotary,
+                               const std::vector<Vector3d>& centers, const RotaryVisit& visit) {
   if (visit.pose == core::Pose{} && visit.balls.size() < rotary.balls.size()) {
     return core::fail(
         core::Code::kUnreachable,
@@ -87,19 +87,19 @@ std::vector<Vector3d> ball_centers_W(const Plan& plan, std::size_t feature,
                                      const core::Pose& pose) {
   const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), pose);
   std::vector<Vector3d> out;
-  for (const BallPlan& ball : plan.features[feature].rotary_axes->balls) {
+  for (const record::BallTask& ball : plan.features[feature].rotary_axes->balls) {
     out.emplace_back(X_WB * vector3(ball.center_mm));
   }
   return out;
 }
 
 core::Result<std::vector<RotaryVisit>> rotary_visits(const Plan& plan, std::size_t feature) {
-  const RotaryPlan& rotary = *plan.features[feature].rotary_axes;
+  const record::RotaryTask& rotary = *plan.features[feature].rotary_axes;
   std::vector<core::Pose> poses = {{}};
   for (const double beta : stations_rad(rotary.beta_stations_deg)) poses.push_back({0.0, beta});
   poses.emplace_back();
   for (const double alpha : stations_rad(rotary.alpha_stations_deg)) poses.push_back({alpha, 0.0});
-  for (const CombinedPosePlan& p : rotary.verification) {
+  for (const record::CombinedPoseTask& p : rotary.verification) {
     poses.push_back({p.alpha_deg * kDegree, p.beta_deg * kDegree});
   }
   poses.emplace_back();

@@ -21,7 +21,7 @@ using fixture::kMicroradian;
 
 constexpr double kTruthStep_deg = 2.0;
 
-core::Result<void> touch_balls(RunContext& context, const RotaryPlan& rotary,
+core::Result<void> touch_balls(RunContext& context, const record::RotaryTask& rotary,
                                const record::PoseVisit& visit, const RotaryVisit& wanted) {
   const Eigen::Isometry3d X_WB =
       fixture::body_to_machine(context.cell->kinematics(), visit.reached);
@@ -64,7 +64,7 @@ record::Series truth_of(const Cell& cell, int feature, bool carried,
   return out;
 }
 
-core::Result<void> keep_truth(RunContext& context, int feature, const RotaryPlan& rotary) {
+core::Result<void> keep_truth(RunContext& context, int feature, const record::RotaryTask& rotary) {
   if (context.recorded.knows_series(feature)) return {};
   if (!context.cell->true_errors(false, 0.0)) return {};  // a real fixture hides nothing here
   const std::vector<record::Series> truth = {
@@ -77,7 +77,7 @@ core::Result<void> keep_truth(RunContext& context, int feature, const RotaryPlan
 
 core::Result<std::vector<TouchStep>> ball_steps(const Plan& plan, std::size_t feature,
                                                 const Eigen::Isometry3d& X_WB, std::size_t ball) {
-  const RotaryPlan& rotary = *plan.features[feature].rotary_axes;
+  const record::RotaryTask& rotary = *plan.features[feature].rotary_axes;
   return sphere_steps(plan, {X_WB * vector3(rotary.balls[ball].center_mm),
                              0.5 * rotary.ball_diameter_mm, rotary.points, rotary.uncertainty_mm,
                              record::Touch::Purpose::kMeasure, static_cast<int>(ball)});
@@ -94,7 +94,7 @@ std::size_t calibration_touches(const Plan& plan, std::size_t feature) {
 core::Result<void> calibrate_fixture(RunContext& context, int feature_index) {
   const auto index = static_cast<std::size_t>(feature_index);
   const FeaturePlan& feature = context.plan.features[index];
-  const RotaryPlan& rotary = *feature.rotary_axes;
+  const record::RotaryTask& rotary = *feature.rotary_axes;
   const auto visits = rotary_visits(context.plan, index);
   if (!visits) return core::fail(visits.error());
   context.progress.feature = feature.id;

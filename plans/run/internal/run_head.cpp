@@ -9,8 +9,9 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/schema/internal/setting_list.h"
-#include "plans/schema/internal/uncertainty_table.h"
 #include "record/sha256.h"
+#include "record/tasks/run.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::plans {
 namespace {
@@ -28,13 +29,26 @@ record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   return out;
 }
 
-/// Adds the settings with which the evaluation merges the clouds of several poses.
-void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
-                         std::vector<record::Setting>& out) {
-  out.push_back({"merge", std::nullopt, std::string(name_of(feature.pose_search.merge))});
-  out.push_back({"merged_poses", static_cast<double>(feature.pose_search.poses.size()), ""});
-  for (const double v : fixture.axis_point_mm) out.push_back({"axis_point_mm", v, ""});
-  for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
+void append(std::vector<record::Setting> more, std::vector<record::Setting>& out) {
+  for (record::Setting& setting : more) out.push_back(std::move(setting));
+}
+
+/// How the evaluation brings a touched surface to 20 degC.
+record::ExpansionSettings expansion_of(const Plan& plan) {
+  record::ExpansionSettings out;
+  out.part_expansion_per_K = plan.part.expansion_per_K;
+  if (out.part_expansion_per_K) {
+    out.part_expansion_uncertainty_per_K = plan.part.expansion_uncertainty_per_K;
+  }
+  out.scale_expansion_per_K = plan.machine->scale_expansion_per_K;
+  if (out.scale_expansion_per_K) {
+    out.scale_expansion_uncertainty_per_K = plan.machine->scale_expansion_uncertainty_per_K;
+  }
+  if (out.part_expansion_per_K || out.scale_expansion_per_K) {
+    out.temperature_uncertainty_K =
+        plan.environment.value_or(EnvironmentPlan()).temperature_uncertainty_K;
+  }
+  return out;
 }
 
 /// Converts a feature, without the digest of its points file, which is not read here.
@@ -72,26 +86,16 @@ record::Feature feature_of(const FeaturePlan& plan) {
 std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& feature) {
   std::vector<record::Setting> out;
   if (!is_touched(feature) || !plan.machine) return out;
-  const auto add = [&](std::string_view name, double number) {
-    out.push_back({std::string(name), number, ""});
-  };
   if (feature.sampling.method == record::SamplingMethod::kScan) {
-    out.push_back({"sampling_method", std::nullopt, std::string(name_of(feature.sampling.method))});
+    append(record::settings_of_task(record::SamplingSettings{feature.sampling.method}), out);
   }
-  if (feature.pose_search.strategy == record::Strategy::kMerged)
-    add_merged_settings(*plan.fixture, feature, out);
-  if (plan.part.expansion_per_K) {
-    add("part_expansion_per_K", *plan.part.expansion_per_K);
-    add("part_expansion_uncertainty_per_K", plan.part.expansion_uncertainty_per_K);
+  if (feature.pose_search.strategy == record::Strategy::kMerged) {
+    append(record::settings_of_task(record::MergedPosesSettings{
+               feature.pose_search.merge, static_cast<int>(feature.pose_search.poses.size()),
+               plan.fixture->axis_point_mm, plan.fixture->axis_offset_mm}),
+           out);
   }
-  if (plan.machine->scale_expansion_per_K) {
-    add("scale_expansion_per_K", *plan.machine->scale_expansion_per_K);
-    add("scale_expansion_uncertainty_per_K", plan.machine->scale_expansion_uncertainty_per_K);
-  }
-  if (plan.part.expansion_per_K || plan.machine->scale_expansion_per_K) {
-    add("temperature_uncertainty_K",
-        plan.environment.value_or(EnvironmentPlan()).temperature_uncertainty_K);
-  }
+  append(record::settings_of_task(expansion_of(plan)), out);
   return out;
 }
 
@@ -99,27 +103,14 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
 std::vector<record::Setting> settings_of(const Plan& plan) {
   std::vector<record::Setting> out = record::settings_of_task(plan.decision_rule, "decision_rule/");
   if (plan.environment) {
-    out.push_back({"environment/declared", std::nullopt, "limits"});
-    if (const auto& degC = plan.environment->assumed_degC) {
-      out.push_back({"environment/assumed_degC", *degC, ""});
-    }
+    append(
+        record::settings_of_task(
+            record::EnvironmentSettings{"limits", plan.environment->assumed_degC}, "environment/"),
+        out);
   }
-  if (!plan.uncertainty) return out;
-  const UncertaintyPlan& uncertainty = *plan.uncertainty;
-  auto declared = record::settings_of_task(uncertainty, "uncertainty/");
-  for (record::Setting& setting : declared) out.push_back(std::move(setting));
-  if (uncertainty.thermal && plan.part.expansion_per_K) {
-    out.push_back({"uncertainty/thermal/expansion_per_K", *plan.part.expansion_per_K, ""});
+  if (plan.uncertainty) {
+    append(record::settings_of_uncertainty(*plan.uncertainty, plan.part.expansion_per_K), out);
   }
-  // A group without keys is declared as well.
-  const auto given = [&](const char* name, bool there) {
-    if (there) out.push_back({"uncertainty/declared", std::nullopt, name});
-  };
-  given("probe", uncertainty.probe.has_value());
-  given("machine", uncertainty.machine.has_value());
-  given("thermal", uncertainty.thermal.has_value());
-  given("fixture", uncertainty.fixture.has_value());
-  given("form_spectrum", uncertainty.form_spectrum.has_value());
   return out;
 }
 
@@ -139,7 +130,7 @@ record::Header header_of(const Plan& plan, const RunOptions& options, std::uint6
   out.drawing = plan.part.drawing;
   out.serial = options.serial;
   out.operator_name = options.operator_name;
-  out.decision_rule = plan.decision_rule.rule;
+  out.decision_rule = name_of(plan.decision_rule.rule);
   out.simulated = simulates_anything(plan);
   out.seed = out.simulated ? seed : 0;
   const EnvironmentPlan environment = plan.environment.value_or(EnvironmentPlan());

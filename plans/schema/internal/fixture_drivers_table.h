@@ -11,8 +11,7 @@ namespace rondure::plans {
 template <class Visitor>
 void describe_scaling(Visitor& v, ThorlabsAxisPlan& p) {
   v.text("motor", p.motor,
-         {.one_of = {"stepper", "dc-servo"},
-          .meaning = "Of the stage \"other\": which status messages its controller answers with."});
+         {.meaning = "Of the stage \"other\": which status messages its controller answers with."});
   v.number("counts_per_deg", p.counts_per_deg,
            above(0.0, 1e9, "Counts of a degree, in place of the stage's."));
   v.number("velocity_per_deg_s", p.velocity_per_deg_s,
@@ -29,15 +28,13 @@ void describe(Visitor& v, ThorlabsAxisPlan& p) {
        .empty_allowed = false,
        .meaning = "Serial number of the unit that turns this axis; rondure devices lists them."});
   v.text("stage", p.stage,
-         {.one_of = {"K10CR1", "PRM1-Z8", "other"},
-          .meaning = "The stage, for its scaling; PRM1-Z8 with KDC101 or TDC001. other: give motor "
+         {.meaning = "The stage, for its scaling; PRM1-Z8 with KDC101 or TDC001. other: give motor "
                      "and the three factors."});
   describe_scaling(v, p);
   v.number("zero_deg", p.zero_deg,
            within(360.0, "Angle of the stage, from its home, where the fixture reads 0."));
   v.text("sense", p.sense,
-         {.one_of = {"as-counted", "reversed"},
-          .meaning = "reversed: the stage counts against the angle of the fixture."});
+         {.meaning = "reversed: the stage counts against the angle of the fixture."});
   v.number("speed_deg_s", p.speed_deg_s, range(0.01, 25.0, "Greatest speed of its moves."));
   v.number("acceleration_deg_s2", p.acceleration_deg_s2,
            range(0.01, 100.0, "Acceleration of its moves."));

@@ -4,7 +4,6 @@
 #include "plans/plan.h"
 #include "plans/schema/contour_table.h"
 #include "plans/schema/internal/fixture_drivers_table.h"
-#include "plans/schema/internal/uncertainty_table.h"
 #include "plans/schema/internal/zaber_table.h"
 #include "plans/schema/key_spec.h"
 #include "plans/schema/rotary_table.h"
@@ -86,21 +85,17 @@ void describe_server(Visitor& v, MachinePlan& p) {
                  "ippdme: a motion, a tool change or the homing that takes this much longer "
                  "than its way explains is stopped."));
   v.text("abort", p.abort,
-         {.one_of = {"works", "broken"},
-          .meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
+         {.meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
                      "waits for the end of the motion."});
   v.text("retract", p.retract,
-         {.one_of = {"to-approach", "by-distance"},
-          .meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
+         {.meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
                      "means back to the start of the touch."});
   v.text("numbers", p.numbers,
-         {.one_of = {"16-digits", "16-characters"},
-          .meaning = "ippdme and simulate-cmm: length of the numbers that are sent. "
+         {.meaning = "ippdme and simulate-cmm: length of the numbers that are sent. "
                      "\"16-characters\" counts sign, point and exponent, for a server or client "
                      "that refuses longer ones; directions are then rounded to 1e-13."});
   v.text("point", p.point,
-         {.one_of = {"surface", "center"},
-          .meaning = "ippdme: the point that PtMeas and ScanOnCircle name. \"surface\" by the "
+         {.meaning = "ippdme: the point that PtMeas and ScanOnCircle name. \"surface\" by the "
                      "specification; \"center\" for a server that takes it for the centre of the "
                      "tip. The first touch shows which, and ends a run that says the other."});
 }
@@ -108,8 +103,7 @@ void describe_server(Visitor& v, MachinePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, MachinePlan& p) {
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme"},
-          .meaning = "Which machine measures: a simulation in this program, or a machine behind "
+         {.meaning = "Which machine measures: a simulation in this program, or a machine behind "
                      "I++ DME (docs/ipp-dme.md)."});
   v.number("approach_mm", p.approach_mm,
            above(0.0, 100.0, "The slow search starts this far before the expected contact."));
@@ -186,8 +180,7 @@ void describe(Visitor& v, FixturePlan& p) {
   v.text("id", p.id,
          {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme", "zaber", "thorlabs", "manual"},
-          .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
+         {.meaning = "Which fixture carries the part: a simulation in this program, two rotary "
                      "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
                      "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
                      "friction holds, whose pose the machine then measures. Stages may also turn "
@@ -486,15 +479,14 @@ void describe(Visitor& v, FeaturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis"},
+          {.one_of = spec_of_words<record::Format>({.meaning = {}}).one_of,
            .former = "junit",
            .instead = kInsteadOfJunit,
            .empty_allowed = false,
            .meaning =
                "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
                "QIF 3.0 results, a DMIS output block."});
-  v.text("paper", p.paper,
-         {.one_of = {"a4", "letter"}, .meaning = "Paper that the PDF is printed on."});
+  v.text("paper", p.paper, {.meaning = "Paper that the PDF is printed on."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "

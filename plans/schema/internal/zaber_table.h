@@ -15,9 +15,7 @@ void describe(Visitor& v, ZaberAxisPlan& p) {
            range(0.0, 1.0,
                  "Angle of one microstep; 0: one turn by the setting limit.cycle.dist of the "
                  "controller."));
-  v.text("sense", p.sense,
-         {.one_of = {"as-counted", "reversed"},
-          .meaning = "Whether the angle grows with the position of the stage."});
+  v.text("sense", p.sense, {.meaning = "Whether the angle grows with the position of the stage."});
   v.number("zero_deg", p.zero_deg,
            within(360.0, "Angle of the fixture where the stage is at position 0 (its reference)."));
   v.number("max_speed_deg_s", p.max_speed_deg_s,
@@ -27,8 +25,7 @@ void describe(Visitor& v, ZaberAxisPlan& p) {
 template <class Visitor>
 void describe(Visitor& v, ZaberPlan& p) {
   v.text("connection", p.connection,
-         {.one_of = {"usb", "serial"},
-          .meaning = "usb: the program opens the USB device itself; serial: a serial device of the "
+         {.meaning = "usb: the program opens the USB device itself; serial: a serial device of the "
                      "system."});
   v.text("device", p.device, {.meaning = "serial: its device, e.g. \"/dev/ttyUSB0\"."});
   v.whole("baud", p.baud, range(1200.0, 230'400.0, "serial: its speed; 9600 on old controllers."));

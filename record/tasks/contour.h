@@ -1,0 +1,165 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/tasks/key_spec.h"
+
+namespace rondure::record {
+
+/// Files of one ground part.
+struct ContourPartTask {
+  std::string name;
+  std::string axes;  ///< Trace of the controller.
+  std::string pin;   ///< Contour of the pin from the gauge.
+  std::string main;  ///< Of the neighbouring main journal; empty: none.
+};
+
+/// How a feature of the type "contour" is evaluated, as plan and journal spell it: crank pins in
+/// follow grinding. A member initialiser is the default of its key.
+struct ContourTask {
+  enum class Method { kCorrected, kAsPublished };
+  enum class Error { kActualMinusCommand, kCommandMinusActual };
+  enum class CAxis { kWithWheel, kAgainstWheel };
+  enum class Gauge { kCounterClockwise, kClockwise };
+  enum class Filter { kGaussian, kNone, kDoneByGauge };
+  enum class BaseCircle { kLimacon, kGeometric };
+  enum class MainJournal { kAsIs, kMapped };
+
+  double crank_radius_mm = 49.0;
+  double wheel_radius_mm = 299.88;
+  double pin_radius_mm = 24.56;
+  double main_radius_mm = 30.0;
+  Method method = Method::kCorrected;
+  Error error = Error::kActualMinusCommand;
+  CAxis c_axis = CAxis::kWithWheel;
+  Gauge gauge = Gauge::kCounterClockwise;
+  double phase_offset_deg = 0.0;
+  double main_phase_offset_deg = 0.0;
+  int samples = 1440;
+  int path_samples = 1440;
+  Filter filter = Filter::kGaussian;
+  double cutoff_upr = 50.0;
+  double pre_filter_upr = 0.0;
+  BaseCircle base_circle = BaseCircle::kLimacon;
+  MainJournal main_journal = MainJournal::kAsIs;
+  double stable_from = 0.9;
+  double partly_from = 0.5;
+  std::vector<ContourPartTask> parts;  ///< Empty: simulated.
+};
+
+constexpr auto words_of(ContourTask::Method) {
+  using Method = ContourTask::Method;
+  return std::to_array<Word<Method>>(
+      {{Method::kCorrected, "corrected"}, {Method::kAsPublished, "as-published"}});
+}
+constexpr auto words_of(ContourTask::Error) {
+  using Error = ContourTask::Error;
+  return std::to_array<Word<Error>>({{Error::kActualMinusCommand, "actual-minus-command"},
+                                     {Error::kCommandMinusActual, "command-minus-actual"}});
+}
+constexpr auto words_of(ContourTask::CAxis) {
+  using CAxis = ContourTask::CAxis;
+  return std::to_array<Word<CAxis>>(
+      {{CAxis::kWithWheel, "with-wheel"}, {CAxis::kAgainstWheel, "against-wheel"}});
+}
+constexpr auto words_of(ContourTask::Gauge) {
+  using Gauge = ContourTask::Gauge;
+  return std::to_array<Word<Gauge>>(
+      {{Gauge::kCounterClockwise, "counter-clockwise"}, {Gauge::kClockwise, "clockwise"}});
+}
+constexpr auto words_of(ContourTask::Filter) {
+  using Filter = ContourTask::Filter;
+  return std::to_array<Word<Filter>>({{Filter::kGaussian, "gaussian"},
+                                      {Filter::kNone, "none"},
+                                      {Filter::kDoneByGauge, "done-by-gauge"}});
+}
+constexpr auto words_of(ContourTask::BaseCircle) {
+  using BaseCircle = ContourTask::BaseCircle;
+  return std::to_array<Word<BaseCircle>>(
+      {{BaseCircle::kLimacon, "limacon"}, {BaseCircle::kGeometric, "geometric"}});
+}
+constexpr auto words_of(ContourTask::MainJournal) {
+  using MainJournal = ContourTask::MainJournal;
+  return std::to_array<Word<MainJournal>>(
+      {{MainJournal::kAsIs, "as-is"}, {MainJournal::kMapped, "mapped"}});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ContourPartTask& p) {
+  v.text("name", p.name, {.meaning = "What the part is called in the report."});
+  v.text("axes", p.axes,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "CSV of the control, columns c_deg,c_error_deg,x_error_mm, with d_cmd_mm "
+                     "(commanded X) to check crank, wheel and the zero of C; relative to the "
+                     "plan."});
+  v.text("pin", p.pin,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "CSV of the gauge, columns angle_deg,deviation_um: the pin."});
+  v.text("main", p.main,
+         {.meaning = "The same of the neighbouring main journal; left out: not measured."});
+}
+
+template <class Visitor>
+void describe_crank(Visitor& v, ContourTask& p) {
+  const auto radius = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 0.1,
+                      .at_most = 2000.0,
+                      .code = core::Code::kUnits,
+                      .hint = "that suggests metres or micrometres, give it in mm",
+                      .meaning = meaning};
+  };
+  v.number("crank_radius_mm", p.crank_radius_mm, radius("Distance of the pin from the axis, R."));
+  v.number("wheel_radius_mm", p.wheel_radius_mm, radius("Radius of the grinding wheel, Rgw."));
+  v.number("pin_radius_mm", p.pin_radius_mm, radius("Radius of the pin, r."));
+  v.number("main_radius_mm", p.main_radius_mm, radius("Radius of the main journals."));
+}
+
+template <class Visitor>
+void describe_senses(Visitor& v, ContourTask& p) {
+  v.text("error", p.error,
+         {.meaning = "Sign of the axis errors; most controls record command minus actual as "
+                     "following error."});
+  v.text("c_axis", p.c_axis,
+         {.meaning = "with-wheel: C is the polar angle of the wheel seen from the crankshaft; "
+                     "against-wheel: C counts the other way."});
+  v.text("gauge", p.gauge, {.meaning = "Sense of the gauge's angles, seen as C."});
+  v.number(
+      "phase_offset_deg", p.phase_offset_deg,
+      within(360.0, "Gauge angle of the direction from the crankshaft's axis to the pin's: pins."));
+  v.number("main_phase_offset_deg", p.main_phase_offset_deg,
+           within(360.0, "The same: main journals."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, ContourTask& p) {
+  describe_crank(v, p);
+  v.text("method", p.method,
+         {.meaning = "as-published: each following part is turned onto its total by correlation; "
+                     "for comparison only."});
+  describe_senses(v, p);
+  v.whole("samples", p.samples, range(16, 100'000, "Points of a contour."));
+  v.whole("path_samples", p.path_samples,
+          range(16, 100'000, "C positions the traces are brought to."));
+  v.text(
+      "filter", p.filter,
+      {.meaning = "Low pass of all contours; done-by-gauge: pins and mains are filtered already, "
+                  "the following part is filtered alike."});
+  v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
+  v.number("pre_filter_upr", p.pre_filter_upr,
+           range(0.0, 10'000.0, "Gaussian low pass of the axis errors first; 0: none."));
+  v.text("base_circle", p.base_circle, {.meaning = "How the base circle is taken away."});
+  v.text("main_journal", p.main_journal,
+         {.meaning = "mapped: carried to the pin as n(alpha(beta)) cos(eta)."});
+  v.number("stable_from", p.stable_from,
+           range(0.0, 1.0, "Stability index from which on it is stable."));
+  v.number("partly_from", p.partly_from,
+           range(0.0, 1.0, "Stability index from which on it is partly."));
+  v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
+}
+
+}  // namespace rondure::record

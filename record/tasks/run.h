@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "record/tasks/key_spec.h"
+
+namespace rondure::record {
+
+// What a journal holds of the conditions of a run, for its evaluation without the plan. The plan
+// has tighter limits; these keep nonsense out of the computation.
+
+/// Temperatures of the plan, at "environment/".
+struct EnvironmentSettings {
+  std::optional<std::string> declared;  ///< There when the plan states limits, also for files.
+  std::optional<double> assumed_degC;   ///< Of part and scales when not measured.
+};
+
+/// The fixture that carried the parts, at "fixture/".
+struct FixtureSettings {
+  std::string id;
+  std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};   ///< Machine frame.
+  std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};  ///< Hoop frame.
+  double min_alpha_deg = 0.0;
+  double max_alpha_deg = 0.0;
+  double min_beta_deg = 0.0;
+  double max_beta_deg = 0.0;
+  std::optional<double> max_age_days;      ///< Of its calibration.
+  std::optional<double> max_residual_um;   ///< Of its calibration.
+  std::optional<std::string> calibration;  ///< The file, whole; none: the fixture is nominal.
+};
+
+template <class Visitor>
+void describe(Visitor& v, EnvironmentSettings& p) {
+  v.text("declared", p.declared, {.meaning = "What the plan states."});
+  v.number("assumed_degC", p.assumed_degC, within(1000.0, "Of part and scales."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, FixtureSettings& p) {
+  const NumberSpec place = within(1e6, "Of the axes.");
+  const NumberSpec angle = within(360.0, "End of travel.");
+  v.text("id", p.id, {.meaning = "As on its label."});
+  v.numbers("axis_point_mm", p.axis_point_mm, place);
+  v.numbers("axis_offset_mm", p.axis_offset_mm, place);
+  v.number("min_alpha_deg", p.min_alpha_deg, angle);
+  v.number("max_alpha_deg", p.max_alpha_deg, angle);
+  v.number("min_beta_deg", p.min_beta_deg, angle);
+  v.number("max_beta_deg", p.max_beta_deg, angle);
+  v.number("max_age_days", p.max_age_days, range(0.0, 1e6, "Of the calibration."));
+  v.number("max_residual_um", p.max_residual_um, range(0.0, 1e6, "Of the calibration."));
+  v.text("calibration", p.calibration, {.meaning = "Its file, whole."});
+}
+
+}  // namespace rondure::record
