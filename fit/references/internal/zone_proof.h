@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "fit/references/min_zone_circle.h"
 #include "fit/zone/descent.h"
 #include "fit/zone/local_certificate.h"
 
@@ -27,11 +26,12 @@ template <class Frame>
                                            const ZoneWeights& weights, double round_off);
 
 /// States the minimum zone about a centre: radii, contacts, and the local certificate.
+/// @param out  A MinZoneCenter<D>.
 /// @return The first-order growth there.
-template <int D>
+template <int D, class MinZone>
 double state_zone(std::span<const Eigen::Matrix<double, D, 1>> points,
                   const Eigen::Matrix<double, D, 1>& center, double round_off,
-                  MinZoneCenter<D>& out) {
+                  MinZone& out) {
   const CenterFrame<D> frame(Eigen::Matrix<double, D, 1>::Zero());
   const auto proven = prove_zone(points, center, frame, kMinimumZone, round_off);
   out.center_mm = center;
