@@ -17,7 +17,7 @@ using core::kTwoPi;
 constexpr double kUniform = 1e-6;      ///< Share of a step: closer to uniform is not interpolated.
 constexpr double kMissingSteps = 1.5;  ///< Most samples missing at the end of a revolution.
 /// Limit for all revolutions together; the separation needs some 100 bytes per sample.
-constexpr double kMostSamples = 1e7;
+constexpr double kMostProbeSamples = 1e7;
 
 core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOptions& options) {
   const std::size_t rows = readings.alpha_rad.size();
@@ -91,12 +91,12 @@ core::Result<Extent> whole_revolutions(const std::vector<double>& theta,
                     "need at least {:.0f}: is the angle in deg?",
                     theta.size(), revolutions, each, options.highest, needed));
   }
-  if (options.resample && revolutions * options.samples > kMostSamples) {
-    return core::fail(
-        Code::kBadOption,
-        fmt::format("{:.0f} revolutions of {} samples are {:.3g}, the limit is {:g}: "
-                    "take fewer samples a revolution",
-                    revolutions, options.samples, revolutions * options.samples, kMostSamples));
+  if (options.resample && revolutions * options.samples > kMostProbeSamples) {
+    return core::fail(Code::kBadOption,
+                      fmt::format("{:.0f} revolutions of {} samples are {:.3g}, the limit is {:g}: "
+                                  "take fewer samples a revolution",
+                                  revolutions, options.samples, revolutions * options.samples,
+                                  kMostProbeSamples));
   }
   out.revolutions = static_cast<int>(revolutions);
   if (out.revolutions < 1) {
