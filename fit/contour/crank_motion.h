@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "core/result.h"
 
 namespace rondure::fit {
@@ -27,12 +30,32 @@ struct CrankGeometry {
 /// d = R cos(alpha) + sqrt(Lc^2 - R^2 sin^2(alpha)).
 [[nodiscard]] double wheel_position_mm(const CrankGeometry& geometry, double alpha_rad);
 
-/// C position alpha at which the wheel touches the pin at the polar angle beta about its centre.
+/// Polar angle beta about the pin centre where the wheel touches at the C position alpha.
+[[nodiscard]] double contact_angle_rad(const CrankGeometry& geometry, double alpha_rad);
+
+/// C position alpha at which the polar angle beta is ground; the inverse of contact_angle_rad().
 [[nodiscard]] double command_angle_rad(const CrankGeometry& geometry, double beta_rad);
 
 /// Pressure angle eta = beta - alpha: between the X axis and the contact normal.
 [[nodiscard]] double pressure_angle_rad(const CrankGeometry& geometry, double beta_rad);
 
-// Source: methods, contour sections 1 and 2.
+/// Effect of axis errors on the contour, to first order: dr = x dd + c_mm dalpha.
+struct ContourSensitivity {
+  double x = 1.0;     ///< cos(eta), per mm of X.
+  double c_mm = 0.0;  ///< R sin(beta), per rad of C [mm].
+};
+[[nodiscard]] ContourSensitivity contour_sensitivity(const CrankGeometry& geometry,
+                                                     double beta_rad);
+
+/// Correction of the X command that removes a contour error, to first order:
+/// dd(alpha) = -f(beta(alpha)) / cos(eta).
+///
+/// @param error_mm  f at the angles 360 m / M deg, M >= 3.
+/// @param count     Number of values to return, at the C positions 360 i / count deg.
+[[nodiscard]] std::vector<double> x_compensation_mm(const CrankGeometry& geometry,
+                                                    std::span<const double> error_mm,
+                                                    std::size_t count);
+
+// Source: methods, contour sections 1, 2 and 5.
 
 }  // namespace rondure::fit

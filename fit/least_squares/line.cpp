@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/decompositions.h"
 
 namespace rondure::fit {
@@ -68,6 +70,16 @@ core::Result<LsLine> ls_line(SpacePoints points_mm) {
   out.deviation_mm = 2.0 * std::sqrt(farthest);
   out.rms_mm = std::sqrt(squares / static_cast<double>(points_mm.size()));
   return out;
+}
+
+core::Result<LsLine> median_line_straightness(SpacePoints section_centers_mm) {
+  if (section_centers_mm.size() < 3) {
+    return core::fail(core::Code::kTooFewPoints,
+                      fmt::format("{} section centres; the straightness of a median line needs at "
+                                  "least 3, two are always on a line",
+                                  section_centers_mm.size()));
+  }
+  return ls_line(section_centers_mm);
 }
 
 }  // namespace rondure::fit

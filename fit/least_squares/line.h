@@ -27,4 +27,12 @@ struct LsLine {
 /// Source: K. Pearson, Philosophical Magazine 2 (1901) 559-572.
 [[nodiscard]] core::Result<LsLine> ls_line(SpacePoints points_mm);
 
+/// Straightness of a median line (ISO 12780-1, extracted median line of a cylinder: ISO 14660-2):
+/// deviation of the centres of the sections from their least-squares line.
+///
+/// @param section_centers_mm  Centres of the least-squares circles, one per section; n >= 3.
+/// @return as ls_line(); kTooFewPoints below 3, as two centres are always on a line.
+[[nodiscard]] core::Result<LsLine> median_line_straightness(
+    std::span<const Eigen::Vector3d> section_centers_mm);
+
 }  // namespace rondure::fit

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
+
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -18,6 +21,19 @@ FormParameters form_parameters(std::span<const double> deviations_mm,
     weights += cell;
   }
   return {*high - *low, *high, -*low, std::sqrt(squares / weights)};
+}
+
+core::Result<FormParameters> cylindricity_parameters(std::span<const Eigen::Vector3d> points_mm,
+                                                     const Axis& axis, double radius_mm,
+                                                     bool inside) {
+  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  std::vector<double> deviations;
+  deviations.reserve(points_mm.size());
+  for (const Eigen::Vector3d& p : points_mm) {
+    const double outward = distance_mm(axis, p) - radius_mm;
+    deviations.push_back(inside ? -outward : outward);
+  }
+  return form_parameters(deviations);
 }
 
 }  // namespace rondure::fit

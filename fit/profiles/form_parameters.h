@@ -2,6 +2,11 @@
 
 #include <span>
 
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/geometry/axis.h"
+
 namespace rondure::fit {
 
 /// Parameters of a set of local deviations from a reference (ISO 12180-1, 12181-1, 12780-1, where
@@ -20,5 +25,13 @@ struct FormParameters {
 ///                       all equal; else as many as deviations.
 [[nodiscard]] FormParameters form_parameters(std::span<const double> deviations_mm,
                                              std::span<const double> cells = {});
+
+/// Computes CYLt, CYLp, CYLv, CYLq about a cylinder. All four are defined about the least-squares
+/// cylinder; about the minimum-zone cylinder (with its mean radius) only CYLt is (ISO 12180-1).
+/// @param inside  True for a bore: the material is outside, so peaks point to the axis.
+/// @return kNoPoints, kNotFinite (row).
+[[nodiscard]] core::Result<FormParameters> cylindricity_parameters(
+    std::span<const Eigen::Vector3d> points_mm, const Axis& axis, double radius_mm,
+    bool inside = false);
 
 }  // namespace rondure::fit

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fit/profiles/internal/dft.h"
 #include "fit/profiles/harmonics.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/profiles/profile_filter.h"
 #include "tests/fit/profile_cases.h"
 

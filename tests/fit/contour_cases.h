@@ -25,12 +25,6 @@ inline double sum_of(const std::vector<Wave>& waves, double constant, double ang
   return out;
 }
 
-/// Polar angle about the pin centre where the wheel touches at the C position alpha.
-inline double contact_angle_rad(const fit::CrankGeometry& geometry, double alpha) {
-  return alpha +
-         std::asin(geometry.crank_radius_mm * std::sin(alpha) / geometry.center_distance_mm());
-}
-
 /// Error of the X axis, dd of section 10 [um].
 inline double spec_x_um(double alpha) {
   return sum_of({{2, 1.8, -0.4},

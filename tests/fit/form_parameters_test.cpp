@@ -11,6 +11,7 @@
 #include "fit/datums/datum.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/profiles/generatrix.h"
+#include "fit/references/min_zone_cylinder.h"
 
 namespace rondure::fit {
 namespace {
@@ -48,6 +49,26 @@ TEST(FormParameters, AreTotalPeakValleyAndRms) {
   EXPECT_DOUBLE_EQ(p.rms_mm, std::sqrt(14.0 / 4.0));
   const std::vector<double> cells = {1.0, 0.0, 0.0, 3.0};
   EXPECT_DOUBLE_EQ(form_parameters(d, cells).rms_mm, 1.5);
+}
+
+TEST(FormParameters, OfACylinderAgreeWithItsFits) {
+  const Points3 points = Part{}.surface(1e-5);
+  const auto ls = ls_cylinder(points);
+  const auto mz = min_zone_cylinder(points);
+  ASSERT_TRUE(ls && mz);
+  const auto p = cylindricity_parameters(points, ls->axis, ls->radius_mm);
+  ASSERT_TRUE(p.has_value());
+  EXPECT_NEAR(p->total_mm, ls->deviation_mm, 1e-12);
+  EXPECT_NEAR(p->peak_mm + p->valley_mm, p->total_mm, 1e-15);
+  EXPECT_NEAR(p->rms_mm, ls->rms_mm, 1e-12);
+  EXPECT_NEAR(p->peak_mm, 3.2e-3, 1e-8);
+  const auto zone =
+      cylindricity_parameters(points, mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm));
+  EXPECT_NEAR(zone->total_mm, mz->width_mm(), 1e-12);
+  EXPECT_LE(zone->total_mm, p->total_mm + 1e-12);
+  const auto bore = cylindricity_parameters(points, ls->axis, ls->radius_mm, true);
+  EXPECT_EQ(bore->peak_mm, p->valley_mm);
+  EXPECT_EQ(cylindricity_parameters({}, ls->axis, 1.0).error().code, core::Code::kNoPoints);
 }
 
 TEST(Generatrix, TaperIsTheLeastSquaresSlopeOfTheRadii) {

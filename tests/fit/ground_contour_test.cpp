@@ -126,7 +126,7 @@ TEST(GroundContour, ShowsUndercutWhereTheRippleIsTooSteep) {
     AxisErrors errors = {std::vector<double>(count, 0.0), {}};
     for (std::size_t i = 0; i < count; ++i) {
       const double alpha = test::turn_angle(i, count);
-      const double beta = test::contact_angle_rad(geometry, alpha);
+      const double beta = contact_angle_rad(geometry, alpha);
       errors.x_mm.push_back(um * kMicrometre * std::cos(50.0 * beta) / std::cos(beta - alpha));
     }
     return errors;
@@ -174,6 +174,21 @@ TEST(GroundContour, TurnsWithTheMirrorWhenTheSenseTurns) {
   const auto b = ground_contour(geometry, mirrored).value().r_mm;
   std::reverse(a.begin() + 1, a.end());
   EXPECT_LT(largest_difference(a, b), 1e-9);
+}
+
+TEST(GroundContour, FirstOrderIsCloseToTheEnvelope) {
+  const CrankGeometry geometry;
+  std::vector<double> first(1440);
+  for (std::size_t m = 0; m < 1440; ++m) {
+    const double beta = test::turn_angle(m, 1440);
+    const double alpha = command_angle_rad(geometry, beta);
+    const auto sensitivity = contour_sensitivity(geometry, beta);
+    first[m] = sensitivity.x * test::spec_x_um(alpha) * kMicrometre +
+               sensitivity.c_mm * test::spec_c_mdeg(alpha) * 1e-3 * kDegree;
+  }
+  auto ground = ground_contour(geometry, test::spec_errors(1440)).value().r_mm;
+  for (double& r : ground) r -= geometry.pin_radius_mm;
+  EXPECT_NEAR(largest_difference(first, ground) / kMicrometre, 0.009, 5e-4);  // section 5
 }
 
 TEST(GroundContour, RefusesWhatIsNoMotion) {

@@ -97,5 +97,16 @@ TEST(LsLine, RefusesWhatFixesNoLine) {
   EXPECT_EQ(ls_line(Points3{{1, 0, 0}, {nan, 0, 0}}).error().code, core::Code::kNotFinite);
 }
 
+TEST(MedianLine, StraightnessIsTwiceTheLargestDistanceFromTheLine) {
+  // A bow of 3 um: about the mean line the ends and the middle stand off by 1 and 2 um.
+  const Points3 bow = {{0.0, 0.0, 0.0}, {0.003, 0.0, 50.0}, {0.0, 0.0, 100.0}};
+  const auto straightness = median_line_straightness(bow);
+  ASSERT_TRUE(straightness.has_value());
+  EXPECT_NEAR(straightness->deviation_mm, 2.0 * 0.002, 1e-12);
+  EXPECT_NEAR(straightness->axis.direction.z(), 1.0, 1e-12);
+  EXPECT_EQ(median_line_straightness(Points3{{0, 0, 0}, {0, 0, 1}}).error().code,
+            core::Code::kTooFewPoints);
+}
+
 }  // namespace
 }  // namespace rondure::fit

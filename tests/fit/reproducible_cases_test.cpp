@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/zone/center_search.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "fit/zone/center_search.h"
 #include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {
