@@ -4,8 +4,9 @@
 # alignment and sizes of objects are left to the address sanitizer: checked twice they cost a third of
 # the build.)
 #   ./test.sh               the tests every change must pass
-#   ./test.sh --full        with the full counts behind the figures in docs/ (release preset), then the record that
-#                           a run and its live page share under the thread sanitizer
+#   ./test.sh --full        with the full counts behind the figures in docs/ (release preset), then what runs in
+#                           several threads under the thread sanitizer: the record that a run and its live page
+#                           share, the live page, the evaluation
 #   ./test.sh --sanitizers  all rooms under the sanitizers, but for the oracles of the fits
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -14,7 +15,7 @@ if [ -n "${RONDURE_REWRITE+set}" ]; then
   exit 2
 fi
 . .ci/packages.sh
-sanitized="core wire record fixture cmm fit plans reports web app fuzz"
+sanitized="core wire record fixture cmm fit plans evaluation reports web app fuzz"
 # Figures of many trials and of time, held by the release build; and runs of the whole program that take long: what
 # they do, the tests of plans, record and reports do within one process.
 unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\."
@@ -36,8 +37,8 @@ fi
 build release ON all
 ctest --preset release
 if [ -n "${RONDURE_FULL:-}" ]; then
-  build tsan ON record_tests
-  env -u RONDURE_FULL ctest --preset tsan -R "^record\.GrowingRecord"
+  build tsan ON record_tests web_tests evaluation_tests
+  env -u RONDURE_FULL ctest --preset tsan -R "^(record\.GrowingRecord|web\.Live|evaluation\.Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"
 else
   build asan ON $(printf '%s_tests ' $sanitized)
   echo "Not run under the sanitizers (figures of many trials, and long runs of the program):" \

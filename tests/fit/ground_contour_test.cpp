@@ -191,6 +191,18 @@ TEST(GroundContour, FirstOrderIsCloseToTheEnvelope) {
   EXPECT_NEAR(largest_difference(first, ground) / kMicrometre, 0.009, 5e-4);  // section 5
 }
 
+// Every other position of the wheel is a kilometre away: the ones between cut only parts of the turn.
+TEST(GroundContour, RefusesErrorsThatLeaveAnglesWithoutARadius) {
+  auto errors = test::spec_errors(300);
+  for (std::size_t i = 0; i < errors.x_mm.size(); i += 2) errors.x_mm[i] = 1e6;
+  for (std::size_t i = 0; i < 150; ++i) errors.x_mm[i] = 1e6;
+  const auto refused = ground_contour(CrankGeometry{}, errors);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kOutOfRange);
+  EXPECT_NE(refused.error().what.find("errors of X reach 1e+06 mm"), std::string::npos)
+      << refused.error().what;
+}
+
 TEST(GroundContour, RefusesWhatIsNoMotion) {
   const CrankGeometry geometry;
   auto errors = test::spec_errors();

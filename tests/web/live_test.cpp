@@ -1,9 +1,13 @@
-// The parts of the live page that need no socket: guard, time left, frames. Over HTTP:
-// tests/app/watch_test.cpp; in a browser: tests/browser/live.mjs.
+// The parts of the live page: guard, time left, frames, and its threads at once. Over HTTP with the
+// whole program: tests/app/watch_test.cpp; in a browser: tests/browser/live.mjs.
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <set>
+#include <span>
+#include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +20,8 @@
 #include "web/internal/guard.h"
 #include "web/page.h"
 #include "web/time.h"
+#include "web/view.h"
+#include "wire/tcp_line.h"
 
 namespace rondure::web {
 namespace {
@@ -139,6 +145,52 @@ TEST(LiveCloud, SaysWhenTheTouchesDefineNothing) {
     const record::RunRecord record = touched(points);
     EXPECT_FALSE(evaluate_so_far(record, record.poses.front())) << points;
   }
+}
+
+/// What a page gets when it asks once; null when nothing was understood.
+json asked(std::uint16_t port, const std::string& client) {
+  auto line = wire::connect_tcp("127.0.0.1", port);
+  if (!line) return nullptr;
+  (void)(*line)->write_line("GET /live?since=0&client=" + client + " HTTP/1.1\r\nHost: 127.0.0.1:" +
+                            std::to_string(port) + "\r\nConnection: close\r\n");
+  while ((*line)->read_line(std::chrono::seconds(60)))
+    continue;  // until the end: it has no line end
+  return json::parse((*line)->unfinished(), nullptr, false);
+}
+
+TEST(LiveView, IsPaintedAndServedWhileTheRunGrows) {
+  const auto source = std::make_shared<record::GrowingRecord>();
+  auto view = LiveView::start({}, source);
+  ASSERT_TRUE(view) << view.error().what;
+  const std::string url = (*view)->url();
+  const auto port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+  std::atomic<int> drawn = 0;
+  std::atomic<int> ended = 0;
+  constexpr int kPages = 3;
+  std::vector<std::thread> pages;
+  for (int page = 0; page < kPages; ++page) {
+    pages.emplace_back([&, name = std::string(1, static_cast<char>('a' + page))] {
+      bool has_drawing = false;
+      json answer = asked(port, name);
+      for (; answer.is_object() && !answer["ended"]; answer = asked(port, name)) {
+        const std::string drawing = answer["parts"].value("drawing", std::string());
+        if (!has_drawing && drawing.find("<svg") != std::string::npos) ++drawn;
+        has_drawing = has_drawing || drawing.find("<svg") != std::string::npos;
+      }
+      if (answer.is_object()) ++ended;
+    });
+  }
+  const record::RunRecord whole = touched(48);
+  record::RunRecord head = whole;
+  head.touches.clear();
+  source->begin(head);
+  for (std::size_t i = 0; i < whole.touches.size() || drawn < kPages; ++i) {
+    if (i < whole.touches.size()) source->add(std::span(&whole.touches[i], 1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  (*view)->show_failure("the probe broke");
+  for (std::thread& page : pages) page.join();
+  EXPECT_EQ(ended, kPages);
 }
 
 TEST(LivePainter, SendsOnlyWhatChanged) {
