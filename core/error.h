@@ -90,8 +90,8 @@ struct Error {
 
   /// Returns this error with `where` set to `place`.
   [[nodiscard]] Error at(std::string place) const { return {code, what, std::move(place), phrase}; }
-  /// `what` as a phrase; of one piece where only its English is known.
-  [[nodiscard]] Phrase said() const { return phrase.empty() ? Phrase(what) : phrase; }
+  /// `what` as a phrase; of one piece where only its English is known, or somebody added to it.
+  [[nodiscard]] Phrase said() const { return phrase == what ? phrase : Phrase(what); }
 
   friend bool operator==(const Error& a, const Error& b) {
     return a.code == b.code && a.what == b.what && a.where == b.where;

@@ -44,6 +44,9 @@ TEST(Phrase, IsKeptByTheErrorThatItMakes) {
   const Result<int> failed = fail(Code::kMeaning, phrase("{} of {} touches", 3, 7), "/probe");
   EXPECT_EQ(failed.error(), (Error{Code::kMeaning, "3 of 7 touches", "/probe"}));
   EXPECT_EQ(failed.error().at("/other").said().format(), "{} of {} touches");
+  Error longer = failed.error();
+  longer.what += "; touch again";
+  EXPECT_EQ(longer.said(), "3 of 7 touches; touch again");
   const Error text{Code::kMeaning, "3 of 7 touches", {}};
   EXPECT_EQ(text.said(), "3 of 7 touches");
   EXPECT_TRUE(text.said().arguments().empty());
