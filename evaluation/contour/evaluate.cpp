@@ -22,7 +22,7 @@ double number(const record::Feature& feature, std::string_view name, double othe
   return feature.number(name).value_or(otherwise);
 }
 
-/// The settings of the journal as options of the study.
+/// Turns the settings of the journal into options of the study.
 fit::ContourStudyOptions contour_options(const record::Feature& feature) {
   fit::ContourStudyOptions out;
   const auto is = [&](std::string_view key, std::string_view word) {
@@ -61,7 +61,7 @@ fit::GaugeRows gauge_of(const record::Series& series) {
   return {scaled(series, "angle_deg", kDegree), scaled(series, "deviation_um", kMicrometre)};
 }
 
-/// The parts of a record, in order; as many as there are traces of axes.
+/// The parts of a record, in order; one for each axis trace.
 std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int index) {
   std::vector<fit::ContourPart> out;
   for (int i = 1;; ++i) {
@@ -78,7 +78,7 @@ std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int inde
   }
 }
 
-/// What the plan calls the parts; where it says nothing, their numbers.
+/// The names of the parts in the plan, or their numbers where the plan gives none.
 std::vector<std::string> names_of(const record::Feature& feature, std::size_t parts) {
   std::vector<std::string> out;
   for (const record::Setting& setting : feature.settings) {
@@ -91,7 +91,7 @@ std::vector<std::string> names_of(const record::Feature& feature, std::size_t pa
   return out;
 }
 
-/// All parts together: greatest peak to valley of t.
+/// Greatest peak to valley of t over all parts.
 core::Result<AnalysisValue> deviation_value(const ContourResult& facts) {
   AnalysisValue out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
@@ -113,7 +113,7 @@ core::Result<AnalysisValue> spread_value(const ContourResult& facts) {
   return out;
 }
 
-/// The harmonic of any part that comes nearest to its limit, or goes farthest beyond.
+/// The harmonic of any part that is nearest to its limit, or farthest beyond it.
 core::Result<AnalysisValue> mask_value(const ContourResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;

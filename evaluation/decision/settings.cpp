@@ -22,7 +22,7 @@ core::Result<DecisionRule::Kind> kind_named(std::string_view name) {
                     fmt::format("this program does not know the decision rule \"{}\"", name));
 }
 
-/// The value that a word of the run stands for, the first one where the run does not say it.
+/// The value for a word of the run; the first one where the run does not have the word.
 template <class Value>
 core::Result<Value> value_of_word(const record::RunRecord& record, std::string_view key,
                                   std::initializer_list<std::pair<std::string_view, Value>> words) {

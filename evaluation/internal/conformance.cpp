@@ -21,7 +21,7 @@ using core::micrometres;
 
 using record::Form;
 
-/// The value of a characteristic and whether what proves it is there.
+/// The value of a characteristic, if what proves it is present.
 core::Result<Deviation> value_of(const FeatureResult& result,
                                  const record::Characteristic& characteristic) {
   if (result.failure) return core::fail(*result.failure);
@@ -56,7 +56,6 @@ std::string tip_words(const FeatureResult& result) {
                               : "r_tip unknown";
 }
 
-/// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
 ValueOperator operator_of(const FeatureResult& result,
                           const record::Characteristic& characteristic) {
   return {ReferenceTerm(reference_of(characteristic)), FilterTerm("unfiltered"),
@@ -64,7 +63,7 @@ ValueOperator operator_of(const FeatureResult& result,
           TemperatureTerm(temperature_words(result))};
 }
 
-/// Why the probe cannot vouch for a touched feature.
+/// Why the probe qualification does not cover a touched feature.
 std::optional<std::string> probe_fault(const record::RunRecord& record,
                                        const std::optional<fit::ProbeTip>& probe) {
   const record::Artefact& limits = record.artefact;
@@ -81,7 +80,7 @@ std::optional<std::string> probe_fault(const record::RunRecord& record,
   return std::nullopt;
 }
 
-/// Why a characteristic with a value is void all the same.
+/// Why a characteristic is void although it has a value.
 std::optional<std::string> reason_for_void(const record::RunRecord& record,
                                            const std::optional<fit::ProbeTip>& probe,
                                            const FeatureResult& result, const Deviation& value,
@@ -93,7 +92,7 @@ std::optional<std::string> reason_for_void(const record::RunRecord& record,
                                                               ? record::Shape::kCircle
                                                               : record::Shape::kCylinder));
   }
-  // A zone of some points is never wider than that of all: above the tolerance it proves enough.
+  // A zone of some points is never wider than that of all: above the tolerance it is proof enough.
   const bool too_wide = characteristic.reference == record::Reference::kMinimumZone &&
                         characteristic.tolerance_mm &&
                         value.value_mm > *characteristic.tolerance_mm;
@@ -110,15 +109,15 @@ std::optional<std::string> reason_for_void(const record::RunRecord& record,
   return temperature_fault(record, result);
 }
 
-/// What stands behind a verdict besides the feature itself.
+/// The inputs of a verdict besides the feature itself.
 struct Circumstances {
   const record::RunRecord& record;
   const core::Result<DecisionRule>& rule;
   const std::optional<fit::ProbeTip>& probe;
 };
 
-/// Against a mask the harmonic decides that comes nearest to its limit; that limit is the
-/// tolerance. Certificates play no part.
+/// Against a mask, the harmonic nearest to its limit decides; that limit is the tolerance.
+/// Certificates play no part.
 void judge_harmonics(const Circumstances& by, const FeatureResult& result,
                      CharacteristicResult& out) {
   record::Characteristic& asked = out.characteristic;
@@ -261,7 +260,7 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 }
 
 Verdict overall(const std::vector<FeatureResult>& features) {
-  // From bad to good; void first, because nothing can be said then.
+  // Decreasing severity; void first, because it prevents any overall verdict.
   constexpr std::array kOrder = {Verdict::kVoid, Verdict::kDoesNotConform, Verdict::kUndecided,
                                  Verdict::kConforms};
   const auto failed = [](const FeatureResult& feature) { return feature.failure.has_value(); };

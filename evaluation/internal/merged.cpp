@@ -17,9 +17,9 @@ namespace {
 using record::RunRecord;
 using record::Touch;
 
-/// The least standard uncertainty of a mean touch that is believed: the resolution of a machine.
+/// Lower bound of the standard uncertainty of a mean touch: the resolution of a machine.
 constexpr double kLeastTouch_mm = 0.02e-3;
-/// Peak to valley of some 13 normal values in standard deviations.
+/// Peak to valley of some 13 normal values, in standard deviations.
 constexpr double kFormPerSigma = 3.3;
 
 Eigen::Vector3d vector_of(const record::Feature& feature, std::string_view name) {
@@ -28,7 +28,7 @@ Eigen::Vector3d vector_of(const record::Feature& feature, std::string_view name)
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// How the fixture moved the part: its nominal axes, with the errors of its calibration.
+/// The nominal axes of the fixture with the errors of its calibration.
 fixture::Kinematics kinematics_of(const RunRecord& record, const record::Feature& feature) {
   fixture::Kinematics out = fixture_facts(record).kinematics;
   out.axis_point_W_mm = vector_of(feature, "axis_point_mm");
@@ -36,7 +36,7 @@ fixture::Kinematics kinematics_of(const RunRecord& record, const record::Feature
   return out;
 }
 
-/// The mean touches of one pose, with the sum of squares about them along the approach.
+/// The mean touches of one pose, with their sum of squares along the approach.
 struct PoseMeans {
   std::map<std::pair<int, int>, CloudPoint> targets;
   double squares = 0.0;
@@ -86,7 +86,7 @@ double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::P
   return std::max(kLeastTouch_mm, single / std::sqrt(static_cast<double>(repeats)));
 }
 
-/// The poses as pose_joint() wants them, and the points as the kinematics place them.
+/// The poses as input of pose_joint(), and the points transformed by the kinematics.
 std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
                                        const std::vector<const record::PoseVisit*>& visits,
                                        MergedCloud& out) {

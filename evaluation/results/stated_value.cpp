@@ -58,7 +58,7 @@ std::string StatedValue::value_text() const {
 }
 
 std::string StatedValue::operator_text() const {
-  // Without an interval a value says nothing but what was found at the points.
+  // Without an interval a value only describes the sampled points.
   if (statement() == nullptr) {
     return fmt::format("{}; {}; no uncertainty stated", operator_.words(),
                        name_of(Measurand::kSampledPoints));

@@ -7,11 +7,11 @@
 
 namespace rondure::evaluation {
 
-/// One term of what must be said with a value, in words. The tag keeps terms from being exchanged.
+/// One term of the statement of a value, in words. The tag prevents terms from being swapped.
 template <class Tag>
 class Term {
  public:
-  /// An empty text becomes "not known": nothing is left out in silence.
+  /// An empty text becomes "not known": nothing is omitted silently.
   explicit Term(std::string words) : words_(words.empty() ? "not known" : std::move(words)) {}
   [[nodiscard]] const std::string& words() const { return words_; }
 
@@ -25,8 +25,8 @@ using SamplingTerm = Term<struct SamplingTag>;        ///< "4 x 7 points; mean o
 using TipTerm = Term<struct TipTag>;                  ///< "r_tip 1.9984 mm"
 using TemperatureTerm = Term<struct TemperatureTag>;  ///< "20.3 degC"
 
-/// How a value came about, the verification operator in the sense of ISO 17450-2: it cannot be made
-/// without all of its terms.
+/// How a value came about: the verification operator in the sense of ISO 17450-2. It cannot be
+/// constructed without all of its terms.
 class ValueOperator {
  public:
   ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling, TipTerm tip,
@@ -38,13 +38,13 @@ class ValueOperator {
   std::string words_;
 };
 
-/// What is known of the uncertainty of a value: an interval, or why there is none.
+/// The uncertainty of a value: an interval, or why there is none.
 class UncertaintyStatus {
  public:
   [[nodiscard]] static UncertaintyStatus none(std::string why);
   [[nodiscard]] static UncertaintyStatus stated(UncertaintyResult result, double coverage_1);
 
-  /// Nothing: see why().
+  /// The result; if none, see why().
   [[nodiscard]] const std::optional<UncertaintyResult>& result() const { return result_; }
   [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] double coverage_1() const { return coverage_1_; }
@@ -58,15 +58,16 @@ class UncertaintyStatus {
   double coverage_1_ = 0.0;
 };
 
-/// A value as every report writes it: never without its operator and the status of its uncertainty.
+/// A value as every report writes it: always with its operator and the status of its uncertainty.
 class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints);
 
-  /// As read: not corrected for any bias [mm].
+  /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
-  /// What is quoted: the estimate, which lies in the interval; as read where there is none [mm].
+  /// Quoted value: the estimate, which lies in the interval; without an interval the value as read
+  /// [mm].
   [[nodiscard]] double quoted_mm() const {
     return statement() == nullptr ? value_mm_ : statement()->estimate_mm;
   }
@@ -74,16 +75,17 @@ class StatedValue {
   [[nodiscard]] std::string in_digits(double length_mm) const;
   [[nodiscard]] const ValueOperator& value_operator() const { return operator_; }
   [[nodiscard]] const UncertaintyStatus& uncertainty() const { return uncertainty_; }
-  /// What the interval printed beside the value is about.
+  /// The measurand of the printed interval.
   [[nodiscard]] Measurand measurand() const { return measurand_; }
-  /// The statement about it, or nullptr.
+  /// The statement about measurand(), or nullptr.
   [[nodiscard]] const UncertaintyStatement* statement() const {
     return uncertainty_.about(measurand_);
   }
 
   /// "8.31 um [7.60, 9.40]": the estimate with its interval; as read, "8.312 um", without one.
   [[nodiscard]] std::string value_text() const;
-  /// "MZCY; unfiltered; ...; at the sampled points", with "no uncertainty stated" where it is so.
+  /// "MZCY; unfiltered; ...; at the sampled points", with "no uncertainty stated" where that
+  /// applies.
   [[nodiscard]] std::string operator_text() const;
   /// "CYLt = 8.31 um, 95 % [7.60, 9.40]; as read 8.35 um (MZCY; unfiltered; ...; at the sampled
   /// points)".

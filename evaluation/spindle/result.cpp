@@ -39,13 +39,13 @@ const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation
   return nullptr;
 }
 
-/// Readings that contradict what is stated, or are none, falsify everything.
+/// Readings that contradict the declaration, or are missing, invalidate everything.
 std::optional<std::string> contradiction_of(const SpindleResult& facts) {
   if (facts.separation.contradictions.empty()) return std::nullopt;
   return facts.separation.contradictions.front().what;
 }
 
-/// Harmonics that were dropped falsify part and motion.
+/// Dropped harmonics invalidate part and motion.
 std::optional<std::string> loss_of(const SpindleResult& facts) {
   if (auto contradiction = contradiction_of(facts)) return contradiction;
   if (facts.separation.unrecovered.empty()) return std::nullopt;
@@ -69,7 +69,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   return out;
 }
 
-/// The harmonic that comes nearest to its limit, or goes farthest beyond.
+/// The harmonic that is nearest to its limit, or farthest beyond it.
 core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;

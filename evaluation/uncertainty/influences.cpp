@@ -58,7 +58,8 @@ core::Result<void> check_machine(const MachineInfluences& machine) {
       }
     }
   }
-  return check_numbers(numbers, true);  // typical_errors() has signs; a spread has none
+  // typical_errors() has signed values; a spread must not be negative
+  return check_numbers(numbers, true);
 }
 
 core::Result<void> check_thermal(const ThermalInfluences& thermal) {
@@ -84,7 +85,7 @@ core::Result<void> check_fixture(const FixtureInfluences& fixture) {
                        false);
 }
 
-/// Writes the declaration, one line an influence.
+/// Writes the declaration, one line per influence.
 class Declaration {
  public:
   void group(bool declared) { declared_ = declared; }
@@ -93,7 +94,7 @@ class Declaration {
     lines.push_back({std::move(name), declared_, declared_ ? text : "not declared"});
   }
 
-  /// One of two ways to say the same: without a number it is not declared.
+  /// One of two equivalent ways to declare; without a number it is not declared.
   void limit(std::string name, bool given, const std::string& text) {
     const bool covered = declared_ && given;
     lines.push_back({std::move(name), covered, covered ? text : "not declared"});
@@ -138,7 +139,7 @@ void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out)
                                             kUm * probe.tip_radius_mm));
 }
 
-/// Whether a curve has anything but zeros.
+/// Whether a curve has any value other than zero.
 bool says(const cmm::ErrorCurve& curve) {
   return curve.linear_1_mm != 0.0 || curve.quadratic_1_mm2 != 0.0 || curve.wave != 0.0;
 }

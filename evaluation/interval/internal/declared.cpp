@@ -28,7 +28,7 @@ class SettingGroup {
   [[nodiscard]] std::vector<double> numbers(std::string_view key) const {
     return record::numbers_in(record_.settings, path_ + std::string(key));
   }
-  /// All texts of a key, in order.
+  /// All words of a key, in order.
   [[nodiscard]] std::vector<std::string> words(std::string_view key) const {
     std::vector<std::string> out;
     for (const record::Setting& setting : record_.settings) {
@@ -62,7 +62,7 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
   if (const auto repeatability_um = said.given("repeatability_um")) {
     out.repeatability_mm = *repeatability_um * core::kMicrometre;
     out.degrees_of_freedom = said.number("degrees_of_freedom");
-  } else if (out.form_limit_mm == 0.0) {  // a limit contains it
+  } else if (out.form_limit_mm == 0.0) {  // a limit includes it
     out.repeatability_known = result.repeat_sigma_mm.has_value();
     out.repeatability_mm = result.repeat_sigma_mm.value_or(0.0);
     out.degrees_of_freedom = result.repeat_freedom;
@@ -78,8 +78,8 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
   return out;
 }
 
-/// Fills the curves of one list of error terms; names as in ISO 230-1: "EYX" is along y, of the x
-/// axis, "EAX" about x.
+/// Fills the curves of one list of error terms; names as in ISO 230-1: "EYX" is the error along y
+/// of the x axis, "EAX" its error about x.
 void take_curves(const SettingGroup& said, std::string_view first_letter, std::string_view unit,
                  double unit_value, cmm::GeometricErrors& terms) {
   const bool rotation = first_letter == "A";
@@ -89,7 +89,7 @@ void take_curves(const SettingGroup& said, std::string_view first_letter, std::s
   const auto wave = said.numbers(fmt::format("wave_{}", unit));
   const auto period = said.numbers("wave_period_mm");
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].size() != 3) continue;  // the plan allows no other
+    if (names[i].size() != 3) continue;  // the plan allows nothing else
     const auto component = static_cast<std::size_t>(names[i][1] - first_letter[0]);
     const auto axis = static_cast<std::size_t>(names[i][2] - 'X');
     if (component > 2 || axis > 2) continue;
@@ -126,7 +126,7 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
   const record::Feature& feature = result.feature;
   ThermalInfluences out;
   out.temperature_K = feature.number("temperature_uncertainty_K").value_or(0.0);
-  // Points of a file bring no temperatures to correct by, but drift as the part does.
+  // Points of a file have no temperatures to correct by, but drift as the part does.
   out.expansion_1_K =
       feature.number("part_expansion_per_K").value_or(said.number("expansion_per_K"));
   out.expansion_uncertainty_1_K = feature.number("part_expansion_uncertainty_per_K").value_or(0.0);

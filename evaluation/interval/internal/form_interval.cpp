@@ -12,7 +12,7 @@
 namespace rondure::evaluation {
 namespace {
 
-/// Rows of the cloud behind a characteristic.
+/// Rows of the cloud that a characteristic is evaluated from.
 struct Rows {
   FormKind kind = FormKind::kCylindricity;
   std::vector<std::size_t> rows;
@@ -88,7 +88,7 @@ std::optional<std::string> why_no_interval(const record::RunRecord& record,
   if (!record::number_in(record.settings, "uncertainty/coverage_percent")) {
     return "the plan declares no uncertainty";
   }
-  // The influences act in the machine frame; a merged cloud stands in the frame of the part.
+  // The influences act in the machine frame; a merged cloud is in the frame of the part.
   if (feature.strategy == record::Strategy::kMerged) {
     return "intervals of clouds merged from several poses are not computed; what the fixture "
            "leaves in the value is told beside it";
@@ -103,7 +103,7 @@ tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
   if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
   const auto declared = declared_for(record, result, probe);
   const Rows rows = rows_of(result, asked);
-  constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
+  constexpr std::size_t kMostPoints = 20'000;  // about 10 s of trials; verify repeats them
   if (rows.rows.size() > kMostPoints) {
     return none(
         fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
