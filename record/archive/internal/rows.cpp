@@ -79,7 +79,7 @@ constexpr std::string_view kSelect =
     "r.sampling, r.value, r.upper_limit, r.unit, r.verdict, r.certificate, r.time_s, r.run, "
     "r.number from rondure_result r join rondure_run n on n.id = r.run";
 
-/// The variables that a fetch fills.
+/// The variables that a fetch writes to.
 struct Row {
   ArchivedResult out;
   int simulated = 0;
@@ -130,9 +130,10 @@ auto place_of(const ArchivedResult& result) {
   return std::tuple(result.time_s, result.run, result.number);
 }
 
-/// Compares the names themselves; their keys are equal already, and the names nearly always are.
-/// Done here and not in the query: PostgreSQL would treat key and name as independent, expect a
-/// handful of rows, and sort all rows of a part instead of reading the newest.
+/// Compares the names themselves; their keys are equal already, and so are the names in nearly all
+/// cases. This is done here and not in the query: PostgreSQL would treat key and name as
+/// independent, expect a handful of rows, and sort all rows of a part instead of reading the
+/// newest.
 bool is_named(const ArchivedResult& row, const ArchiveFilter& filter) {
   return (!filter.part || *filter.part == row.head.part_id) &&
          (!filter.characteristic || *filter.characteristic == row.result.characteristic) &&
