@@ -8,38 +8,38 @@
 
 namespace rondure::reports {
 
-/// Text that any file format can hold: well-formed UTF-8 without control characters (line feed and
-/// tab stay) and without noncharacters, which XML and HTML refuse; each of these becomes U+FFFD.
+/// Text that any file format can hold: well-formed UTF-8 without control characters (except line
+/// feed and tab) and without the noncharacters that XML and HTML refuse; each of these becomes
+/// U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
 /// A text as a field by RFC 4180: quoted when it holds a comma, a quote or a line break. A text
 /// that a spreadsheet would compute (it begins with = + - @, a tab or CR) gets an apostrophe in
-/// front, which tells spreadsheets that it is text. Not for numbers.
+/// front, which spreadsheets read as the start of text. Not for numbers.
 [[nodiscard]] std::string csv_field(std::string text);
 
-/// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
-/// control characters and noncharacters the replacement character.
+/// Escapes text for HTML, in elements and in quoted attributes: & < > " ' become entities, control
+/// characters and noncharacters the replacement character.
 [[nodiscard]] std::string escaped(std::string_view text);
-/// Escaped and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
+/// escaped() and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
 [[nodiscard]] std::string isolated(std::string_view text);
 
-/// Text of the program that is English whatever the language of the report (an error made in
-/// another room, a device's name): escaped, isolated and, in a report that is not English, marked
-/// as English.
+/// Text of the program that is English in every report (an error from another room, a device's
+/// name): escaped, isolated and, in a report in another language, marked as English.
 [[nodiscard]] std::string foreign(std::string_view text);
-/// Words that evaluation or another room chose ("finished", "guided"), as told() knows them, else
-/// foreign().
+/// Words from evaluation or another room ("finished", "guided"), translated by told() where it
+/// knows them, otherwise foreign().
 [[nodiscard]] std::string worded(std::string_view text);
-/// The same, not isolated where the words are known: of words that no user can write.
+/// Same as worded(), but known words are not isolated; for words that no user can write.
 [[nodiscard]] std::string plain_words(std::string_view text);
-/// worded() of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
+/// worded() for a sentence with units in ASCII: " um" and " degC" become their signs.
 [[nodiscard]] std::string in_sentence(std::string_view text);
-/// The same of words that are known already, or of their English where they are not.
+/// The same for words that are already translated; the English text where there are none.
 [[nodiscard]] std::string in_sentence(const std::optional<std::string>& words,
                                       std::string_view english);
 /// in_sentence() that begins with an upper-case letter.
 [[nodiscard]] std::string opening_sentence(std::string_view text);
-/// What stands before the sentence of an error: the title of its code; empty in English.
+/// Prefix of the sentence of an error: the title of its code; empty in English.
 [[nodiscard]] std::string titled(core::Code code);
 
 }  // namespace rondure::reports

@@ -25,7 +25,7 @@ bool has_value(const ArchivedResult& r) {
   return r.result.value && r.result.verdict != name_of(evaluation::Verdict::kVoid);
 }
 
-/// Values of both may stand in one chart.
+/// Whether values of both may be in one chart.
 bool comparable(const ArchivedResult& a, const ArchivedResult& b) {
   return a.head.part_id == b.head.part_id && a.head.simulated == b.head.simulated &&
          a.result.feature == b.result.feature &&
@@ -60,8 +60,7 @@ void choose_results(RunChart& chart, std::span<const ArchivedResult> newest_firs
   }
 }
 
-/// A note when the results differ in something that may move a value, but does not make it
-/// another quantity.
+/// Adds a note when the results differ in a condition that may change a value but not its meaning.
 void note_mixture(RunChart& chart, std::string_view what,
                   const std::function<std::string(const ArchivedResult&)>& part) {
   std::set<std::string> kinds;
@@ -95,7 +94,7 @@ void note_mixtures(RunChart& chart) {
   });
 }
 
-/// Repeated measurements of one part say how well it is measured, not what the process makes.
+/// Repeated measurements of one part show how well it is measured, not the spread of the process.
 bool is_one_part(const RunChart& chart) {
   const std::string& serial = chart.results.front().head.serial;
   return !serial.empty() && std::all_of(chart.results.begin(), chart.results.end(),

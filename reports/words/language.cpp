@@ -16,8 +16,8 @@ thread_local Language the_language = Language::kEnglish;
 
 using Table = std::unordered_map<std::string_view, std::string_view>;
 
-/// The texts of the catalogue by the English one, but for the titles of codes. Where a text is also
-/// a sentence, that of tr() counts: it may state how its arguments are written.
+/// The texts of the catalogue by the English text, except the titles of codes. Where a text is also
+/// a sentence, the entry for tr() counts: it may state how its arguments are written.
 const Table& table() {
   static const Table all = [] {
     Table out;
@@ -36,7 +36,7 @@ struct TwoFormats {
   SentenceFormat chinese;
 };
 
-/// The formats of sentences, those with the longest words first: the most particular one counts.
+/// The formats of sentences, those with the most fixed text first: the most specific one counts.
 const std::vector<TwoFormats>& sentences() {
   static const auto all = [] {
     std::vector<TwoFormats> out;
@@ -53,7 +53,7 @@ const std::vector<TwoFormats>& sentences() {
   return all;
 }
 
-/// The parts of a list in its order, each one told.
+/// The parts of a list in its order, each translated.
 std::optional<std::string> told_list(std::string_view english, std::string_view separator,
                                      std::string_view chinese_separator) {
   std::string out;
@@ -68,7 +68,7 @@ std::optional<std::string> told_list(std::string_view english, std::string_view 
   }
 }
 
-/// One format with its arguments told; nothing where one of them is not known.
+/// One format with its arguments translated; none where one of them is not known.
 std::optional<std::string> filled(const TwoFormats& format, std::string_view english) {
   auto arguments = format.english.arguments_of(english);
   if (!arguments) return std::nullopt;

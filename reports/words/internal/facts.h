@@ -16,20 +16,20 @@ namespace rondure::reports {
 [[nodiscard]] std::string repeats_of(const evaluation::FeatureResult& feature);
 /// "Layer 1"; "All points, seen along the axis".
 [[nodiscard]] std::string title_of(const evaluation::Section& section);
-/// How much the fixture adds to CYLt, in one sentence of the language of the report. Where it is
+/// How much the fixture adds to CYLt, in one sentence in the language of the report. Where that is
 /// not known the sentence is English, with the reason.
 [[nodiscard]] std::string share_in_words(const evaluation::MergedPoses& merged);
-/// What the certificate says, in one sentence.
+/// The meaning of a certificate, in one sentence.
 [[nodiscard]] std::string sentence_of(const fit::Certificate& certificate);
 
-/// What a run that did not finish lacks, one sentence each.
+/// The missing parts of a run that did not finish, one sentence each.
 [[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,
                                                      const evaluation::Evaluation& evaluation);
 
 /// The name of the decision rule in words: "simple acceptance".
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
-/// The rule that the verdict follows, with its formula and the value that it judges; or why it is
-/// unknown: nothing where that reason is not known in the language of the report.
+/// The rule of the verdict, with its formula and the value that it judges; or why it is unknown.
+/// None where that reason is not known in the language of the report.
 [[nodiscard]] std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation);
 
 /// The rule in words, with its formula: "ISO 14253-1: conforms where y + 1 (hi - y) <= T, ...".

@@ -59,7 +59,7 @@ bool SentenceFormat::match(std::string_view rest, std::size_t place,
   const bool last = place + 1 == indices_.size();
   const std::string before = found[index];
   for (std::size_t at = 1; at <= rest.size(); ++at) {
-    // Behind the last place the rest of the format ends the sentence.
+    // After the last place, the rest of the format must end the sentence.
     if (last) at = std::max(at, rest.size() - std::min(rest.size(), next.size()));
     at = rest.find(next, at);
     if (at == std::string_view::npos) break;
