@@ -16,15 +16,15 @@ struct RunArguments {
   std::string operator_name;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
-  std::string language = "en";       ///< Of page and summary: "en" or "zh".
-  std::string paper;                 ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
-  std::string archive;               ///< Empty: as the plan says.
-  std::string wire_log;              ///< Empty: none.
+  std::string language = "en";       ///< Language of page and summary: "en" or "zh".
+  std::string paper;     ///< Paper of report.pdf, "a4" or "letter"; empty: as the plan says.
+  std::string archive;   ///< Empty: as the plan says.
+  std::string wire_log;  ///< Empty: none.
   bool quiet = false;
-  bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
-  std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.
-  bool control = false;         ///< With `watch`: a button that stops the run.
-  std::optional<double> speed;  ///< Simulated seconds in a second; none: no waiting.
+  bool step = false;     ///< Each move is confirmed on the terminal and made at reduced speed.
+  std::string watch;     ///< Port of the live page; "auto": any free one; empty: no page.
+  bool control = false;  ///< With `watch`: a button that stops the run.
+  std::optional<double> speed;  ///< Simulated seconds per second; none: no waiting.
 };
 
 }  // namespace rondure::app

@@ -37,9 +37,9 @@ struct SimulateCmmArguments {
   std::string plan;
   std::uint16_t port = 1294;
   std::string address = "127.0.0.1";
-  double speed = 1.0;  ///< Simulated seconds in a second; infinity: no waiting.
+  double speed = 1.0;  ///< Simulated seconds per second; infinity: no waiting.
   std::optional<std::uint64_t> seed;
-  double silence_limit_s = 60.0;  ///< Of a client; then another one takes its place.
+  double silence_limit_s = 60.0;  ///< Another client may replace one that is silent for this time.
   std::string wire_log;           ///< File; empty: none.
 };
 [[nodiscard]] int simulate_cmm(const SimulateCmmArguments& arguments);
@@ -47,8 +47,8 @@ struct SimulateCmmArguments {
 struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;
-  std::string language = "en";  ///< Of page and summary: "en" or "zh".
-  std::string paper;            ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
+  std::string language = "en";  ///< Language of page and summary: "en" or "zh".
+  std::string paper;            ///< Paper of report.pdf, "a4" or "letter"; empty: as the plan says.
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
 
@@ -60,7 +60,7 @@ struct VerifyArguments {
 
 struct CompareArguments {
   std::string directory;
-  bool all = false;  ///< Text with every combination.
+  bool all = false;  ///< Prints every combination.
   bool json = false;
 };
 [[nodiscard]] int compare(const CompareArguments& arguments);
@@ -68,10 +68,11 @@ struct CompareArguments {
 struct HistoryArguments {
   std::optional<std::string> archive;  ///< By default runs/archive.db.
   record::ArchiveFilter filter;
-  std::string since;  ///< Day or time, UTC; as until.
+  std::string since;  ///< Day or time, UTC; also for `until`.
   std::string until;
-  std::string verdict;              ///< With blanks or hyphens.
-  std::optional<std::size_t> last;  ///< How many; by default 50, of charts 1000, of CSV all.
+  std::string verdict;  ///< Words separated by blanks or hyphens.
+  /// Number of results; default 50, for charts 1000, for CSV all.
+  std::optional<std::size_t> last;
   bool chart = false;
   bool json = false;
   std::string csv;  ///< File, or "-".
@@ -109,7 +110,8 @@ struct RoundnessArguments {
 [[nodiscard]] int roundness(const RoundnessArguments& arguments);
 
 struct ContourArguments {
-  std::vector<std::string> axes;  ///< One file a part; as pin and main (or no main at all).
+  /// One file per part, also for `pin` and `main` (or no main at all).
+  std::vector<std::string> axes;
   std::vector<std::string> pin;
   std::vector<std::string> main;
   std::string mapping;
@@ -123,7 +125,7 @@ struct ContourArguments {
   std::size_t samples = 1440;
   std::size_t path_samples = 1440;
   double phase_offset_deg = 0.0;
-  std::optional<double> main_phase_offset_deg;  ///< Absent: as of the pins.
+  std::optional<double> main_phase_offset_deg;  ///< Absent: same as for the pins.
   int gauge_direction = 1;
   int c_direction = 1;
   int error_sign = 1;
@@ -150,8 +152,8 @@ struct WheelArguments {
   bool override_arc = false;
   std::string surface;
   std::string removal;
-  std::vector<double> range_mm;          ///< Contacts; empty: the table's range.
-  std::vector<double> surface_range_mm;  ///< Empty: the contacts.
+  std::vector<double> range_mm;          ///< Range of contacts; empty: the table's range.
+  std::vector<double> surface_range_mm;  ///< Empty: the range of contacts.
   double step_mm = 0.1;
   std::optional<double> cusp_um;
   std::string radius = "mean";
@@ -172,7 +174,7 @@ struct RotaryAxesArguments {
   std::string axis;               ///< x, y, z or a,b,c; empty: by the name of the axis.
   std::vector<double> origin_mm;  ///< Empty: 0,0,0.
   double reference_deg = 0.0;
-  std::vector<double> range_deg;  ///< Of the axis; empty: any.
+  std::vector<double> range_deg;  ///< Range of the axis; empty: any.
   std::string method = "exact";
   std::string curve = "spline";
   std::vector<double> place_mm;  ///< Place whose uncertainty is stated; empty: the origin.
@@ -183,7 +185,7 @@ struct RotaryAxesArguments {
 
 struct SpindleArguments {
   std::string file;
-  std::string layout;  ///< Empty: by the angles.
+  std::string layout;  ///< Empty: given by the angles.
   std::optional<double> p1_to_p2_deg;
   std::optional<double> p2_to_p3_deg;
   std::optional<double> p1_to_p3_deg;
@@ -194,7 +196,7 @@ struct SpindleArguments {
   int highest_order = 50;
   double greatest_gain = 100.0;
   std::optional<double> probe_noise_um;
-  std::optional<double> expected_amplitude_um;  ///< Given: the regularised form.
+  std::optional<double> expected_amplitude_um;  ///< If given, the regularised form is used.
   std::string second_order = "auto";
   double cutoff_upr = 50.0;
   bool no_resampling = false;
@@ -205,21 +207,21 @@ struct SpindleArguments {
 [[nodiscard]] int spindle(const SpindleArguments& arguments);
 
 struct DesignArguments {
-  fit::LayoutSearch search;                    ///< Its ranges come from the two below.
-  std::vector<double> p2_deg = {40.0, 140.0};  ///< Lower and upper end.
+  fit::LayoutSearch search;                    ///< Its ranges come from the two members below.
+  std::vector<double> p2_deg = {40.0, 140.0};  ///< Lower and upper end of the range.
   std::vector<double> p3_deg = {-140.0, -40.0};
   bool json = false;
 };
 [[nodiscard]] int design_probes(const DesignArguments& arguments);
 
 struct RecordArguments {
-  std::vector<std::string> probes;  ///< As indicator_words() says.
+  std::vector<std::string> probes;  ///< Words as listed by indicator_words().
   double from_deg = 0.0;
   double step_deg = 10.0;
   int count = 36;
   std::string out;
   bool inches = false;
-  std::optional<double> rate_Hz;  ///< Refused, with the reason.
+  std::optional<double> rate_Hz;  ///< Always refused, with the reason.
 };
 /// The words that name an indicator, for help and messages.
 [[nodiscard]] std::string indicator_words();
@@ -232,7 +234,7 @@ struct DevicesArguments {
 
 struct ServerDeviceArguments {
   std::string place;     ///< HOST or HOST:PORT.
-  double limit_s = 5.0;  ///< For the connection and for each answer.
+  double limit_s = 5.0;  ///< Time limit for the connection and for each answer.
   bool json = false;
 };
 /// Surveys an I++ DME server; nothing moves.
