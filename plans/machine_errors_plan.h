@@ -6,7 +6,7 @@
 
 namespace rondure::plans {
 
-// simulation.machine and the marks of simulation.part, as their JSON spells them. See plan.h.
+// simulation.machine and the marks of simulation.part, named as in the JSON. See plan.h.
 
 /// One of the nine translations of the axes, e.g. EXX.
 struct TranslationErrorPlan {
@@ -18,7 +18,7 @@ struct TranslationErrorPlan {
   double wave_phase_deg = 0.0;
 };
 
-/// One of their nine rotations, e.g. EAX.
+/// One of the nine rotations of the axes, e.g. EAX.
 struct RotationErrorPlan {
   std::string error;
   double linear_urad_m = 0.0;

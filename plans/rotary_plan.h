@@ -8,8 +8,8 @@
 
 namespace rondure::plans {
 
-// The keys of a feature of the type "rotary_axes" and of its simulation, as the JSON spells them;
-// see plan.h. Keys and meanings: rotary_table.h.
+// The keys of a feature of the type "rotary_axes" and of its simulation, named as in the JSON; see
+// plan.h. Keys and meanings: rotary_table.h.
 
 /// One ball of the artefact.
 struct BallPlan {
@@ -31,11 +31,12 @@ struct RotaryPlan {
   std::vector<double> alpha_stations_deg;
   std::vector<double> beta_stations_deg;
   std::vector<CombinedPosePlan> verification;  ///< Poses that the fit does not use.
-  double machine_uncertainty_um = 0.0;  ///< Standard, of a centre, in addition to the touches.
+  /// Standard uncertainty of a centre, in addition to the touches.
+  double machine_uncertainty_um = 0.0;
   double valid_for_days = 365.0;
 };
 
-/// The hidden errors of a simulated fixture, drawn: fixture/drawn_motion.h.
+/// The hidden errors of a simulated fixture, drawn at random: fixture/drawn_motion.h.
 struct SimulatedMotionPlan {
   double offset_um = 25.0;
   double tilt_urad = 120.0;

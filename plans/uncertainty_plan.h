@@ -9,11 +9,11 @@
 
 namespace rondure::plans {
 
-// decision_rule and uncertainty, as their JSON spells them. See plan.h.
+// decision_rule and uncertainty, named as in the JSON. See plan.h.
 
-/// Knowledge of the parts before this one was measured.
+/// Knowledge about parts of this kind before the measurement.
 struct PriorPlan {
-  std::string distribution = "gamma";  ///< Or "normal", cut at 0.
+  std::string distribution = "gamma";  ///< Or "normal", truncated at 0.
   double mean_um = 0.0;
   double standard_deviation_um = 0.0;
 };
@@ -29,7 +29,7 @@ struct DecisionRulePlan {
   double ratio = 4.0;                       ///< N of "n-to-1".
   double acceptance_guard_percent = 100.0;  ///< For "guard-band".
   double rejection_guard_percent = 100.0;   ///< For "guard-band".
-  // The statements of ASME B89.7.3.1; needed by "n-to-1" and "guard-band".
+  // The statements of ASME B89.7.3.1; required by "n-to-1" and "guard-band".
   std::string zones;
   std::string outcomes;
   std::string repeats;
@@ -43,12 +43,12 @@ struct LobeInfluencePlan {
 };
 
 struct ProbeInfluencesPlan {
-  std::optional<double> repeatability_um;  ///< None: from the repeats of the run.
-  double degrees_of_freedom = 0.0;         ///< Of the value above; 0: known exactly.
+  std::optional<double> repeatability_um;  ///< None: determined from the repeats of the run.
+  double degrees_of_freedom = 0.0;         ///< For `repeatability_um`; 0: known exactly.
   double correlation_length_mm = 0.0;      ///< For a scan; 0: touches are independent.
   std::vector<LobeInfluencePlan> lobes;
   double form_limit_um = 0.0;
-  std::optional<double> tip_radius_um;  ///< None: from the qualification of the run.
+  std::optional<double> tip_radius_um;  ///< None: determined by the qualification of the run.
 };
 
 struct MachineInfluencesPlan {

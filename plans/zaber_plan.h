@@ -4,12 +4,12 @@
 
 namespace rondure::plans {
 
-// Keys of a fixture on a Zaber controller, as the JSON spells them; see plan.h. Keys and meanings:
+// Keys of a fixture on a Zaber controller, named as in the JSON; see plan.h. Keys and meanings:
 // zaber_table.h.
 
 struct ZaberAxisPlan {
   int axis = 0;                      ///< 0: 1 for alpha, 2 for beta.
-  double microstep_deg = 0.0;        ///< 0: from the controller.
+  double microstep_deg = 0.0;        ///< 0: as reported by the controller.
   std::string sense = "as-counted";  ///< Or "reversed".
   double zero_deg = 0.0;             ///< Angle at position 0.
   double max_speed_deg_s = 0.0;      ///< 0: the setting of the controller.

@@ -27,7 +27,7 @@ constexpr std::size_t kPathSamples = 2048;
 struct GroundWorld {
   const SimulatedContourPlan& hidden;
   double c_scale = 1.0;
-  std::vector<HarmonicPlan> own;  ///< Non-following, of this part only.
+  std::vector<HarmonicPlan> own;  ///< Non-following harmonics of this part only.
 
   [[nodiscard]] double c_error_deg(double alpha) const {
     double sum = 0.0;
@@ -55,7 +55,7 @@ GroundWorld world_of(const SimulatedContourPlan& hidden, std::uint64_t seed, std
   return out;
 }
 
-/// Samples of the controller, in the sense and sign that the plan states.
+/// Samples of the controller, with the sense and sign stated in the plan.
 record::Series axes_of(const GroundWorld& world, const ContourPlan& asked, std::uint64_t seed,
                        std::uint64_t feature, std::uint64_t part) {
   const SimulatedContourPlan& hidden = world.hidden;
@@ -77,7 +77,7 @@ record::Series axes_of(const GroundWorld& world, const ContourPlan& asked, std::
   return out;
 }
 
-/// The pin as the envelope of all wheel positions, less its nominal radius [um].
+/// The pin as the envelope of all wheel positions, minus its nominal radius [um].
 core::Result<std::vector<double>> ground_um(const GroundWorld& world,
                                             const fit::CrankGeometry& geometry,
                                             std::size_t points) {

@@ -111,7 +111,7 @@ std::vector<record::Setting> settings_of(const Plan& plan) {
   if (uncertainty.thermal && plan.part.expansion_per_K) {
     out.push_back({"uncertainty/thermal/expansion_per_K", *plan.part.expansion_per_K, ""});
   }
-  // A group without keys is declared as well.
+  // A group without keys counts as declared as well.
   const auto given = [&](const char* name, bool there) {
     if (there) out.push_back({"uncertainty/declared", std::nullopt, name});
   };
