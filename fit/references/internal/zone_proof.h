@@ -9,7 +9,7 @@
 
 namespace rondure::fit {
 
-/// A zone as it will be reported: about a place with its final digits.
+/// A zone in its reported form: about a place with its final digits.
 template <class Frame>
 struct ProvenZone {
   Extremes zone;  ///< Extreme distances of all points from the place.
