@@ -12,7 +12,8 @@
 namespace rondure::app {
 namespace {
 
-/// A verb as it is typed ("run", "fit roundness"; empty: the program alone) and what it takes.
+/// A verb as typed ("run", "fit roundness"; empty: the program alone) with its options and
+/// arguments.
 struct VerbEntry {
   std::string words;
   const CLI::App* table;
@@ -22,7 +23,7 @@ std::vector<const CLI::App*> inner_verbs(const CLI::App& of) {
   return of.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The program alone, its verbs, and theirs.
+/// The program alone, its verbs, and their verbs.
 std::vector<VerbEntry> all_verbs(const CLI::App& program) {
   std::vector<VerbEntry> out = {{"", &program}};
   for (const CLI::App* verb : inner_verbs(program)) {
@@ -47,7 +48,7 @@ bool takes_value(const CLI::Option& option) { return option.get_items_expected_m
 /// "--out"; "-h" has a long name too.
 std::string long_name(const CLI::Option& option) { return "--" + option.get_lnames().front(); }
 
-/// The words that a value is one of; empty: any value. CLI11 keeps them in the type:
+/// The words that a value must be one of; empty: any value. CLI11 keeps them in the type:
 /// "TEXT:{ls,mz}".
 std::vector<std::string> listed_words(const CLI::Option& option) {
   const std::string type = option.get_type_name();
@@ -57,13 +58,13 @@ std::vector<std::string> listed_words(const CLI::Option& option) {
   return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
 }
 
-/// "DIR" of "DIR", "LIST" of "LIST:{html,pdf}".
+/// "DIR" from "DIR", "LIST" from "LIST:{html,pdf}".
 std::string value_name(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   return type.substr(0, type.find(':'));
 }
 
-/// Verbs and listed words that may stand where a word without dashes is typed.
+/// Verbs and listed words that may be typed as a word without dashes.
 std::vector<std::string> plain_words(const CLI::App& verb) {
   std::vector<std::string> out;
   for (const CLI::App* inner : inner_verbs(verb)) out.push_back(inner->get_name());
@@ -88,7 +89,7 @@ std::string with_backslashes(std::string_view text, std::string_view special) {
   return out;
 }
 
-/// For a shell word in single quotes.
+/// Text for a shell word in single quotes.
 std::string single_quoted(std::string_view text) {
   std::string out;
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -96,7 +97,7 @@ std::string single_quoted(std::string_view text) {
 }
 
 /// Branches of a case statement that find the verb in the words typed so far. `branch` takes the
-/// patterns, each a verb and the next word, and what the verb becomes.
+/// patterns (each a verb and the next word) and the resulting verb.
 std::string verb_branches(const std::vector<VerbEntry>& verbs, const char* branch,
                           const char* between) {
   std::string out;
@@ -112,7 +113,7 @@ std::string verb_branches(const std::vector<VerbEntry>& verbs, const char* branc
   return out;
 }
 
-/// Of bash and zsh.
+/// verb_branches() for bash and zsh.
 std::string shell_branches(const std::vector<VerbEntry>& verbs) {
   return verb_branches(verbs, "      {}) verb=\"{}\" ;;\n", " | ");
 }
@@ -249,7 +250,7 @@ std::string fish_completion(const std::vector<VerbEntry>& verbs) {
 
 // ---- the manual page
 
-/// A line of text in roff: nothing in it is a request.
+/// A line of text in roff, escaped so that no part of it is a request.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -266,7 +267,7 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-/// Text whose lines stay as they are.
+/// Text with its line breaks kept.
 std::string roff_lines(std::string text) {
   while (!text.empty() && text.front() == '\n') text.erase(0, 1);
   return text.empty() ? "" : fmt::format(".PP\n.nf\n{}\n.fi\n", roff(text));

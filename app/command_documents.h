@@ -8,8 +8,8 @@ class App;
 
 namespace rondure::app {
 
-/// The manual page of the program in roff (man macros), made from the table that parses the command
-/// line and prints --help. `man -l` shows it.
+/// The manual page of the program in roff (man macros), generated from the table that parses the
+/// command line and prints --help. View it with `man -l`.
 [[nodiscard]] std::string manual_page(const CLI::App& program);
 
 /// A completion script for verbs, options, listed words and file names, from the same table.

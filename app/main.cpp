@@ -58,7 +58,7 @@ void add_paper(CLI::App& verb, std::optional<record::Paper>& paper) {
       ->type_name("PAPER");
 }
 
-/// Whole numbers that every reader of JSON keeps, as in a plan.
+/// Accepts a whole number that every reader of JSON preserves, as in a plan.
 std::string check_seed(const std::string& text) {
   const bool digits = !text.empty() && text.size() <= 16 &&
                       text.find_first_not_of("0123456789") == std::string::npos;
@@ -75,10 +75,11 @@ std::function<std::string(const std::string&)> number_from(double low, double hi
   };
 }
 
-/// Accepts how many times faster than a machine time passes.
+/// Accepts the factor by which time passes faster than on a machine.
 std::string check_factor(const std::string& text) { return number_from(1e-3, 1e6)(text); }
 
-/// Accepts how many times faster than a real machine a simulation runs; "inf": without waiting.
+/// Accepts the factor by which a simulation runs faster than a real machine; "inf": without
+/// waiting.
 std::string check_speed(const std::string& text) {
   return text == "inf" ? std::string() : check_factor(text);
 }
@@ -419,7 +420,7 @@ int explain(const CLI::App& app, const CLI::ParseError& error,
   return kBadInput;
 }
 
-/// Limits numbers on the command line as in files; "nan" and "inf" are refused.
+/// Limits numbers on the command line as in files; refuses "nan" and "inf".
 void limit_numbers(CLI::App& app) {
   constexpr std::array<std::string_view, 7> kNumbers = {"FLOAT", "LO,HI", "X,Y,Z", "N[,N]",
                                                         "X,Z",   "X0,X1", "A,B"};
@@ -435,13 +436,13 @@ void limit_numbers(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) limit_numbers(*verb);
 }
 
-/// A verb on the command line, and what it does.
+/// A verb on the command line, and its action.
 struct Verb {
   const CLI::App* table;
   std::function<int()> run;
 };
 
-/// Adds a verb whose options are written into arguments of its own.
+/// Adds a verb whose options are written into its own arguments.
 template <class Arguments>
 void add_verb(CLI::App& app, void (*add)(CLI::App&, Arguments&), int (*run)(const Arguments&),
               std::vector<Verb>& verbs) {
@@ -487,7 +488,7 @@ int main_of(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return explain(app, error, {argv + 1, argv + argc});
   }
-  // The verbs of `fit` and `devices` stand behind these, and count before them.
+  // The verbs of `fit` and `devices` follow their parents in the list, and take precedence.
   const auto given = std::find_if(verbs.rbegin(), verbs.rend(),
                                   [](const Verb& verb) { return verb.table->parsed(); });
   if (given != verbs.rend()) return given->run();

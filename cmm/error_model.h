@@ -40,10 +40,10 @@ struct AxisErrors {
 /// The 21 parametric errors of three linear axes, in the notation of ISO 230-1:2012.
 struct GeometricErrors {
   std::array<AxisErrors, 3> axes;  ///< x, y, z.
-  double squareness_xy_rad = 0.0;  ///< The angle from +x to +y is 90 deg plus this.
-  double squareness_xz_rad = 0.0;  ///< From +x to +z.
-  double squareness_yz_rad = 0.0;  ///< From +y to +z.
-  /// From the point of the ram about which the z axis turns to the tip centre: the lever of the
+  double squareness_xy_rad = 0.0;  ///< Excess of the angle from +x to +y over 90 deg.
+  double squareness_xz_rad = 0.0;  ///< Excess of the angle from +x to +z over 90 deg.
+  double squareness_yz_rad = 0.0;  ///< Excess of the angle from +y to +z over 90 deg.
+  /// From the point of the ram about which the z axis rotates to the tip centre: the lever of the
   /// rotations of the z axis.
   Eigen::Vector3d tip_offset_mm = Eigen::Vector3d::Zero();
 };
@@ -92,7 +92,7 @@ struct StylusShaft {
   double length_mm = 0.0;
   double diameter_mm = 1.0;
   double modulus_MPa = 600e3;  ///< Tungsten carbide.
-  double force_N = 0.0;        ///< At the trigger.
+  double force_N = 0.0;        ///< Trigger force.
 
   [[nodiscard]] double deflection_mm() const {
     constexpr double kPi = 3.141592653589793;
@@ -110,13 +110,13 @@ struct MachineErrors {
   double pretravel_z_mm = 0.0;  ///< Mean travel along the stylus.
   std::vector<PretravelLobe> pretravel_lobes;
   StylusShaft stylus;
-  Eigen::Vector3d backlash_mm = Eigen::Vector3d::Zero();  ///< Reading approached from below minus
-                                                          ///< from above, each axis.
-  double scale_expansion_1_K = 0.0;                       ///< Of the scales.
-  double scale_temperature_degC = 20.0;                   ///< True value, also as read.
+  /// Reading approached from below minus reading from above, each axis.
+  Eigen::Vector3d backlash_mm = Eigen::Vector3d::Zero();
+  double scale_expansion_1_K = 0.0;      ///< Expansion coefficient of the scales.
+  double scale_temperature_degC = 20.0;  ///< True value, which is also the reading.
   Eigen::Vector3d drift_mm =
       Eigen::Vector3d::Zero();   ///< Final drift of the readings of a fixed point.
-  double drift_time_s = 3600.0;  ///< Its time constant, > 0.
+  double drift_time_s = 3600.0;  ///< Time constant of the drift, > 0.
 };
 
 /// Positions of the points of a simulated scan: a real machine keeps the requested step only on

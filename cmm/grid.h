@@ -10,7 +10,7 @@ namespace rondure::cmm {
 // text with at most 16 digits per number. Each function leaves a value on the grid unchanged.
 
 inline constexpr double kStepsPerMm = 1e10;
-inline constexpr double kStepsPerUnit = 1e15;  ///< Of the components of a direction.
+inline constexpr double kStepsPerUnit = 1e15;  ///< For the components of a direction.
 inline constexpr double kStepsPerDegree = 1e10;
 inline constexpr double kStepsPerSecond = 1e9;
 inline constexpr double kStepsPerKelvin = 1e6;

@@ -37,10 +37,10 @@ struct TouchCommand {
 struct TouchReading {
   Eigen::Vector3d tip_W_mm =
       Eigen::Vector3d::Zero();             ///< Tip centre at the trigger, machine frame, as read.
-  std::optional<double> temperature_degC;  ///< Of the part; none: not measured.
+  std::optional<double> temperature_degC;  ///< Part temperature; none: not measured.
   double time_s = 0.0;                     ///< Machine clock at the trigger.
   double tip_radius_mm = 0.0;  ///< Effective radius the machine works with; 0: not reported.
-  /// Of the scales of the machine; none: not measured.
+  /// Temperature of the machine scales; none: not measured.
   std::optional<double> scale_temperature_degC;
 };
 
@@ -71,7 +71,7 @@ inline constexpr int kMaxScanPoints = 100'000;
 struct Speeds {
   double travel_mm_s = 100.0;
   double touch_mm_s = 5.0;  ///< While searching the surface.
-  double scan_mm_s = 10.0;  ///< Of the tip along a scanned circle.
+  double scan_mm_s = 10.0;  ///< Tip speed along a scanned circle.
 
   friend bool operator==(const Speeds&, const Speeds&) = default;
 };
@@ -93,7 +93,7 @@ struct Capabilities {
 /// State of a machine.
 struct MachineStatus {
   bool homed = false;
-  bool stopped = false;  ///< stop() was called; recover() clears it.
+  bool stopped = false;  ///< stop() was called; recover() clears this.
   std::string tool;      ///< Active tool; "": none.
   std::string fault;     ///< Reported by the machine; "": none.
 };
@@ -119,8 +119,8 @@ class Machine {
   [[nodiscard]] virtual Capabilities capabilities() const = 0;
   [[nodiscard]] virtual core::Result<MachineStatus> status() = 0;
 
-  /// References the axes and goes to the park position above all obstacles. First call of a run:
-  /// before it every motion is kMachine.
+  /// References the axes and goes to the park position above all obstacles. Must be the first call
+  /// of a run: without it every motion is kMachine.
   [[nodiscard]] virtual core::Result<void> home() = 0;
   /// Takes a tool by its name; moves to a rack where the machine has one. kMachine, with the names
   /// of its tools, for an unknown name.

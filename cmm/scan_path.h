@@ -14,7 +14,7 @@ namespace rondure::cmm {
 [[nodiscard]] core::Result<void> check_scan(const ScanCircleCommand& command);
 
 /// The touch that finds the surface at point `index` of a scan, 0..points; `points` is the end of
-/// the sweep. Its direction is radial, its number is that of the point.
+/// the sweep. Its direction is radial, and its id is that of the point.
 [[nodiscard]] TouchCommand scan_point(const ScanCircleCommand& command, int index);
 
 /// The touch at an angle from the start [rad], about the axis of the circle.

@@ -32,8 +32,9 @@ constexpr double kGapSteps = 3.5;       // two neighbours missing, where points 
 constexpr double kDenseGapSteps = 5.5;  // four, where they are dense:
 constexpr double kDenseGap_rad = 10.0 * core::kDegree;
 
-constexpr double kUnit = 0.01;                     // two decimals
-constexpr double kTurn_rad = 8.0 * core::kDegree;  // heads that lock every 15 deg are off by 7.5
+constexpr double kUnit = 0.01;  // two decimals
+// heads that lock every 15 deg are off by up to 7.5
+constexpr double kTurn_rad = 8.0 * core::kDegree;
 
 constexpr double kColdest_degC = 5.0;  // the widest range for which machines are built
 constexpr double kWarmest_degC = 45.0;

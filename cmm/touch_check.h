@@ -13,8 +13,8 @@ namespace rondure::cmm {
 
 // Checks commands before they are sent, and whether an answer can belong to its command. A machine
 // that answers another command is worse than one that does not answer, because its points would be
-// evaluated. The limits admit every machine that does as commanded (docs/ipp-dme.md gives their
-// reasons).
+// evaluated. The limits admit every machine that obeys its commands (docs/ipp-dme.md gives the
+// reasons for the limits).
 
 /// The position of the tip at which a touch starts.
 [[nodiscard]] Eigen::Vector3d start_of(const TouchCommand& command);

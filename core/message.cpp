@@ -12,7 +12,7 @@ using Type = ArgumentKind::Type;
 constexpr ArgumentKind text(std::string_view name) { return {name, Type::kText, 0.0}; }
 constexpr ArgumentKind words(std::string_view name) { return {name, Type::kWords, 0.0}; }
 constexpr ArgumentKind count(std::string_view name) { return {name, Type::kNumber, 0.0}; }
-/// Of a sentence that shows 3 (um), 4 (deg, mm), 5 or 6 decimals.
+/// Tolerance of a number in a sentence with 3 (um), 4 (deg, mm), 5 or 6 decimals.
 constexpr ArgumentKind thousandths(std::string_view name) { return {name, Type::kNumber, 1e-3}; }
 constexpr ArgumentKind fourth(std::string_view name) { return {name, Type::kNumber, 1e-4}; }
 constexpr ArgumentKind fifth(std::string_view name) { return {name, Type::kNumber, 1e-5}; }
@@ -52,7 +52,7 @@ constexpr std::array kRunResumed = {text("resumed_utc"), count("touches"), count
                                     thousandths("largest_difference_um"), count("limit_um")};
 constexpr std::array kPartLocatedAgain = {count("touches"), words("reason")};
 
-/// The one list: a code, its name, its arguments.
+/// The only list of codes, with their names and arguments.
 struct Entry {
   MessageCode code;
   std::string_view name;
@@ -91,7 +91,7 @@ bool says_the_same(const ArgumentKind& kind, const Argument& a, const Argument& 
   if (kind.type == Type::kText) return a == b;
   const double x = std::get<double>(a);
   const double y = std::get<double>(b);
-  return x == y || std::abs(x - y) <= kind.same_within;  // infinite ones by the first
+  return x == y || std::abs(x - y) <= kind.same_within;  // the first part is for infinite numbers
 }
 
 }  // namespace

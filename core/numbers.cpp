@@ -17,7 +17,7 @@ std::string shortest(double value) {
 }
 
 std::string decimal(double value) {
-  std::array<char, 1100> digits{};  // the longest double has 1 + 309 or 1 + 1 + 1074 of them
+  std::array<char, 1100> digits{};  // the longest double has 1 + 309 or 1 + 1 + 1074 characters
   const auto [end, problem] =
       std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
   if (problem != std::errc()) return "0";
@@ -62,7 +62,8 @@ double on_grid(double value, double steps_per_unit) {
   constexpr double kExact = 0x1p53;
   const double steps = std::nearbyint(value * steps_per_unit);
   if (!(std::abs(steps) < kExact)) return value;
-  return steps / steps_per_unit + 0.0;  // -0.0 becomes 0.0: printed text would lose the sign
+  // -0.0 becomes 0.0, because printed text would lose the sign
+  return steps / steps_per_unit + 0.0;
 }
 
 }  // namespace rondure::core

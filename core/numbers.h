@@ -6,12 +6,12 @@
 
 namespace rondure::core {
 
-/// Nothing that is measured, declared or kept is greater, in its own unit: 1e9 mm are 1000 km, 1e9
-/// deg near 3 million turns, 1e9 s 30 years. Squares and products of such numbers stay far from
-/// the end of what a double holds, and differences of 1 nm can still be told.
+/// No measured, declared or stored number is greater, in its own unit: 1e9 mm are 1000 km, 1e9 deg
+/// near 3 million turns, 1e9 s 30 years. Squares and products of such numbers stay far below the
+/// limit of a double, and differences of 1 nm are still resolved.
 inline constexpr double kGreatestNumber = 1e9;
 
-/// Finite, and no greater in size than kGreatestNumber.
+/// Whether a number is finite, and no greater in size than kGreatestNumber.
 [[nodiscard]] inline bool is_measurable(double value) {
   return value >= -kGreatestNumber && value <= kGreatestNumber;
 }
@@ -24,12 +24,12 @@ inline constexpr double kGreatestNumber = 1e9;
 /// ("0.0000001"). `value` must be finite.
 [[nodiscard]] std::string decimal(double value);
 
-/// Numbers as reports and sentences print them. No locale: same value, same text. A value that is
-/// not finite is an en dash, a rounded zero has no sign.
+/// Numbers in the form of reports and sentences. Independent of the locale: same value, same text.
+/// A value that is not finite becomes an en dash; a rounded zero has no sign.
 [[nodiscard]] std::string fixed(double value, int decimals);
 /// A length in um: three decimals below 1 mm, one above.
 [[nodiscard]] std::string um(double length_mm);
-/// The same with its sign, also "+".
+/// um() with its sign, including "+".
 [[nodiscard]] std::string signed_um(double length_mm);
 /// f of a pose in um: three decimals, two above 100 um.
 [[nodiscard]] std::string f_um(double f_mm);
@@ -42,10 +42,10 @@ inline constexpr double kGreatestNumber = 1e9;
 /// not accepted.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// The multiple of 1 / steps_per_unit next to `value` (half to even), as the double next to that
-/// decimal number: printed with log10(steps_per_unit) decimals and read back it gives the same
-/// bits, and a value on the grid stays as it is. What is not finite, or has more than 2^53 steps,
-/// too.
+/// The multiple of 1 / steps_per_unit nearest to `value` (half to even), as the double nearest to
+/// that decimal number: printed with log10(steps_per_unit) decimals and read back it gives the same
+/// bits, and a value on the grid is unchanged. So is one that is not finite, or has more than 2^53
+/// steps.
 /// @param steps_per_unit  A power of ten up to 1e15.
 [[nodiscard]] double on_grid(double value, double steps_per_unit);
 

@@ -5,8 +5,8 @@
 namespace rondure::core {
 
 /// Cubic spline through the points of an open curve. Its third derivative is continuous at the
-/// second and at the last but one point (not-a-knot), so that any cubic is reproduced to round-off
-/// and the ends are not straightened as in a natural spline. The error of the second derivative is
+/// second and at the last but one point (not-a-knot), so that it reproduces any cubic to round-off,
+/// without straightening the ends as a natural spline does. The error of the second derivative is
 /// O(h^2).
 class OpenSpline {
  public:

@@ -8,12 +8,12 @@ namespace rondure::core {
 /// length of a scale bar.
 [[nodiscard]] double round_below(double limit);
 
-/// Round values within [low, high], about `wanted` of them (1, 2 or 5 times a power of ten apart):
-/// the ticks of an axis. Only `low` where high is not above it.
+/// Round values within [low, high], about `wanted` of them (1, 2 or 5 times a power of ten apart),
+/// for the ticks of an axis. Only `low` if `high` is not above it.
 [[nodiscard]] std::vector<double> round_ticks(double low, double high, int wanted);
 
-/// 1, 2, 5, 10, ... within [low, high], both > 0; powers of ten alone when there are more than
-/// three decades.
+/// 1, 2, 5, 10, ... within [low, high], both > 0; only powers of ten when there are more than three
+/// decades.
 [[nodiscard]] std::vector<double> decade_ticks(double low, double high);
 
 }  // namespace rondure::core

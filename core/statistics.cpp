@@ -48,7 +48,8 @@ double upper_median(std::vector<double> values) {
 
 double chi_square_quantile(double probability, double degrees_of_freedom) {
   assert(probability > 0.0 && probability < 1.0 && degrees_of_freedom > 0.0);
-  // Computed in double as everything else: long double costs five times the time for the last bit.
+  // Computed in double like everything else: long double costs five times the time for the last
+  // bit.
   using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   return boost::math::quantile(
       boost::math::chi_squared_distribution<double, Policy>(degrees_of_freedom), probability);

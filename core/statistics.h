@@ -31,7 +31,7 @@ namespace rondure::core {
 /// Standard deviation of a normal distribution over its median absolute deviation, 1 / 0.6745.
 inline constexpr double kSigmaPerMedianDeviation = 1.4826;
 
-/// The value that a chi-square variable of `degrees_of_freedom` > 0 stays below with this
+/// The value below which a chi-square variable of `degrees_of_freedom` > 0 stays with this
 /// probability; 0 < p < 1.
 [[nodiscard]] double chi_square_quantile(double probability, double degrees_of_freedom);
 

@@ -12,7 +12,7 @@ namespace rondure::core {
 /// @return The seconds, or nothing for any other text.
 [[nodiscard]] std::optional<std::int64_t> parse_utc(std::string_view text);
 
-/// Converts seconds back to that form; the inverse of parse_utc() for the years 1970 to 9999.
+/// Converts seconds to text; the inverse of parse_utc() for the years 1970 to 9999.
 [[nodiscard]] std::string utc_text(std::int64_t seconds);
 
 }  // namespace rondure::core

@@ -96,8 +96,8 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
                                 const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
-  result.temperatures = temperatures_of(record, {});         // series carry none
-  if (result.feature.shape == record::Shape::kRotaryAxes) {  // of touches
+  result.temperatures = temperatures_of(record, {});         // series have no touch temperatures
+  if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
     if (probe) result.tip_radius_mm = probe->radius_mm;
     keep(evaluate_rotary(record, index, result), result);
     return result;
@@ -106,7 +106,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
       });
-  // A contour names its series by part and looks for each itself.
+  // A contour names one series per part and looks for each itself.
   const bool named =
       result.feature.shape == record::Shape::kContour || record.data_of(index, "data") != nullptr;
   if (!recorded || !named) {

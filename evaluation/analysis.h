@@ -18,7 +18,7 @@ struct AnalysisResult;  // analysis_result.h
 /// The value of a characteristic, or why there is none.
 [[nodiscard]] core::Result<AnalysisValue> value_of(const AnalysisResult& result,
                                                    const record::Characteristic& characteristic);
-/// How that value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
+/// How the value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
 [[nodiscard]] ValueOperator operator_of(const AnalysisResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);
@@ -32,9 +32,10 @@ struct AnalysisResult;  // analysis_result.h
 [[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
                                               const std::optional<fit::ProbeTip>& probe);
 
-/// Fills the characteristics of such a feature under the rule. Void without a result, without the
-/// value, outside the temperature limits, where the value proves nothing, when the run did not
-/// finish, or when the rule needs an interval: of series none is computed yet.
+/// Fills the characteristics of an analysed feature and applies the rule to them. A characteristic
+/// is void without a result or a value, outside the temperature limits, where the value proves
+/// nothing, when the run did not finish, or when the rule needs an interval: no interval is
+/// computed for series yet.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result);
 

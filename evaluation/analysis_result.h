@@ -9,8 +9,8 @@
 
 namespace rondure::evaluation {
 
-/// What one analysis found of a feature: plain data, a struct each. Whoever judges or writes one
-/// visits it. README.md says how to add one.
+/// The result of one analysis of a feature, as plain data: one struct per analysis. Judging and
+/// writing code visits the variant. README.md says how to add an analysis.
 struct AnalysisResult {
   std::variant<SpindleResult, WheelResult, ContourResult, RotaryResult> found;
 };

@@ -79,7 +79,7 @@ void add_one_sided(Lines& out, const OneSided& fit, const Place& place) {
   out.certificate(fit.certificate);
 }
 
-/// A section of the dump for a fit, or the reason why there is none.
+/// A section of the dump for a fit, or the reason why there is no fit.
 template <class Fit, class Add>
 void add_fit(Lines& out, const std::string& title, const core::Result<Fit>& fit, const Add& add) {
   out.title(title);

@@ -13,28 +13,30 @@
 
 namespace rondure::evaluation {
 
-/// A result that breaks an invariant: a defect of the program. It is never printed as a value.
+/// A result that violates an invariant, which is a defect of the program. It is never printed as a
+/// value.
 struct Defect {
   BrokenInvariant broken;
-  FeatureResult result;  ///< With everything that was computed of it.
+  FeatureResult result;  ///< With everything that was computed for the feature.
 };
 
-/// An evaluation, and the results that were taken out of it.
+/// An evaluation, and the results that were removed from it.
 struct CheckedEvaluation {
   Evaluation evaluation;
   std::vector<Defect> defects;
 };
 
-/// What every result must pass: the first relation that it breaks, or nothing.
+/// A check that every result must pass: returns the first relation that it violates, or nothing.
 using InvariantCheck = std::function<std::optional<BrokenInvariant>(const FeatureResult&)>;
 
-/// evaluate(), with the defects whole. A feature that does not pass keeps no fit and no value: its
-/// failure is error_of(), its characteristics are void with that reason. The other features stay.
-/// @param check  In place of broken_invariant(): no data break an invariant, tests do.
+/// Like evaluate(), and keeps the defects whole. A feature that fails the check keeps no fit and no
+/// value: its failure is error_of(), its characteristics are void with that reason. The other
+/// features stay.
+/// @param check  Replaces broken_invariant() in tests, since no data violate an invariant.
 [[nodiscard]] CheckedEvaluation evaluate_checked(const record::RunRecord& record,
                                                  const InvariantCheck& check = broken_invariant);
 
-/// The defect in one sentence, kInternal at the feature: the same wherever the run is evaluated.
+/// The defect in one sentence, kInternal at the feature: identical wherever the run is evaluated.
 [[nodiscard]] core::Error error_of(const Defect& defect);
 
 /// Text to attach to a bug report: versions, processor, feature, rule, every fit and every point
@@ -44,17 +46,17 @@ using InvariantCheck = std::function<std::optional<BrokenInvariant>(const Featur
 
 inline constexpr const char* kDefectFile = "defect.txt";
 
-/// Writes the dumps into `directory` as defect.txt; without a defect nothing.
-/// @return kInternal where the file cannot be written: the first defect, and the journal as the
-///         evidence that is left.
+/// Writes the dumps into `directory` as defect.txt; without a defect nothing is written.
+/// @return kInternal where the file cannot be written: it names the first defect, and the journal
+///     as the remaining evidence.
 [[nodiscard]] core::Result<void> keep_defects(const std::vector<Defect>& defects,
                                               const record::Header& header,
                                               const std::filesystem::path& directory,
                                               const std::string& processor);
 
-/// evaluate() for a run directory, where defects leave their defect.txt.
-/// @param processor  Of this machine, as app spells it in the journal.
-/// @return keep_defects()'s error.
+/// Like evaluate(), for a run directory; writes defect.txt there when there are defects.
+/// @param processor  Processor of this machine, as app spells it in the journal.
+/// @return The error of keep_defects().
 [[nodiscard]] core::Result<Evaluation> evaluate_run(const record::RunRecord& record,
                                                     const std::filesystem::path& directory,
                                                     const std::string& processor);

@@ -39,7 +39,7 @@ std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
   return *tip;
 }
 
-/// f of every pose that was measured, from its own touches.
+/// f of every measured pose, from its own touches.
 void evaluate_poses(const RunRecord& record, int index, FeatureResult& result) {
   if (result.feature.strategy == record::Strategy::kPointsFile) return;
   for (const record::PoseVisit& visit : record.poses) {
@@ -49,7 +49,7 @@ void evaluate_poses(const RunRecord& record, int index, FeatureResult& result) {
   }
 }
 
-/// The software search of the strategy `virtual`: one cloud, turned.
+/// The software search of the strategy `virtual`: one cloud, rotated.
 void search_virtual_poses(const record::PoseVisit& visit, FeatureResult& result) {
   const Eigen::Matrix3d back = rotation(visit.reached).transpose();
   const auto tips = tips_of(result.cloud);
@@ -74,7 +74,7 @@ void search_virtual_poses(const record::PoseVisit& visit, FeatureResult& result)
   result.poses.insert(result.poses.end(), values.begin(), values.end());
 }
 
-/// Angle, height and deviation of every point about an axis.
+/// Sets angle, height and deviation of every point about an axis.
 void place_points(const fit::Axis& axis, double middle_radius_mm, const Eigen::Vector3d& mean,
                   std::vector<CloudPoint>& cloud) {
   const Eigen::Vector3d z =
@@ -101,8 +101,8 @@ void mark_contacts(const std::vector<fit::Contact>& outer, const std::vector<fit
   for (const fit::Contact& c : inner) cloud[rows[c.index]].inner_contact = true;
 }
 
-/// Points of a section; of several passes over it only the first: near points of two passes differ
-/// by their noise, which a curve through both would blow up.
+/// Points of a section. Only the first of several passes is used: neighbouring points of two passes
+/// differ by their noise, which a curve through both would amplify.
 std::vector<Eigen::Vector2d> first_pass(const std::vector<CloudPoint>& cloud,
                                         const std::vector<std::size_t>& rows,
                                         const std::vector<Eigen::Vector2d>& points) {
@@ -113,10 +113,10 @@ std::vector<Eigen::Vector2d> first_pass(const std::vector<CloudPoint>& cloud,
   return out;
 }
 
-/// The filtered section of a dense layer; the verdict stays with the points as measured.
+/// The filtered section of a dense layer; the verdict uses the points as measured.
 std::optional<fit::RoundnessEvaluation> dense_section(const std::vector<Eigen::Vector2d>& points) {
   constexpr std::size_t kDense = 7 * 50;   // points at the cut-off of 50 UPR
-  constexpr std::size_t kAtMost = 10'000;  // a file may hold far more; this is only shown
+  constexpr std::size_t kAtMost = 10'000;  // a file may hold far more; this is for display only
   if (points.size() < kDense || points.size() > kAtMost) return std::nullopt;
   auto section = fit::evaluate_section(points, {});
   if (!section) return std::nullopt;  // an arc, or gaps: there is no filtered profile
@@ -152,8 +152,9 @@ Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
   return cloud.front().tip_mm + sum / static_cast<double>(cloud.size());
 }
 
-/// Where the axis of a feature points, machine frame. A touched part stands along the ring's z, or
-/// as it was located; points of a file may lie any way, a circle of a file lies across z.
+/// Expected direction of the axis of a feature, machine frame. A touched part stands along the
+/// ring's z or as it was located; points of a file may have any orientation; a circle of a file is
+/// normal to z.
 std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
                                              const record::Feature& feature,
                                              const record::PoseVisit& visit) {
@@ -164,7 +165,7 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
   const Eigen::Matrix3d turn = rotation(visit.reached);
   const Eigen::Vector3d nominal = turn * Eigen::Vector3d::UnitZ();
   if (!circle) return nominal;
-  // One section shows no tilt; the touches that located the part do: the last ones before the
+  // One section shows no tilt; the touches that located the part do. Use the last ones before the
   // section, since the part may have been located again.
   for (auto other_at = record.poses.rbegin(); other_at != record.poses.rend(); ++other_at) {
     const record::PoseVisit& other = *other_at;
@@ -182,9 +183,9 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
   return nominal;
 }
 
-/// Directions a reported zone is compared with: about the expected axis for what was touched, or,
-/// where the part lies outside that cone, about its least-squares axis; of a points file nothing is
-/// known, so all, or, where that takes too long, those about its least-squares axis.
+/// Directions that a certificate must cover: for touched points those about the expected axis or,
+/// where the part lies outside that cone, about its least-squares axis; for a points file nothing
+/// is known, so all directions or, where that takes too long, those about its least-squares axis.
 std::vector<fit::AxisScope> certificate_scopes(const std::optional<Eigen::Vector3d>& direction,
                                                const fit::LsCylinder& ls) {
   const fit::AxisScope found{fit::AxisScope::Kind::kCone, ls.axis.direction};
@@ -235,7 +236,7 @@ void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
   mark_contacts(zone.outer, zone.inner, section.rows, result.cloud);
 }
 
-/// What the repeats of the final cloud say: scatter of a touch, and of the zone of a single cloud.
+/// Evaluates the repeats of the final cloud: scatter of a touch, and of the zone of a single cloud.
 void evaluate_repeats(const std::vector<const Touch*>& touches,
                       const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
   const RepeatNoise noise = repeat_noise(touches, result.cloud);
@@ -252,7 +253,7 @@ void evaluate_repeats(const std::vector<const Touch*>& touches,
   }
   std::vector<double> zones;
   for (const auto& [repeat, points] : clouds) {
-    // An interrupted pass is no cloud; those of scans need not have the same number of points.
+    // An interrupted pass is no cloud; scan passes may differ in their number of points.
     const bool whole = result.cloud.front().pass ? 10 * points.size() > 9 * most
                                                  : points.size() == result.cloud.size();
     if (!whole || !result.mz_cylinder) continue;
@@ -269,7 +270,7 @@ void evaluate_repeats(const std::vector<const Touch*>& touches,
   result.repeat_zone_sd_mm = std::sqrt(variance);
 }
 
-/// The pose that would turn the found axis to machine z, from the pose in which it was found.
+/// The pose that turns the found axis to machine z, from the pose in which it was found.
 core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& reached,
                      const Eigen::Vector3d& direction_W) {
   Eigen::Vector3d t =
@@ -278,7 +279,7 @@ core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& re
   return fixture::levelling_pose(kinematics, t);
 }
 
-/// A cylinder that several poses show: in the body frame, whose z its axis is near.
+/// A cylinder measured in several poses: in the body frame, whose z is near its axis.
 void evaluate_merged(const RunRecord& record, int index, const std::optional<fit::ProbeTip>& probe,
                      FeatureResult& result) {
   auto cloud = merged_cloud(record, index, probe);
@@ -372,8 +373,8 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   return result;
 }
 
-/// What is left of a feature whose result broke an invariant: what was asked and how it was
-/// measured. None of its numbers can be trusted.
+/// The remainder of a feature whose result violated an invariant: the question and the conditions
+/// of the measurement. None of its numbers can be trusted.
 FeatureResult without_values(const Defect& defect) {
   FeatureResult out;
   out.feature = defect.result.feature;

@@ -7,11 +7,11 @@
 namespace rondure::evaluation {
 
 /// Evaluates a record: averages repeated touches of one place in the final pose, fits, checks the
-/// invariants, decides. No machine, no clock, no files; same record, same bits.
+/// invariants, decides. Uses no machine, clock or files; the same record gives the same bits.
 ///
-/// @return Always an evaluation: every fault of the data stands in the feature, and so does a
-///         broken invariant (a defect of the program; no value, all void; evaluate_run() of
-///         defect.h keeps its numbers).
+/// @return Always an evaluation: every fault of the data is stated in its feature, and so is a
+///     violated invariant (a defect of the program: no value, all characteristics void;
+///     evaluate_run() of defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
 }  // namespace rondure::evaluation

@@ -6,7 +6,7 @@
 namespace rondure::evaluation {
 namespace {
 
-/// The highest harmonic that every section carries; 0 when one carries none.
+/// The highest harmonic that every section resolves; 0 when a section resolves none.
 int highest_of_all(const FeatureResult& feature) {
   int highest = 0;
   bool first = true;

@@ -33,9 +33,9 @@ struct MaskedHarmonic {
 [[nodiscard]] std::vector<MaskedHarmonic> against_mask(const FeatureResult& feature,
                                                        const record::Characteristic& asked);
 
-/// The harmonic that comes nearest to its limit, or goes farthest beyond.
-/// @return kSampling when no section is dense, or the mask reaches above the highest harmonic that
-///         the points of every section carry.
+/// The harmonic that is nearest to its limit, or farthest beyond it.
+/// @return kSampling when no section is dense, or when the mask reaches above the highest harmonic
+///     that the points of every section resolve.
 [[nodiscard]] core::Result<MaskedHarmonic> nearest_to_mask(const FeatureResult& feature,
                                                            const record::Characteristic& asked);
 

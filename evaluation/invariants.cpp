@@ -44,8 +44,8 @@ class Relations {
   std::optional<BrokenInvariant> broken_;
 };
 
-/// A zone no wider than round-off needs no contacts: none can be narrower by more. Those of a
-/// perfect part may stand on one side only.
+/// A zone no wider than round-off needs no contacts: nothing can be narrower by more. The contacts
+/// of a perfect part may lie on one side only.
 template <class Zone>
 fit::StatedZone stated(const Zone& zone) {
   if (zone.width_mm() <= kInvariantSlack)
@@ -67,7 +67,7 @@ const fit::Axis& place_of(const fit::OneSidedCylinder& fit) { return fit.axis; }
 const Eigen::Vector2d& place_of(const fit::MinZoneCircle& fit) { return fit.center_mm; }
 const Eigen::Vector2d& place_of(const fit::OneSidedCircle& fit) { return fit.center_mm; }
 
-/// The witness of one reference. Without a certificate there is nothing to check.
+/// Checks the witness of one reference. Without a certificate there is nothing to check.
 template <class Points, class Fit>
 void check_witness(const Points& points, const char* name, const Fit& fit,
                    const fit::StatedZone& zone, Relations& relations) {
@@ -75,9 +75,9 @@ void check_witness(const Points& points, const char* name, const Fit& fit,
   relations.holds(name, fit::check_zone(points, place_of(fit), zone, kInvariantSlack));
 }
 
-/// The place of MZ is one that MC and MI could have taken where their search went through it. They
-/// must be as good there, to what the search leaves; one next to the least-squares place only is
-/// allowed to be worse, and is warned of.
+/// MC and MI could have stopped at the place of MZ if their search passed through it. They must be
+/// as good there, within the tolerance of the search; an optimum near the least-squares place only
+/// may be worse, and gives a warning.
 template <class Zone, class OneSided>
 bool searched(const Zone& mz, const OneSided& mc) {
   return mc.certificate.kind == fit::Certificate::Kind::kGlobal &&
@@ -97,7 +97,7 @@ bool searched(const std::vector<Eigen::Vector3d>& points, const fit::MinZoneCyli
          sine <= std::sin(9.0 * core::kDegree);
 }
 
-/// The four references of the same points. What does not exist has no relations.
+/// Checks the four references of the same points. A missing reference has no relations.
 template <class Points, class Zone, class Ls, class OneSided>
 void relate(const Points& points, const Zone& mz, const Ls& ls, const core::Result<OneSided>& mc,
             const core::Result<OneSided>& mi, Relations& relations) {

@@ -26,8 +26,8 @@ struct SimulatedContourPlan {
   std::vector<HarmonicPlan> x_error;
   double c_error_spread = 0.0;  ///< Standard deviation of the size of C errors from part to part.
   std::vector<HarmonicPlan>
-      rest;  ///< Non-following, of every part: amplitude cos(order beta - phase).
-  double rest_spread_um = 0.0;  ///< Part-to-part variation of that part.
+      rest;  ///< Non-following harmonics of every part: amplitude cos(order beta - phase).
+  double rest_spread_um = 0.0;  ///< Part-to-part variation of `rest`.
   double c_noise_mdeg = 0.0;
   double x_noise_um = 0.0;
   double roughness_um = 0.0;  ///< Standard deviation of a gauge value.

@@ -9,7 +9,7 @@
 
 namespace rondure::plans {
 
-// simulation.machine and the marks of simulation.part, as their JSON spells them. See plan.h.
+// simulation.machine and the marks of simulation.part, named as in the JSON. See plan.h.
 
 struct PretravelLobePlan {
   int order = 3;

@@ -27,9 +27,9 @@
 
 namespace rondure::plans {
 
-// The plan as its JSON spells it: degrees and micrometres where the key says so. Keys, units,
-// ranges and meanings are defined only in plans/schema/internal/plan_table.h; a member initialiser
-// here is the default.
+// The plan with the names and units of its JSON: degrees and micrometres where the key says so.
+// Keys, units, ranges and meanings are defined only in plans/schema/internal/plan_table.h; a member
+// initialiser here is the default.
 
 using record::name_of;  // finds the words of the enums below
 
@@ -39,7 +39,7 @@ struct PlanHead {
   std::string note;
 };
 
-/// A piece of the part beside the inspected surfaces, for the planner.
+/// A piece of the part beside the inspected surfaces, for the path planner.
 struct SectionPlan {
   double from_mm = 0.0;  ///< Lower end, part z.
   double to_mm = 0.0;
@@ -72,14 +72,15 @@ struct MachinePlan {
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
   double scan_speed_mm_s = 10.0;
-  std::optional<double> scale_expansion_per_K;  ///< Of the scales; none: the machine compensates.
+  /// Expansion of the scales; none: the machine compensates.
+  std::optional<double> scale_expansion_per_K;
   double scale_expansion_uncertainty_per_K = 1e-6;
   std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above all obstacles.
   std::array<double, 3> volume_min_mm = {-10'000.0, -10'000.0, -10'000.0};  ///< Reach of the tip.
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
-  double step_speed_mm_s = 10.0;  ///< For a first run in single steps.
+  double step_speed_mm_s = 10.0;  ///< Speed for a first run in single steps.
   double resume_limit_um = 5.0;   ///< Largest change of a repeated touch at which a run is resumed.
-  // For Driver::kIppdme.
+  // The following members are for the driver "ippdme".
   std::string host = "127.0.0.1";
   int port = 1294;
   std::string tool;  ///< Empty: the active tool.
@@ -150,7 +151,7 @@ struct FixturePlan {
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
-  std::optional<CalibrationPlan> calibration;   ///< None: the fixture is taken as nominal.
+  std::optional<CalibrationPlan> calibration;   ///< None: the fixture is treated as nominal.
   std::optional<ZaberPlan> zaber;               ///< Used only by the driver of that name.
   std::optional<ThorlabsPlan> thorlabs;         ///< Needed and accepted only by that driver.
   std::optional<ReachedPosePlan> reached_pose;  ///< Needed and accepted only by "manual".
@@ -171,15 +172,15 @@ struct QualificationPlan {
   int points = 13;
   double form_limit_um = 5.0;
   double radius_tolerance_um = 100.0;
-  double stem_diameter_mm = 0.0;  ///< Below the sphere; 0: a third of it.
+  double stem_diameter_mm = 0.0;  ///< Diameter below the sphere; 0: a third of it.
 };
 
 struct ProbePlan {
   double tip_diameter_mm = 4.0;
-  /// From the centre of the ball up; 0: only the ball is considered.
+  /// Length from the centre of the ball up; 0: only the ball is considered.
   double stylus_length_mm = 0.0;
-  double stylus_diameter_mm = 0.0;  ///< Of the shaft.
-  double holder_diameter_mm = 0.0;  ///< Of the stylus holder; 0: none.
+  double stylus_diameter_mm = 0.0;  ///< Diameter of the shaft.
+  double holder_diameter_mm = 0.0;  ///< Diameter of the stylus holder; 0: none.
   QualificationPlan qualification;
 };
 
@@ -187,7 +188,7 @@ struct EnvironmentPlan {
   double min_degC = 18.0;
   double max_degC = 22.0;
   double temperature_uncertainty_K = 0.1;
-  std::optional<double> assumed_degC;  ///< Of part and scales when not measured.
+  std::optional<double> assumed_degC;  ///< Temperature of part and scales when not measured.
 };
 
 struct NominalPlan {
@@ -212,7 +213,7 @@ struct MeasuringPosePlan {
 };
 
 struct PoseSearchPlan {
-  record::Strategy strategy = record::Strategy::kGuided;  ///< One of a surface that is touched.
+  record::Strategy strategy = record::Strategy::kGuided;  ///< A strategy for touched surfaces.
   std::vector<MeasuringPosePlan> poses;                   ///< For "merged": at least two.
   record::Merge merge = record::Merge::kJoint;            ///< For "merged".
   double start_alpha_deg = 0.0;
@@ -220,7 +221,7 @@ struct PoseSearchPlan {
   std::vector<double> steps_deg = {5.0, 2.0};
   double min_step_deg = 0.05;  ///< End of step halving (refined, virtual).
   int max_poses = 6;           ///< guided: limit of levelling poses.
-  int repeats = 5;             ///< Touches of every point of the final cloud.
+  int repeats = 5;             ///< Touches of each point of the final cloud.
 };
 
 struct HarmonicLimitPlan {
@@ -235,7 +236,7 @@ struct CharacteristicPlan {
   std::optional<record::Reference> reference;
   std::optional<double> tolerance_um;
   std::string drawing_zone;
-  std::vector<HarmonicLimitPlan> harmonic_limits = {};  ///< Of the form "harmonic-limits".
+  std::vector<HarmonicLimitPlan> harmonic_limits = {};  ///< For the form "harmonic-limits".
 };
 
 /// The name of a column in a file that uses another one.
@@ -247,7 +248,7 @@ struct ColumnPlan {
 struct SourcePlan {
   std::string file;  ///< CSV of tip centres or of series, relative to the plan.
   std::optional<double>
-      tip_diameter_mm;  ///< Of the probe that took them; none: radii stay tip-centre radii.
+      tip_diameter_mm;  ///< Diameter of the probe tip used; none: radii stay tip-centre radii.
   std::vector<ColumnPlan> columns;  ///< For series whose file uses other names.
 };
 
@@ -281,14 +282,14 @@ struct SimulatedPartPlan {
   double barrel_um = 0.0;
   double bend_um = 0.0;
   double bend_phase_deg = 0.0;
-  double tilt_deg = 0.0;  ///< Of the part in the clamping ring.
+  double tilt_deg = 0.0;  ///< Tilt of the part in the clamping ring.
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
   double expansion_per_K = 0.0;  ///< True value.
   std::vector<KeywayPlan> keyways;
   std::vector<BurrPlan> burrs;
-  double dust_share = 0.0;  ///< Of the touches.
+  double dust_share = 0.0;  ///< Share of the touches.
   double dust_um = 0.0;     ///< Largest particle.
 };
 
@@ -350,8 +351,8 @@ struct Plan {
   std::optional<SimulationPlan> simulation;
   ReportsPlan reports;
 
-  std::filesystem::path folder;  ///< Of the plan file: points files are relative to it.
-  std::string text;              ///< The file, byte for byte.
+  std::filesystem::path folder;  ///< Folder of the plan file: points files are relative to it.
+  std::string text;              ///< Contents of the file, byte for byte.
 };
 
 /// A plan, or all its problems.
@@ -362,12 +363,12 @@ using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 /// with value, unit and limit. Points files are opened and read, too.
 [[nodiscard]] PlanOrProblems read_plan(const std::filesystem::path& path);
 
-/// As read_plan(), for a text; `folder` resolves points files, `name` is used in places of syntax
+/// read_plan() for a text; `folder` resolves points files, `name` is used in places of syntax
 /// errors.
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
                                         std::string_view name, bool recorded = false);
 
-/// Why nobody gets a format of earlier versions, and what to use.
+/// Message for the report format that earlier versions had, with its replacement.
 inline constexpr std::string_view kInsteadOfJunit =
     "\"junit\" is no longer written; use \"json\", whose report.json holds each verdict, or the "
     "exit "

@@ -12,7 +12,7 @@ namespace rondure::plans {
 // calibration that other runs use, as the JSON spells them; see plan.h. Keys and meanings:
 // rotary_table.h.
 
-/// The hidden errors of a simulated fixture, drawn: fixture/drawn_motion.h.
+/// The hidden errors of a simulated fixture, drawn at random: fixture/drawn_motion.h.
 struct SimulatedMotionPlan {
   double offset_um = 25.0;
   double tilt_urad = 120.0;

@@ -19,9 +19,9 @@ namespace rondure::plans {
 /// State of a run, for display.
 struct Progress {
   std::string feature;
-  int pose_number = 0;               ///< From 1, within the feature.
-  core::Pose pose;                   ///< As the fixture reads it.
-  std::size_t touches = 0;           ///< Made so far, in the whole run.
+  int pose_number = 0;               ///< Number within the feature, from 1.
+  core::Pose pose;                   ///< Pose as the fixture reads it.
+  std::size_t touches = 0;           ///< Touches made so far in the whole run.
   std::size_t touches_expected = 0;  ///< Estimate for the whole run.
   double time_s = 0.0;               ///< Machine clock at the last touch.
   std::optional<double> f_mm;        ///< Least zone of the last complete cloud in its pose.
@@ -31,16 +31,16 @@ struct Progress {
 struct NextMove {
   enum class Kind { kHome, kMove, kTouch, kTurn };
   Kind kind = Kind::kMove;
-  std::string what;  ///< In words, e.g. "layer 1, point 2: move".
+  std::string what;  ///< Description, e.g. "layer 1, point 2: move".
   /// Tip centre before and after, machine frame; for a touch, the expected contact. Only for kMove
   /// and kTouch.
   Eigen::Vector3d from_W_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d to_W_mm = Eigen::Vector3d::Zero();
 };
 
-/// Settings of a run that are not in its plan.
+/// Settings of a run that are not part of its plan.
 struct RunOptions {
-  std::filesystem::path directory;  ///< Absent or empty; of a run to resume, its directory.
+  std::filesystem::path directory;  ///< Absent or empty; to resume a run, its directory.
   std::string run_id;
   std::string plan_file;  ///< Name for the record.
   std::string serial;
@@ -52,14 +52,14 @@ struct RunOptions {
   std::function<bool()> stop_requested;  ///< Polled before every touch and during motions.
   std::function<void(const Progress&)> progress;
   std::shared_ptr<record::GrowingRecord>
-      followed_by;  ///< Receives what the journal holds; may be null.
+      followed_by;  ///< Receives the rows of the journal; may be null.
   /// Called before each motion; an error (kStopped) ends the run: the tip returns along its path
   /// and rises, without further calls. Not called for motions that a fault makes necessary.
   std::function<core::Result<void>(const NextMove&)> before_move;
   /// Asks a person to set a pose of a fixture "manual" in front of a real machine.
   std::function<core::Result<void>(const core::Pose&)> set_by_hand;
   bool relocate = false;     ///< When resuming: a part that has moved is located again.
-  bool single_step = false;  ///< Travels at the plan's step_speed_mm_s at most.
+  bool single_step = false;  ///< Limits travel to the plan's step_speed_mm_s.
 };
 
 }  // namespace rondure::plans

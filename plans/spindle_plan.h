@@ -5,8 +5,8 @@
 
 namespace rondure::plans {
 
-// The keys of the simulation of a feature of the type "spindle", as the JSON spells them; see
-// plan.h. Keys and meanings: spindle_table.h. Of the feature itself: record/tasks/spindle.h.
+// The keys of the simulation of a feature of the type "spindle", named as in the JSON; see plan.h.
+// Keys and meanings: spindle_table.h. The keys of the feature itself: record/tasks/spindle.h.
 
 struct HarmonicPlan {
   int order = 2;
@@ -26,8 +26,8 @@ struct SimulatedSpindlePlan {
   double eccentricity_deg = 0.0;
   double probe_noise_um = 0.0;
   std::array<double, 3> probe_offset_um = {0.0, 0.0, 0.0};
-  std::array<double, 3> probe_gain_error = {0.0, 0.0, 0.0};  ///< Relative.
-  double p2_error_deg = 0.0;                                 ///< Real minus stated place of P2, P3.
+  std::array<double, 3> probe_gain_error = {0.0, 0.0, 0.0};  ///< Relative error of the gain.
+  double p2_error_deg = 0.0;  ///< Real minus stated angle of P2; the next member, of P3.
   double p3_error_deg = 0.0;
 };
 

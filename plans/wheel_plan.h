@@ -4,8 +4,8 @@
 
 namespace rondure::plans {
 
-// The keys of the simulation of a feature of the type "wheel", as the JSON spells them; see plan.h.
-// Keys and meanings: wheel_table.h. Of the feature itself: record/tasks/wheel.h.
+// The keys of the simulation of a feature of the type "wheel", named as in the JSON; see plan.h.
+// Keys and meanings: wheel_table.h. The keys of the feature itself: record/tasks/wheel.h.
 
 struct WheelLobePlan {
   int order = 2;
@@ -18,7 +18,7 @@ struct SimulatedWheelPlan {
   double radius_mm = 0.0;
   double axis_x_mm = 0.0;
   double axis_z_mm = 0.0;
-  double eccentricity_um = 0.0;  ///< Of the profile's centre from the axis.
+  double eccentricity_um = 0.0;  ///< Eccentricity of the profile's centre from the axis.
   double eccentricity_deg = 0.0;
   std::vector<WheelLobePlan> lobes;  ///< amplitude cos(order theta - phase).
   double noise_um = 0.0;

@@ -7,7 +7,7 @@
 
 namespace rondure::plans {
 
-// Keys of a fixture on a Zaber controller, as the JSON spells them; see plan.h. Keys and meanings:
+// Keys of a fixture on a Zaber controller, named as in the JSON; see plan.h. Keys and meanings:
 // zaber_table.h.
 
 /// Whether the angle of the fixture grows with the position of a stage.

@@ -15,7 +15,7 @@ inline constexpr const char* kChecksumsName = "SHA256SUMS";
 /// One line of the list.
 struct Checksum {
   std::string file;    ///< A name in the same directory, without folders.
-  std::string sha256;  ///< Of its bytes: 64 lower-case hexadecimal digits.
+  std::string sha256;  ///< SHA-256 of the bytes: 64 lower-case hexadecimal digits.
 };
 
 /// Reads `directory`/SHA256SUMS. kFile when it cannot be read, kSyntax for a line that sha256sum

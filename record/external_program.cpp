@@ -61,8 +61,8 @@ int spawn(const ProgramCall& call, pid_t& pid) {
   ::posix_spawn_file_actions_addopen(&settings.files, STDOUT_FILENO, call.said.c_str(),
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::posix_spawn_file_actions_adddup2(&settings.files, STDOUT_FILENO, STDERR_FILENO);
-  // A group of its own, so that its children end with it and Ctrl-C reaches only this program.
-  // Default signals, because this program ignores some.
+  // The child gets its own process group, so that its children end with it and Ctrl-C reaches only
+  // this program, and default signals, because this program ignores some.
   sigset_t usual;
   ::sigemptyset(&usual);
   ::posix_spawnattr_setsigmask(&settings.attributes, &usual);
@@ -78,7 +78,7 @@ int spawn(const ProgramCall& call, pid_t& pid) {
                        pointers_to(words).data(), pointers_to(environment).data());
 }
 
-/// Whether a child ended before the time; it still has to be waited for.
+/// Whether a child ended before the time; the caller still has to wait for it.
 bool ended_by(pid_t pid, Clock::time_point time) {
   while (true) {
     siginfo_t info{};
@@ -89,7 +89,7 @@ bool ended_by(pid_t pid, Clock::time_point time) {
   }
 }
 
-/// ": " and the last line of a file; nothing for an empty one.
+/// ": " and the last line of a file; empty for an empty file.
 std::string last_words(const fs::path& file) {
   constexpr std::size_t kMost = 300;
   std::string text = read_file(file).value_or("");

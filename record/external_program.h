@@ -9,18 +9,18 @@
 
 namespace rondure::record {
 
-/// The first of these programs in the folders of PATH, or of the default path of the system when
-/// PATH is not set; empty when there is none. Relative folders are skipped: a program found there
-/// would depend on the working directory.
+/// Finds the first of these programs in the folders of PATH, or of the default path of the system
+/// when PATH is not set; empty when there is none. Relative folders are skipped: a program found
+/// there would depend on the working directory.
 [[nodiscard]] std::filesystem::path find_program(const std::vector<std::string>& names);
 
 /// A program to be run, without a shell.
 struct ProgramCall {
   std::filesystem::path program;
   std::vector<std::string> arguments;    ///< Without the name of the program.
-  std::vector<std::string> environment;  ///< "NAME=value"; nothing else is handed on.
-  std::filesystem::path said;            ///< File for its standard output and error, overwritten.
-  std::chrono::milliseconds time_limit;  ///< Then the program is killed; > 0.
+  std::vector<std::string> environment;  ///< "NAME=value"; the program sees nothing else.
+  std::filesystem::path said;  ///< File that receives its standard output and error; overwritten.
+  std::chrono::milliseconds time_limit;  ///< The program is killed after this time; > 0.
 };
 
 /// Runs a program to its end as the leader of a process group, then kills the rest of the group.

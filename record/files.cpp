@@ -59,7 +59,7 @@ constexpr std::string_view kTemporaryPrefix = ".rondure-";
 constexpr std::string_view kTemporarySuffix = ".tmp";
 
 /// A name in the folder of `path` that cannot be predicted and that no leftover file has. Process
-/// numbers repeat: in a container each program is number 1.
+/// numbers repeat: in a container every program is number 1.
 fs::path temporary_name(const fs::path& path) {
   std::uint64_t number = 0;
   while (::getrandom(&number, sizeof number, 0) < 0 && errno == EINTR) {

@@ -7,7 +7,7 @@
 namespace rondure::record {
 namespace {
 
-/// Copies the rows that are new. Rows are only ever added.
+/// Copies the new rows. Rows are only ever appended.
 template <class Row>
 bool append_new(const std::vector<Row>& all, std::vector<Row>& seen) {
   if (seen.size() == all.size()) return false;

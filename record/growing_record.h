@@ -16,7 +16,7 @@ namespace rondure::record {
 /// watcher has not seen yet.
 class GrowingRecord {
  public:
-  /// Starts, or resumes, with this record. Its header names the version that measures.
+  /// Starts, or resumes, with this record. Its header names the version of the measuring program.
   void begin(RunRecord record);
   void add(std::span<const Touch> touches);
   void add(const PoseVisit& pose);
@@ -25,9 +25,9 @@ class GrowingRecord {
   /// Records the ending of the run; watchers receive nothing after it.
   void end(const std::string& ending, const core::Error* failure);
 
-  /// Brings the watcher's own copy up to date: O(new rows + poses).
+  /// Updates the watcher's own copy: O(new rows + poses).
   /// @param mine  Default-constructed at first, then changed only by this call.
-  /// @return  Whether anything was new.
+  /// @return  Whether there was anything new.
   bool catch_up(RunRecord& mine) const;
 
  private:

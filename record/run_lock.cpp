@@ -38,7 +38,7 @@ bool write_holder(int fd) {
          ::pwrite(fd, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
 }
 
-/// Whether the name still refers to the open file: its last holder may have removed it meanwhile.
+/// Whether the name still refers to the open file: the last holder may have removed the file.
 bool is_in_place(int fd, const fs::path& file) {
   struct stat opened = {};
   struct stat named = {};
@@ -53,7 +53,7 @@ std::string_view why_no_lock(int fd) {
   if (::fstat(fd, &opened) != 0 || !S_ISREG(opened.st_mode)) return "a pipe, a device or a folder";
   if (opened.st_nlink > 1) return "a second name of another file";
   const std::string holder = holder_of(fd);
-  // After a power failure the contents may be missing: empty, or zeros.
+  // After a power failure the file may be empty or contain zeros.
   const bool ours = holder.empty() || holder.front() == '\0' || holder.starts_with(kHolderBegins);
   return ours ? "" : "a file of something else";
 }

@@ -16,8 +16,8 @@
 
 namespace rondure::record {
 
-/// Shape of a feature as the plan states it. It is stored in the journal, so that a run can be
-/// evaluated without the code that reads plans.
+/// Shape of a feature in the plan. The journal stores it, so that a run can be evaluated without
+/// the code that reads plans.
 /// kSpindle, kWheel and kContour are analyses: their data are series, not touches. kRotaryAxes, the
 /// calibration of the fixture, is an analysis of touches.
 enum class Shape { kCylinder, kCircle, kSpindle, kWheel, kContour, kRotaryAxes };
@@ -51,10 +51,11 @@ enum class Strategy {
   kStations,
 };
 
-/// Whether a shape is an analysis, with an evaluation of its own, instead of a surface.
+/// Whether a shape is an analysis, which has its own evaluation, instead of a surface.
 [[nodiscard]] bool is_analysis(Shape shape);
 
-/// How the poses of Strategy::kMerged come together: solved with the part, or as the fixture says.
+/// Combination of the poses of Strategy::kMerged: solved jointly with the part, or by the
+/// kinematics of the fixture.
 enum class Merge { kJoint, kKinematics };
 enum class SamplingMethod { kTouch, kScan };
 
@@ -109,20 +110,20 @@ constexpr auto words_of(SamplingMethod) {
       {{SamplingMethod::kTouch, "touch"}, {SamplingMethod::kScan, "scan"}});
 }
 
-/// Largest amplitude of the harmonics first..last; one line of a harmonic mask.
+/// Limit of the amplitudes of the harmonics first..last; one line of a harmonic mask.
 struct HarmonicLimit {
   int first = 2;
   int last = 50;
   double amplitude_mm = 0.0;
 };
 
-/// One toleranced (or only reported) characteristic of a feature.
+/// One characteristic of a feature, toleranced or only reported.
 struct Characteristic {
   std::string id;                   ///< Name in the plan, unique within the feature.
   Form form = Form::kCylindricity;  ///< CYLt, or RONt of the worst layer.
   Reference reference = Reference::kMinimumZone;
   std::optional<double> tolerance_mm;  ///< Upper limit of the deviation [mm]; none: reported only.
-  std::string drawing_zone;            ///< Its grid square on the drawing; may be empty.
+  std::string drawing_zone;            ///< Grid square on the drawing; may be empty.
   std::vector<HarmonicLimit> harmonic_limits = {};  ///< For kHarmonicLimits, never empty there.
 };
 
@@ -145,8 +146,10 @@ struct Feature {
   Strategy strategy = Strategy::kGuided;
   std::vector<double> search_steps_deg;  ///< Steps of the software pose search, in order.
   std::string points_file;               ///< The data file or files, as named in the plan.
-  std::string points_sha256;  ///< Of the file's bytes; for several files, of lines "sha256 name".
-  std::optional<double> tip_radius_mm;  ///< Of the probe that measured a points file, if stated.
+  /// SHA-256 of the file's bytes; for several files, of the lines "sha256 name".
+  std::string points_sha256;
+  /// Tip radius of the probe that measured a points file, if stated.
+  std::optional<double> tip_radius_mm;
   std::vector<Characteristic> characteristics;
   std::vector<Setting> settings;  ///< A list repeats its key for each item.
 };
@@ -190,16 +193,17 @@ struct PoseVisit {
   int feature = 0;  ///< Index into RunRecord::features.
   core::Pose commanded;
   core::Pose reached;        ///< As read back from the fixture.
-  bool final_cloud = false;  ///< Its cloud is evaluated; set by a later decision.
-  double time_s = 0.0;       ///< Machine clock.
+  bool final_cloud = false;  ///< Marks the cloud that is evaluated; set by a later decision.
+  double time_s = 0.0;       ///< Time of the machine clock.
 };
 
 /// One touch of the probe (or one row of a points file).
 struct Touch {
-  /// kLocate finds where the part sits before the first measuring touch; without a pose it finds
-  /// where the base of the fixture stands (`layer` counts its spheres) or in which pose the fixture
-  /// was set (the count continues with the spheres on its ring). Enters no result.
-  /// kCheck repeats an earlier touch before an interrupted run is resumed. Enters no result.
+  /// kLocate finds the position of the part before the first measuring touch. Without a pose it
+  /// finds the base of the fixture (`layer` counts its spheres) or the pose in which the fixture
+  /// was set (the count continues with the spheres on its ring).
+  /// kCheck repeats an earlier touch before an interrupted run is resumed.
+  /// Neither enters a result.
   enum class Purpose { kQualification, kLocate, kMeasure, kCheck };
   std::int64_t id = 0;  ///< 0-based, counts through the whole run; checks count from -1 downward.
   Purpose purpose = Purpose::kMeasure;
@@ -209,9 +213,10 @@ struct Touch {
   int repeat = 0;  ///< 0-based.
   Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();    ///< Tip centre, machine frame.
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();  ///< Unit direction of the approach.
-  std::optional<double> temperature_degC;              ///< Of the part; none: not measured.
-  double time_s = 0.0;                                 ///< Machine clock.
-  std::optional<double> scale_temperature_degC;        ///< Of the scales of the machine.
+  std::optional<double> temperature_degC;              ///< Part temperature; none: not measured.
+  double time_s = 0.0;                                 ///< Time of the machine clock.
+  /// Temperature of the machine scales; none: not measured.
+  std::optional<double> scale_temperature_degC;
 };
 
 constexpr auto words_of(Touch::Purpose) {
@@ -223,10 +228,10 @@ constexpr auto words_of(Touch::Purpose) {
 
 /// A decision of the program during the run, in words, e.g. why the pose search stopped.
 struct Decision {
-  int feature = -1;  ///< -1: concerns the whole run.
+  int feature = -1;  ///< Feature index; -1: concerns the whole run.
   double time_s = 0.0;
   core::Message message;
-  std::string sentence = {};  ///< As a journal before version 6 has it; empty in a later one.
+  std::string sentence = {};  ///< The sentence in a journal before version 6; empty in a later one.
 };
 
 /// One column of a series: its name in the file, which carries the unit ("H1_um"), and that unit.
@@ -280,7 +285,7 @@ struct StoredResult {
 /// All data of a run: the contents of journal.db.
 struct RunRecord {
   Header header;
-  std::string ending;                  ///< "finished", "stopped", "failed: ..."; "" while it runs.
+  std::string ending;  ///< "finished", "stopped", "failed: ..."; "" while the run is active.
   std::optional<core::Error> failure;  ///< Why a run did not finish.
   Artefact artefact;                   ///< Only meaningful when there are qualification touches.
   std::vector<Setting> settings;       ///< Settings of the whole run; known before its first touch.
@@ -291,11 +296,11 @@ struct RunRecord {
   std::vector<Decision> decisions;
   std::vector<SimulationTruth> truths;
   std::vector<Series> series;            ///< In the order of recording.
-  std::vector<TruthValue> truth_values;  ///< Of analyses.
+  std::vector<TruthValue> truth_values;  ///< Hidden truth of analyses.
   std::vector<StoredResult> results;
   bool sealed = false;  ///< The journal was closed with digests of its tables.
 
-  /// The recorded series of a feature by name, or nullptr. Never a truth.
+  /// The recorded series of a feature by name, or nullptr. Never one of the hidden truth.
   [[nodiscard]] const Series* data_of(int feature, std::string_view name) const;
   /// Same as data_of(), for the hidden truth shown in reports.
   [[nodiscard]] const Series* truth_series_of(int feature, std::string_view name) const;

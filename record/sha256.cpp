@@ -7,7 +7,7 @@
 
 namespace rondure::record {
 
-// Hashing memory with a digest of the default provider fails only when memory runs out.
+// Hashing memory with a digest of the default provider fails only when memory is exhausted.
 Sha256::Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
   if (EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) throw std::bad_alloc();
 }

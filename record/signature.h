@@ -19,8 +19,7 @@ inline constexpr const char* kSignatureName = "SHA256SUMS.sig";
 [[nodiscard]] core::Result<std::string> sign(std::string_view bytes,
                                              const std::string& private_key_pem);
 
-/// Whether `signature` is a signature of `bytes` made with the private key that matches the public
-/// key.
+/// Whether `signature` is a signature of `bytes` made with the private key of this public key.
 /// @param public_key_pem  Public key as written by `openssl pkey -in KEY.pem -pubout`.
 /// @return kBadOption when the text is not an Ed25519 public key.
 [[nodiscard]] core::Result<bool> signature_holds(std::string_view bytes, std::string_view signature,

@@ -56,7 +56,7 @@ std::string isolated(std::string_view text) { return fmt::format("<bdi>{}</bdi>"
 
 namespace {
 
-/// " um" and " degC" with their signs.
+/// Replaces " um" and " degC" by their signs.
 std::string with_signs(std::string_view text) {
   std::string out(text);
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };

@@ -9,24 +9,24 @@
 
 namespace rondure::reports {
 
-/// Text that any file format can hold: well-formed UTF-8 without control characters (line feed and
-/// tab stay) and without noncharacters, which XML and HTML refuse; each of these becomes U+FFFD.
+/// Text that any file format can hold: well-formed UTF-8 without control characters (except line
+/// feed and tab) and without the noncharacters that XML and HTML refuse; each of these becomes
+/// U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
 /// A text as a field by RFC 4180: quoted when it holds a comma, a quote or a line break. A text
 /// that a spreadsheet would compute (it begins with = + - @, a tab or CR) gets an apostrophe in
-/// front, which tells spreadsheets that it is text. Not for numbers.
+/// front, which spreadsheets read as the start of text. Not for numbers.
 [[nodiscard]] std::string csv_field(std::string text);
 
-/// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
-/// control characters and noncharacters the replacement character.
+/// Escapes text for HTML, in elements and in quoted attributes: & < > " ' become entities, control
+/// characters and noncharacters the replacement character.
 [[nodiscard]] std::string escaped(std::string_view text);
-/// Escaped and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
+/// escaped() and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
 [[nodiscard]] std::string isolated(std::string_view text);
 
-/// Text of the program that is English whatever the language of the report (an error made in
-/// another room, a device's name): escaped, isolated and, in a report that is not English, marked
-/// as English.
+/// Text of the program that is English in every report (an error from another room, a device's
+/// name): escaped, isolated and, in a report in another language, marked as English.
 [[nodiscard]] std::string foreign(std::string_view text);
 /// Words that evaluation or another room chose ("finished", "guided"), as in_words() has them, else
 /// foreign().

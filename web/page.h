@@ -5,15 +5,15 @@
 
 namespace rondure::web {
 
-/// The page. Without control it has no button at all.
+/// The page. Without control it has no stop button.
 [[nodiscard]] std::string live_page(bool control);
 
-/// The style of the report, and what the live page has besides.
+/// The style of the report, with the additions for the live page.
 [[nodiscard]] std::string live_style();
 
-/// Fetches the parts that changed four times a second and shows when the program does not answer;
-/// stops the run after the button and the question were confirmed, with the token after "#" in the
-/// address. It computes nothing and draws nothing.
+/// Script of the page: fetches changed parts four times a second and shows when the program does
+/// not answer; stops the run after the button and the question were confirmed, with the token after
+/// "#" in the address. It computes and draws nothing.
 inline constexpr std::string_view kLiveScript = R"js('use strict';
 (() => {
   const byId = (id) => document.getElementById(id);

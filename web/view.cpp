@@ -23,14 +23,15 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr auto kLeastPause = milliseconds(200);  ///< Five frames a second at most.
-constexpr int kShare = 4;                        ///< Ratio of a pause to the painting before it.
-constexpr auto kLooking = milliseconds(3000);    ///< A page that asked so lately is open.
-constexpr auto kLastWord = milliseconds(1500);   ///< For the pages to fetch the last frame.
+constexpr int kShare = 4;  ///< Ratio of a pause to the preceding drawing time.
+/// A page counts as open for this time after a request.
+constexpr auto kLooking = milliseconds(3000);
+constexpr auto kLastWord = milliseconds(1500);  ///< Time for the pages to fetch the last frame.
 constexpr std::size_t kMostClients = 64;
 
 }  // namespace
 
-/// Three kinds of threads meet here: the run (show_...), the painter, the server's.
+/// Three kinds of threads use this object: the run (show_...), the painter, the server's.
 class LiveView::Impl {
  public:
   Impl(LiveOptions options, std::shared_ptr<const record::GrowingRecord> source)
@@ -69,7 +70,7 @@ class LiveView::Impl {
     return gate.control ? page + "#token=" + gate.token : page;
   }
 
-  /// Ends the painter's thread and paints the last frame in that of the caller.
+  /// Ends the painter's thread and paints the last frame in the thread of the caller.
   template <class Paint>
   void show_last(const Paint& paint_last) {
     end_painting();
@@ -88,7 +89,7 @@ class LiveView::Impl {
     if (thread_.joinable()) thread_.join();
   }
 
-  /// In the server's threads.
+  /// Called from the server's threads.
   std::string state(std::uint64_t since, const std::string& client) {
     std::shared_ptr<const LiveFrame> frame;
     {
@@ -102,10 +103,10 @@ class LiveView::Impl {
     return answer_of(*frame, session_, since);
   }
 
-  /// The painter's thread.
+  /// Function of the painter's thread.
   void paint() {
     constexpr int kYield = 10;
-    ::setpriority(PRIO_PROCESS, 0, kYield);  // of this thread
+    ::setpriority(PRIO_PROCESS, 0, kYield);  // for this thread
     std::unique_lock lock(mutex_);
     while (!ending_) {
       if (Clock::now() - looked_ > kLooking) {
@@ -122,7 +123,7 @@ class LiveView::Impl {
     }
   }
 
-  /// Until every page that is open has the last frame.
+  /// Waits until every open page has the last frame.
   void wait_for_readers() {
     const auto until = Clock::now() + kLastWord;
     const auto waits = [&] {
@@ -139,7 +140,7 @@ class LiveView::Impl {
     bool has_last = false;
   };
 
-  LivePainter painter_;  ///< Used by its thread; after the end of that by the run's.
+  LivePainter painter_;  ///< Used by its own thread; after that has ended, by the run's.
   reports::Language language_;
   std::function<void()> stop_;
   std::string session_;
@@ -151,7 +152,7 @@ class LiveView::Impl {
   std::map<std::string, Client> clients_;
   bool ending_ = false;
   std::thread thread_;
-  std::unique_ptr<LiveServer> server_;  ///< Last: goes first, with its threads.
+  std::unique_ptr<LiveServer> server_;  ///< Last member: destroyed first, with its threads.
 };
 
 LiveView::LiveView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -91,7 +91,7 @@ class ByteLines final : public LineTransport {
   Clock& clock_;
   std::size_t max_line_bytes_;
   std::string received_;
-  std::size_t searched_ = 0;  ///< This many received bytes hold no line end.
+  std::size_t searched_ = 0;  ///< Number of received bytes that are known to contain no line end.
   std::optional<core::Error> failure_;
 };
 

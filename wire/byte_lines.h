@@ -15,8 +15,8 @@ struct ByteLinesOptions {
   Clock* clock = nullptr;  ///< For time limits; nullptr: system_clock(). Outlives the transport.
 };
 
-/// Returns a transport that cuts lines out of a byte stream. A line that arrives in pieces is put
-/// together. A line that is incomplete when the time limit passes is kept for the next call.
+/// Returns a transport that cuts lines out of a byte stream. Joins lines that arrive in pieces;
+/// keeps a line that is incomplete at the time limit for the next call.
 [[nodiscard]] std::unique_ptr<LineTransport> lines_over(std::unique_ptr<ByteStream> stream,
                                                         const ByteLinesOptions& options = {});
 

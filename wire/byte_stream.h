@@ -20,10 +20,10 @@ class ByteStream {
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
 
-  /// Sends all bytes and returns when the system has taken them. Also an error: the other side
-  /// takes nothing within the write limit given when the stream was opened.
+  /// Sends all bytes and returns when the system has accepted them. It is also an error when the
+  /// other side accepts nothing within the write limit given when the stream was opened.
   [[nodiscard]] virtual core::Result<void> write(std::string_view bytes) = 0;
-  /// Returns the received bytes, at least one, as soon as they are there; "" when nothing arrived
+  /// Returns the received bytes, at least one, as soon as they arrive; "" when nothing arrived
   /// within the time limit, which is not an error. With a limit of zero the call does not wait.
   [[nodiscard]] virtual core::Result<std::string> read_some(
       std::chrono::milliseconds time_limit) = 0;

@@ -27,7 +27,7 @@ class SystemClock final : public Clock {
   void sleep_for(std::chrono::milliseconds time) override { std::this_thread::sleep_for(time); }
 };
 
-/// The clock that is used where none is given.
+/// The default clock.
 [[nodiscard]] inline Clock& system_clock() {
   static SystemClock clock;
   return clock;

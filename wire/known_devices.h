@@ -9,7 +9,7 @@ namespace rondure::wire {
 /// A kind of device by its USB numbers.
 struct KnownDevice {
   enum class Role {
-    kFixture,    ///< A driver of the fixture speaks to it.
+    kFixture,    ///< The device of a fixture driver.
     kIndicator,  ///< An indicator.
     kSerial,     ///< A serial line; the device connected to it cannot be identified.
   };

@@ -9,7 +9,7 @@
 
 namespace rondure::wire {
 
-/// A line as it came in, without its line end.
+/// A line as received, without its line end.
 struct Line {
   std::string text;
   bool crlf = true;  ///< Ended by CR LF; false: by LF alone. Any other CR stays in the text.
@@ -35,7 +35,7 @@ class LineTransport {
   /// length limit.
   [[nodiscard]] virtual core::Result<std::optional<Line>> read_line(
       std::chrono::milliseconds time_limit) = 0;
-  /// The first 100 bytes at most of a line whose end has not arrived, also after the connection was
+  /// At most the first 100 bytes of a line whose end has not arrived, even after the connection was
   /// lost; "" when there is none.
   [[nodiscard]] virtual std::string unfinished() const { return {}; }
   /// Closes the connection. Safe to call twice.

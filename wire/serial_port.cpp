@@ -154,7 +154,7 @@ class SerialPort final : public ByteStream {
     return fmt::format("the connection to {} broke: {}", name_, std::strerror(errno));
   }
 
-  /// Waits until bytes can be read or written; false when the limit passed.
+  /// Waits until bytes can be read or written; false at the time limit.
   core::Result<bool> wait(short event, milliseconds limit) {
     pollfd one = {file_.number(), event, 0};
     const int count = ::poll(&one, 1, static_cast<int>(limit.count()));
@@ -193,7 +193,7 @@ std::uint16_t id_of(const fs::path& file) {
   return out;
 }
 
-/// The USB device that a serial device belongs to, in /sys; "" when it is none.
+/// The USB device of a serial device, in /sys; "" when it has none.
 fs::path plug_of(const fs::path& tty) {
   std::error_code none;
   fs::path place = fs::canonical(tty / "device", none);
@@ -235,7 +235,8 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const fs::path& device,
   }
   Descriptor file(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (file.number() < 0) return core::machine_fault(why_not_opened(device, errno));
-  // Two locks: the first keeps out programs that ask for it, the second all others but root's.
+  // Two locks: the first keeps out programs that request it too, the second all others except
+  // root's.
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0)
     return core::machine_fault(why_not_opened(device, errno));
   termios line = {};

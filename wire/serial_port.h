@@ -19,7 +19,7 @@ struct SerialSettings {
   int data_bits = 8;  ///< 7 or 8.
   Parity parity = Parity::kNone;
   int stop_bits = 1;                            ///< 1 or 2.
-  std::chrono::milliseconds write_limit{1000};  ///< Time for the device to take what is sent.
+  std::chrono::milliseconds write_limit{1000};  ///< Time for the device to accept the bytes sent.
 };
 
 /// Opens a serial device of the system, e.g. /dev/ttyACM0 or /dev/ttyUSB0, in raw mode and for this
@@ -30,11 +30,11 @@ struct SerialSettings {
 [[nodiscard]] core::Result<std::unique_ptr<ByteStream>> open_serial(
     const std::filesystem::path& device, const SerialSettings& settings = {});
 
-/// Says why the system refuses to open a serial device, and what to do about it.
+/// Returns why the system refuses to open a serial device, and the remedy.
 /// @param error  The errno of the attempt.
 [[nodiscard]] std::string why_not_opened(const std::filesystem::path& device, int error);
 
-/// A serial device that the system made for a USB device: /dev/ttyUSB*, /dev/ttyACM*.
+/// A serial device that the system created for a USB device: /dev/ttyUSB*, /dev/ttyACM*.
 struct SerialPortInfo {
   std::string device;  ///< E.g. "/dev/ttyUSB0".
   std::uint16_t vendor = 0;
@@ -42,7 +42,7 @@ struct SerialPortInfo {
   std::string product_name;  ///< From the USB descriptor; "" when it has none.
   std::string serial;        ///< From the USB descriptor; "" when it has none.
   std::string kernel_driver;
-  std::string refused;  ///< Why this user may not open it and how to fix that; "": allowed.
+  std::string refused;  ///< Why this user may not open it, and the remedy; "": allowed.
   std::string held_by;  ///< Programs that have it open, as given by device_holders().
 };
 

@@ -19,7 +19,7 @@ using Tcp = asio::ip::tcp;
 
 constexpr std::size_t kTcpChunk_bytes = 16'384;
 
-/// Detects a peer that vanished without closing (power, cable) after some 25 s: by probes on an
+/// Detects within about 25 s a peer that vanished without closing (power, cable): by probes on an
 /// idle connection, and by data that is not acknowledged. The system default is two hours.
 void notice_a_dead_peer(int handle) {
   const auto set = [handle](int level, int name, int value) {  // failures do no harm
@@ -36,8 +36,8 @@ std::string place(const std::string& host, std::uint16_t port) {
   return fmt::format("{}:{}", host, port);
 }
 
-/// Runs the pending operation to its end, or calls `cancel` when the time limit passes. Returns
-/// false when it passed. In both cases the operation's handler has been called.
+/// Runs the pending operation to its end, or calls `cancel` at the time limit and returns false. In
+/// both cases the operation's handler has been called.
 template <class Cancel>
 bool run_within(asio::io_context& io, milliseconds limit, Cancel cancel) {
   io.restart();
@@ -212,7 +212,8 @@ std::uint16_t TcpListener::port() const {
 }
 
 core::Result<std::unique_ptr<LineTransport>> TcpListener::accept(milliseconds time_limit) {
-  auto io = std::make_unique<asio::io_context>();  // the client's own: it outlives the listener
+  // a context of its own, because the client outlives the listener
+  auto io = std::make_unique<asio::io_context>();
   Tcp::socket client(*io);
   asio::error_code result;
   socket_->acceptor.async_accept(client, [&](const asio::error_code& error) { result = error; });

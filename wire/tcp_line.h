@@ -13,8 +13,8 @@ namespace rondure::wire {
 
 /// Limits of a TCP connection.
 struct TcpOptions {
-  std::chrono::milliseconds connect_limit{5000};      ///< Time to establish the connection.
-  std::chrono::milliseconds write_limit{5000};        ///< Time for the peer to take what is sent.
+  std::chrono::milliseconds connect_limit{5000};  ///< Time to establish the connection.
+  std::chrono::milliseconds write_limit{5000};    ///< Time for the peer to accept the bytes sent.
   std::size_t max_line_bytes = std::size_t{1} << 20;  ///< A longer line ends the connection.
 };
 
@@ -39,7 +39,7 @@ class TcpListener {
   ~TcpListener();
 
   [[nodiscard]] std::uint16_t port() const;
-  /// The next client, or nullptr when none came within the time limit.
+  /// The next client, or nullptr when none connected within the time limit.
   [[nodiscard]] core::Result<std::unique_ptr<LineTransport>> accept(
       std::chrono::milliseconds time_limit);
 

@@ -16,7 +16,7 @@
 namespace rondure::wire {
 
 /// A fault on the bus. The kind is for a driver that can react to it, the sentence for the user who
-/// has to.
+/// must.
 struct UsbFault {
   enum class Kind {
     kNotFound,    ///< No such device is plugged in.
@@ -31,7 +31,7 @@ struct UsbFault {
   };
 
   Kind kind = Kind::kOther;
-  std::string what;  ///< One sentence with the device and what to do.
+  std::string what;  ///< One sentence with the device and the remedy.
 
   /// The fault as an error of a machine (kMachine).
   [[nodiscard]] core::Error error() const { return {core::Code::kMachine, what, {}}; }
@@ -48,9 +48,10 @@ struct UsbDeviceInfo {
   int address = 0;
   std::string product_name;         ///< From the device; "" when it cannot be read.
   std::string serial;               ///< From the device; "" when it cannot be read.
-  std::optional<UsbFault> refused;  ///< Why it cannot be opened and what to do; empty: it can.
-  std::string kernel_driver;  ///< Bound to it; claim() detaches it. "": none. Set in lists only.
-  std::string held_by;        ///< Programs that have it open. Set in lists only.
+  std::optional<UsbFault> refused;  ///< Why it cannot be opened, and the remedy; none: it can.
+  /// Driver bound to it, which claim() detaches; "": none. Set in lists only.
+  std::string kernel_driver;
+  std::string held_by;  ///< Programs that have it open. Set in lists only.
 
   /// E.g. "2939:49c2 at bus 1, address 2".
   [[nodiscard]] std::string place() const;
@@ -114,8 +115,8 @@ class UsbDevice {
   [[nodiscard]] virtual UsbResult<void> configure(int configuration) = 0;
   /// Resets the device on the bus. Interfaces must be claimed again afterwards.
   [[nodiscard]] virtual UsbResult<void> reset() = 0;
-  /// Takes an interface for this program alone. A kernel driver that holds it is detached, and is
-  /// attached again when the device is closed.
+  /// Takes an interface exclusively for this program. A kernel driver that holds it is detached,
+  /// and attached again when the device is closed.
   [[nodiscard]] virtual UsbResult<void> claim(int interface) = 0;
 
   [[nodiscard]] virtual UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes,

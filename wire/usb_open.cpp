@@ -25,7 +25,7 @@ struct HandleEnd {
 };
 using Handle = std::unique_ptr<libusb_device_handle, HandleEnd>;
 
-/// Frees a list of all plugged-in devices. Each entry holds a reference until then.
+/// Frees a list of all plugged-in devices. The entries hold references until then.
 struct ListEnd {
   void operator()(libusb_device** list) const { libusb_free_device_list(list, 1); }
 };
@@ -57,7 +57,7 @@ std::string port_path(libusb_device& device) {
   return path;
 }
 
-/// The fault that a libusb code stands for, worded for this device and for the action in `doing`.
+/// The fault for a libusb code, worded for this device and for the action in `doing`.
 UsbFault fault_of(int libusb_code, const UsbDeviceInfo& info, const std::string& doing) {
   const std::string who = info.place();
   switch (libusb_code) {
@@ -332,7 +332,8 @@ class OpenDevice final : public UsbDevice {
       return tl::unexpected(
           fault_of(code, info_, fmt::format("sending on endpoint {:#04x}", endpoint)));
     }
-    bytes.resize(static_cast<std::size_t>(count));  // after a timeout: the bytes up to then
+    // after a timeout: the bytes received until then
+    bytes.resize(static_cast<std::size_t>(count));
     return bytes;
   }
 
@@ -428,7 +429,7 @@ UsbResult<std::vector<UsbDeviceInfo>> list_usb_devices() {
     auto info = identity(**device);
     if (!info) continue;  // unplugged in the meantime
     info->kernel_driver = kernel_driver_of(**device, 0);
-    info->held_by = programs_with(*info);  // asked before this program opens it
+    info->held_by = programs_with(*info);  // queried before this program opens it
     if (const auto handle = open_device(**device, *info)) {
       ask_strings(**handle, *info);
     } else {

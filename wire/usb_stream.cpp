@@ -13,8 +13,8 @@ namespace {
 using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kControlLimit(1000);  // of a setup request
-constexpr std::size_t kPacketsAtOnce = 8;    // that one transfer reads
+constexpr milliseconds kControlLimit(1000);  // for a setup request
+constexpr std::size_t kPacketsAtOnce = 8;    // packets read by one transfer
 
 /// A serial line over the two bulk endpoints of a device.
 class UsbStream : public ByteStream {
@@ -167,7 +167,8 @@ struct Request {
   bool pause_behind;
 };
 
-/// The opening, in this order. Sources disagree on which purge is which: both are sent.
+/// The requests of the opening, in order. Sources disagree on which purge is which, so both are
+/// sent.
 constexpr std::array<Request, 9> kOpening = {{{0, 0, 0, false},         // reset
                                               {3, 0x001a, 0, false},    // 3 MHz / 26 = 115200
                                               {4, 0x0008, 0, false},    // 8N1
@@ -203,7 +204,7 @@ class FtdiStream final : public UsbStream {
     return {};
   }
 
-  /// The data without status bytes: a transfer of these alone does not end the waiting.
+  /// Returns data without status bytes: a transfer of only these does not end the wait.
   [[nodiscard]] core::Result<std::string> read_some(milliseconds time_limit) override {
     const Clock::Time end = clock_.now() + time_limit;
     for (;;) {

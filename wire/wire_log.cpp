@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLogged_bytes = 4096;
 
-/// "2026-11-21T02:33:02.123456Z".
+/// The current time as "2026-11-21T02:33:02.123456Z".
 std::string utc_now() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const auto since = std::chrono::duration_cast<std::chrono::microseconds>(now).count();

@@ -8,7 +8,7 @@
 
 namespace rondure::wire {
 
-/// The end of the connection that this program is.
+/// Role of this program in the connection.
 enum class Side { kClient, kServer };
 
 /// Returns a transport that forwards every call to another one and logs its lines:
@@ -17,9 +17,9 @@ enum class Side { kClient, kServer };
 ///     2026-11-21T02:33:02.123512Z <- S: 00001 &
 ///     2026-11-21T02:33:02.130000Z -- #: 127.0.0.1:1294 closed the connection
 ///
-/// -> was sent, <- was received, -- happened; C: is the client, S: the server. Non-printing bytes
-/// stand as \xNN; a line of more than 4096 bytes is logged up to that length. Every line is in the
-/// file before the call returns. A full disk ends the log, but not the measurement.
+/// -> sent, <- received, -- event; C: the client, S: the server. Non-printing bytes appear as \xNN;
+/// a line of more than 4096 bytes is logged up to that length. Every line is in the file before the
+/// call returns. A full disk ends the log, but not the measurement.
 ///
 /// @param file  New lines are appended.
 /// @return kFile when it cannot be opened for writing.

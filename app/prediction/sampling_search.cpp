@@ -38,7 +38,7 @@ std::vector<Sampling> layouts_of(const plans::FeaturePlan& feature, Measurand me
     if (!section) layers.insert({3, 4, 6, 9});
     if (!scan) points.insert({6, 8, 12, 18, 27, 40});
     if (!scan && section) points.insert({60, 90});
-  } else {  // more points hardly help to know these: only so far that it is seen
+  } else {  // more points hardly reduce U here: try just enough to show that
     if (!section) layers.insert(planned.layers + (planned.layers + 1) / 2);
     if (!scan) points.insert({planned.points_per_layer * 3 / 2, planned.points_per_layer * 2});
   }
@@ -65,7 +65,7 @@ evaluation::PredictionOptions all_parts() {
   return options;
 }
 
-/// The smallest number of repeats to propose: 2 if the run derives the repeatability from them,
+/// The smallest number of repeats to propose: 2 if the run determines the repeatability from them
 /// because the plan does not declare it.
 int least_repeats(const plans::Plan& plan) {
   if (!plan.uncertainty || !plan.uncertainty->probe) return 1;
@@ -141,14 +141,15 @@ class SamplingLayout {
   }
 
  private:
-  /// The forecast with another number of repeats: the same path, more often.
+  /// The forecast with another number of repeats: the same path, repeated.
   [[nodiscard]] plans::Forecast repeated(int repeats) const {
     plans::Forecast out = *forecast_;
     for (plans::ForecastStage& stage : out.stages) {
       if (!stage.final_cloud || stage.feature != static_cast<int>(feature_)) continue;
       const int more = repeats - stage.times;
       out.touches += more * stage.touches;
-      // The first time starts at the park position or the last cloud; all others are the same.
+      // The first repeat starts at the park position or the last cloud; all others take the same
+      // time.
       out.time_s += more * again_s_;
       stage.time_s += more * again_s_;
       stage.times = repeats;
@@ -160,7 +161,7 @@ class SamplingLayout {
   std::size_t feature_;
   Sampling sampling_;
   core::Result<plans::Forecast> forecast_;
-  double again_s_ = 0.0;  ///< Time of one more final cloud.
+  double again_s_ = 0.0;  ///< Time of one additional final cloud.
 };
 
 /// The search of one feature.
@@ -206,7 +207,7 @@ class Search {
     return {};
   }
 
-  /// @return Whether it meets the target, with an interval wherever the plan has one.
+  /// @return Whether the candidate meets the target, with an interval wherever the plan has one.
   bool keep(SamplingCandidate candidate, const evaluation::Prediction& found, bool confirmed) {
     candidate.confirmed = confirmed;
     if (candidate.stated < stated_) candidate.out_of_reach = candidate.missing;
@@ -228,7 +229,7 @@ class Search {
     return meets;
   }
 
-  /// Whether a candidate of this time could still be the cheapest.
+  /// Whether a candidate with this time could still be the fastest.
   [[nodiscard]] bool worth_trying(double time_s) const {
     return std::none_of(out_.candidates.begin(), out_.candidates.end(),
                         [&](const SamplingCandidate& c) { return c.meets && c.time_s <= time_s; });
@@ -253,7 +254,7 @@ class Search {
       if (worth_trying(layout.candidate(q).time_s)) repeats.push_back(q);
     }
     if (repeats.empty()) return {};
-    std::size_t low = 0;  // the fewest that may meet it
+    std::size_t low = 0;  // the fewest repeats that may meet the target
     std::size_t high = repeats.size() - 1;
     if (const auto most = meets(layout, repeats[high]); !most || !*most) {
       return most ? core::Result<void>() : core::fail(most.error());
@@ -267,7 +268,7 @@ class Search {
     return {};
   }
 
-  /// Predicts the cheapest candidate that meets the target with all parts, until one is confirmed.
+  /// Predicts the fastest candidate that meets the target with all parts, until one is confirmed.
   core::Result<void> confirm_cheapest() {
     for (;;) {
       const SamplingCandidate* cheapest = cheapest_that_meets();

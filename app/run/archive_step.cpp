@@ -76,7 +76,7 @@ void keep_earlier_results(const record::ArchivePlace& place, const fs::path& dir
 bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
                  const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
   if (place.kind == record::ArchivePlace::Kind::kNone) return false;
-  std::fflush(stdout);  // the result is read while a server is waited for
+  std::fflush(stdout);  // shows the result while a server is slow to answer
   const auto entry = entry_of(directory, record, evaluation);
   if (!entry) {
     print_error(entry.error());

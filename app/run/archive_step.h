@@ -11,8 +11,8 @@
 
 namespace rondure::app {
 
-/// The archive for the results of a run: `argument` (--archive), else that of the plan, else
-/// archive.db beside the run directory. kBadOption as parse_archive_place().
+/// The archive for the results of a run: `argument` (--archive), otherwise that of the plan,
+/// otherwise archive.db beside the run directory. kBadOption as parse_archive_place().
 [[nodiscard]] core::Result<record::ArchivePlace> archive_of(const std::string& argument,
                                                             const plans::Plan& plan,
                                                             const std::filesystem::path& directory);
@@ -24,14 +24,14 @@ namespace rondure::app {
 
 /// Stores the earlier results of a run's part in its directory (earlier.json), for the run charts
 /// of its page: once, before its reports are first written. Without a readable archive the page has
-/// no run chart; pushing the run reports the problem.
+/// no run chart; archive_run() reports the problem.
 void keep_earlier_results(const record::ArchivePlace& place, const std::filesystem::path& directory,
                           const record::RunRecord& record);
 
-/// Pushes a sealed run whose reports are written. A run that cannot be pushed is queued beside the
-/// run directory, with a message. Does not change the exit status of the run.
-/// @return  Whether there was anything to do: false when the archive held it, or there is no
-///          archive.
+/// Pushes a sealed run whose reports are written. If that fails, the run is queued beside the run
+/// directory, with a message. Does not change the exit status of the run.
+/// @return  Whether there was anything to do: false when the archive already held the run, or there
+///     is no archive.
 bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
                  const record::RunRecord& record, const evaluation::Evaluation& evaluation);
 

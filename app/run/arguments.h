@@ -23,10 +23,10 @@ struct RunArguments {
   std::string archive;                 ///< Empty: as the plan says.
   std::string wire_log;                ///< Empty: none.
   bool quiet = false;
-  bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
-  std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.
-  bool control = false;         ///< With `watch`: a button that stops the run.
-  std::optional<double> speed;  ///< Simulated seconds in a second; none: no waiting.
+  bool step = false;     ///< Each move is confirmed on the terminal and made at reduced speed.
+  std::string watch;     ///< Port of the live page; "auto": any free one; empty: no page.
+  bool control = false;  ///< With `watch`: a button that stops the run.
+  std::optional<double> speed;  ///< Simulated seconds per second; none: no waiting.
 };
 
 }  // namespace rondure::app

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Formats to write: those requested, and those left by an interrupted attempt, which would show
-/// another state of the run.
+/// Formats to write: those requested, and those left by an interrupted attempt, which would
+/// otherwise show another state of the run.
 std::vector<std::string> with_those_there(std::vector<std::string> asked,
                                           const fs::path& directory) {
   for (const reports::Export& e : reports::exports()) {
@@ -47,7 +47,7 @@ reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) 
   return arguments.paper.value_or(plan.reports.paper);
 }
 
-/// A run as its journal holds it.
+/// A run read from its journal, with its evaluation.
 struct EvaluatedRun {
   record::RunRecord record;
   evaluation::Evaluation evaluation;
@@ -74,14 +74,14 @@ core::Result<EvaluatedRun> read_and_evaluate(const fs::path& directory) {
   return evaluate(std::move(read->record), directory);
 }
 
-/// Finishes the journal of a run that died right after it was sealed. A damaged one stays as it is:
-/// it must not look like a sound one.
+/// Finishes the journal of a run that died right after it was sealed. A damaged journal is left
+/// unchanged, so that it does not look valid.
 core::Result<void> close_sealed(const record::ReadJournal& read, const fs::path& directory) {
   if (auto sound = require_sound(read, directory); !sound) return sound;
   return record::Journal::finish_seal(directory);
 }
 
-/// A sealed run with its reports may have died before it was archived.
+/// Archives a sealed run with its reports, which may have died before that step.
 int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
                     const EvaluatedRun& evaluated) {
   if (archive_run(archive, directory, evaluated.record, evaluated.evaluation)) {
@@ -98,7 +98,7 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
   return exit_status(evaluated.evaluation.verdict);
 }
 
-/// Reports a failure on the terminal, and to the page, which would otherwise wait for a verdict.
+/// Reports a failure on the terminal, and on the page, which would otherwise wait for a verdict.
 /// Returns the exit status.
 int fail_run(const core::Error& error, web::LiveView* live) {
   print_error(error);
@@ -106,7 +106,7 @@ int fail_run(const core::Error& error, web::LiveView* live) {
   return kRunFailed;
 }
 
-/// @param run  None for a run that was sealed before.
+/// @param run  Null for a run that was sealed before.
 int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated, plans::Run* run) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   const evaluation::Evaluation& evaluation = evaluated.evaluation;

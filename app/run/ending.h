@@ -13,7 +13,7 @@
 
 namespace rondure::app {
 
-/// The formats that a run is to write: of the command line, else of the plan.
+/// The formats that a run writes: from the command line, otherwise from the plan.
 [[nodiscard]] const std::vector<std::string>& formats_of(const RunArguments& arguments,
                                                          const plans::Plan& plan);
 
@@ -30,7 +30,7 @@ namespace rondure::app {
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
 
-/// The record of a run that can be evaluated; nothing, after a message for every fault, when its
+/// The record of a run that can be evaluated; none, after a message for every fault, when its
 /// journal cannot be read or is damaged.
 [[nodiscard]] std::optional<record::RunRecord> read_sound_record(const std::string& directory);
 

@@ -22,7 +22,7 @@ std::string processor() {
     for (std::string flag; flags >> flag;) {
       if (flag == "fma" || flag == "avx2" || flag == "avx512f") units += " " + flag;
     }
-    break;  // the other cores are alike
+    break;  // the other cores are identical
   }
   return model + " (" + (units.empty() ? "no fma" : units.substr(1)) + ")";
 }

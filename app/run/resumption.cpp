@@ -74,7 +74,7 @@ plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& r
   const record::Header& header = run.held->read.record.header;
   auto plan = plans::parse_plan(header.plan_text, {}, header.plan_file, true);
   std::vector<core::Error> problems;
-  if (!plan) {  // it was good: what is missing are its points files, which stand beside it
+  if (!plan) {  // it was valid once: its points files, which are beside the plan, are missing
     problems = plan.error();
   } else if (arguments.archive.empty() && archives_beside(*plan)) {
     problems.push_back({core::Code::kFile,

@@ -12,11 +12,11 @@
 
 namespace rondure::app {
 
-/// The run that `rondure run ... --resume` finds.
+/// The run found for `rondure run ... --resume`.
 struct Resumption {
   std::filesystem::path directory;
-  /// Its journal, read once and locked from then on; none: no touch and no journal yet, the run
-  /// begins.
+  /// Its journal, read once and locked from then on; none: the run starts, because there is no
+  /// touch and no journal yet.
   std::optional<record::HeldJournal> held;
 };
 
@@ -24,11 +24,11 @@ struct Resumption {
 /// when neither is given.
 [[nodiscard]] core::Result<Resumption> find_resumption(const RunArguments& arguments);
 
-/// The plan to resume with: the file named in the arguments, or else the one in the journal; kFile
-/// when that one needs files beside it.
+/// The plan to resume with: the file named in the arguments, otherwise the one in the journal;
+/// kFile when the plan in the journal needs files beside it.
 [[nodiscard]] plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run);
 
-/// A run in its directory, with the data that its end needs.
+/// A run in its directory, with the data needed to finish it.
 struct RunToFinish {
   const RunArguments& arguments;
   const plans::Plan& plan;

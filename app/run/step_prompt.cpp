@@ -23,7 +23,7 @@ std::string line_of(const plans::NextMove& move) {
                      place(move.to_W_mm), (move.to_W_mm - move.from_W_mm).norm());
 }
 
-/// A line of standard input; "q" at its end and after a signal.
+/// A line of standard input; "q" at the end of input and after a signal.
 std::string answer() {
   std::string out;
   char c = 0;

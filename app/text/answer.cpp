@@ -25,7 +25,8 @@ std::string not_finite_in(const Json& value, const std::string& pointer) {
   return {};
 }
 
-/// $'a\x1bb', as bash, zsh and ksh read it: the command still names the file, and can be shown.
+/// Quotes a word as $'a\x1bb' for bash, zsh and ksh: the command names the file, and can be
+/// printed.
 std::string with_escapes(const std::string& word) {
   std::string out = "$'";
   for (const char c : word) {

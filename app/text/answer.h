@@ -13,7 +13,7 @@
 
 namespace rondure::app {
 
-/// Exit status of the program (DESIGN, command line).
+/// Exit status of the program.
 enum Exit : int {
   kAllWell = 0,  ///< Done; for run and report: everything conforms or is not toleranced.
   kNotConforming =
@@ -25,14 +25,14 @@ enum Exit : int {
 /// Prints why a verb does nothing. Returns its exit status, kBadInput.
 [[nodiscard]] int refuse(const core::Error& error);
 [[nodiscard]] int refuse(const std::vector<core::Error>& errors);
-/// As refuse(), for an error in the data of a file: names the file if the error has no place.
+/// refuse() for an error in the data of a file: names the file if the error has no place.
 [[nodiscard]] int refuse_file(const core::Error& error, const std::string& file);
 
 /// @return kNotFinite naming the first number of a document that is not finite (JSON would write
 ///         it as null, a table as nan), or nothing.
 [[nodiscard]] core::Result<void> check_finite(const nlohmann::ordered_json& found);
 
-/// Warnings as the JSON of every verb has them, {"code", "what"} each.
+/// Warnings in the JSON format of every verb, {"code", "what"} each.
 [[nodiscard]] nlohmann::ordered_json warnings_json(const std::vector<core::Error>& warnings);
 /// Warnings as the last lines of a table.
 [[nodiscard]] std::string warnings_text(const std::vector<core::Error>& warnings);

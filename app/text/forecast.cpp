@@ -13,7 +13,7 @@ namespace {
 using nlohmann::ordered_json;
 using plans::ForecastStage;
 
-constexpr std::size_t kFewStages = 4;  // in a row that are listed one by one
+constexpr std::size_t kFewStages = 4;  // identical stages in a row that are listed one by one
 
 std::string feature_of(const plans::Plan& plan, const ForecastStage& stage) {
   if (stage.kind == ForecastStage::Kind::kBase) return "spheres of fixture";
@@ -37,7 +37,7 @@ const char* name_of(ForecastStage::Kind kind) {
   return "";
 }
 
-/// Without the sign of a rounded zero.
+/// Rounds, and drops the sign of a zero.
 double hundredths(double angle_rad) {
   return std::round(100.0 * angle_rad / core::kDegree) / 100.0 + 0.0;
 }
@@ -60,7 +60,8 @@ std::string row_of(const plans::Plan& plan, const ForecastStage& stage) {
              stage.time_s);
 }
 
-/// Stages of a grid search that look alike: its clouds, and the spheres on the ring before each.
+/// First of the identical stages of a grid search: its clouds, and the spheres on the ring before
+/// each.
 std::size_t alike_from(const std::vector<ForecastStage>& stages, std::size_t first) {
   std::size_t end = first;
   const auto searches = [](const ForecastStage& stage) {
@@ -96,10 +97,10 @@ std::string rows(const plans::Plan& plan, const std::vector<ForecastStage>& stag
   return out;
 }
 
-/// What one pose more costs, for a search that levels the real part.
+/// Time and touches of one more pose, for a search that levels the real part.
 std::string further_poses(const plans::Plan& plan, const plans::Forecast& forecast) {
   std::string out;
-  ForecastStage ring;  // touched in every pose, before its cloud
+  ForecastStage ring;  // touched in every pose, before the cloud
   for (const ForecastStage& stage : forecast.stages) {
     if (stage.kind == ForecastStage::Kind::kRing) ring = stage;
     if (!stage.final_cloud) continue;

@@ -39,7 +39,8 @@ std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacte
                        "      ");
 }
 
-/// Characteristics without an interval: those of a feature that share a reason, together.
+/// Characteristics without an interval; those of a feature with the same reason are listed
+/// together.
 std::string rows_without(const plans::Plan& plan,
                          const std::vector<PredictedCharacteristic>& predicted) {
   std::string out;
@@ -59,7 +60,7 @@ std::string rows_without(const plans::Plan& plan,
   return out;
 }
 
-/// What was assumed, each thing once; of forms that differ, for what.
+/// The assumptions, each once; where forms differ, with their characteristics.
 std::string assumptions(const std::vector<PredictedCharacteristic>& predicted) {
   std::vector<std::pair<std::string, std::string>> forms;  // words, characteristics
   std::string repeatability;

@@ -22,9 +22,9 @@
 namespace rondure::app {
 namespace {
 
-std::atomic<int> g_stop = 0;  ///< Set by signals, and by threads.
+std::atomic<int> g_stop = 0;  ///< Set by signals and by threads.
 static_assert(std::atomic<int>::is_always_lock_free);
-int g_output_error = 0;  ///< Of the system, for the first write to standard output that failed.
+int g_output_error = 0;  ///< System error of the first failed write to standard output.
 
 extern "C" void on_stop(int signal) {
   if (g_stop.exchange(1) == 0) return;
@@ -51,8 +51,8 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
   return out;
 }
 
-/// Text without control characters, except line breaks, tabs and the colours of our own charts: an
-/// escape sequence in a name must not reach the terminal.
+/// Text without control characters, except line breaks, tabs and the colours of the program's
+/// charts: an escape sequence in a name must not reach the terminal.
 std::string without_controls(std::string_view text) {
   constexpr std::array<std::string_view, 2> kColours = {"\x1b[31m", "\x1b[0m"};
   std::string out;
@@ -62,7 +62,7 @@ std::string without_controls(std::string_view text) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const auto* colour = std::find_if(kColours.begin(), kColours.end(),
                                       [&](std::string_view c) { return rest.starts_with(c); });
-    // U+0080..9F are controls too, some terminals obey them.
+    // U+0080..9F are controls too, which some terminals obey.
     const bool high = byte == 0xC2 && rest.size() > 1 && static_cast<unsigned char>(rest[1]) < 0xA0;
     if (colour != kColours.end()) {
       out += *colour;
@@ -79,7 +79,7 @@ std::string without_controls(std::string_view text) {
 
 void write_to_terminal(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
-/// The locale's name of its character set, as POSIX looks for it.
+/// The locale's name of its character set, looked up as POSIX prescribes.
 std::string locale_name() {
   for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
     const char* value = std::getenv(variable);
@@ -99,7 +99,7 @@ void hold_standard_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(fd, F_GETFD) >= 0) continue;
-    // Read-only for standard output: what is written there is reported as lost. The lowest free
+    // Read-only for standard output: writes to it fail and are reported as lost. The lowest free
     // number is the one that was closed.
     (void)open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
@@ -160,9 +160,11 @@ void listen_for_stop() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction present = {};
     sigaction(signal, nullptr, &present);
-    if (present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
+    // a process under nohup keeps ignoring the signal
+    if (present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  // Who reads what is printed may go away, by the same Ctrl-C in a pipe: the run ends in order.
+  // The reader of the output may end first, by the same Ctrl-C in a pipe: the run still ends in
+  // order.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -11,21 +11,21 @@
 
 namespace rondure::app {
 
-/// Opens standard streams that the caller has closed: otherwise the first file of a run would take
-/// a stream's number, and the summary would be written into it. Also makes a file at its size limit
-/// give an error, as a full disk does, instead of a signal.
+/// Opens standard streams that the caller has closed: otherwise the first file of a run would get a
+/// stream's number, and the summary would be written into it. Also makes a file at its size limit
+/// give an error, like a full disk, instead of a signal.
 void hold_standard_streams();
 
 /// Writes to standard output; output_reached() reports failures once. Control characters become
 /// "?", except line breaks, tabs and the colours of a chart.
 void say(std::string_view text);
-/// As say(), for one line that holds a name: a line break in it becomes "?" as well.
+/// say() for one line that contains a name: a line break in it becomes "?" as well.
 void say_line(std::string_view line);
 /// Flushes standard output. False, after a message with the cause, when not all output was written.
 [[nodiscard]] bool output_reached();
 
-/// Writes one line to standard error, or a part of one without line break; control characters of
-/// names and devices become "?". Never fails: a closed terminal must not stop a machine.
+/// Writes one line to standard error, or a part of one without line break; control characters in
+/// names from files and devices become "?". Never fails: a closed terminal must not stop a machine.
 void tell(std::string_view line);
 /// Prints an error on standard error, in one line.
 void print_error(const core::Error& error);
@@ -51,15 +51,16 @@ class ProgressLine {
 };
 
 /// Installs signal handlers: Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after
-/// the present touch; a second signal ends the program at once. Every touch is on disk by then. A
-/// pipe whose reader has gone no longer ends the program.
+/// the current touch; a second signal ends the program at once. Every touch is on disk by then. A
+/// pipe whose reader has closed it no longer ends the program.
 void listen_for_stop();
 [[nodiscard]] bool stop_requested();
-/// Requests the same stop from within the program, in any thread.
+/// Requests the same stop from within the program; callable from any thread.
 void request_stop();
 
 /// The style of drawings on standard output: braille on a terminal whose locale is UTF-8 (the first
-/// of LC_ALL, LC_CTYPE, LANG that is set), letters on another terminal, none in a file or a pipe.
+/// of LC_ALL, LC_CTYPE, LANG that is set), letters on another terminal, no drawing in a file or a
+/// pipe.
 [[nodiscard]] reports::SketchStyle sketch_style();
 
 }  // namespace rondure::app

@@ -145,7 +145,7 @@ core::Result<std::vector<ContourColumn>> mapping_of(const ContourArguments& argu
     if (!read) return read;
     out = *std::move(read);
   }
-  for (const std::string& text : arguments.columns) {  // behind the file: the last one counts
+  for (const std::string& text : arguments.columns) {  // follow the files: the last one counts
     auto column = parse_contour_column(text);
     if (!column) return core::fail(column.error());
     out.push_back(*std::move(column));
@@ -189,7 +189,7 @@ core::Result<Parts> read_parts(const ContourArguments& arguments) {
   return out;
 }
 
-/// "parts/0/pin" with the file it came from.
+/// "parts/0/pin" with its file.
 core::Error named(const core::Error& error, const ContourArguments& arguments) {
   for (std::size_t i = 0; i < arguments.axes.size(); ++i) {
     const auto place = [&](const char* what) { return fmt::format("parts/{}/{}", i, what); };

@@ -22,7 +22,7 @@ namespace {
 
 using core::Code;
 
-/// A unit by its name: how many rad or mm one is.
+/// A unit by its name: its size in rad or mm.
 struct Unit {
   std::string_view name;
   bool angle;
@@ -68,7 +68,7 @@ const ContourQuantity* quantity_named(std::string_view name) {
   return found == kQuantities.end() ? nullptr : &*found;
 }
 
-/// The unit that a quantity has without a mapping: the end of its column's name.
+/// The unit of a quantity without a mapping: the end of its column's name.
 const Unit& unit_of(const ContourQuantity& quantity) {
   const Unit* const found = unit_named(quantity.column.substr(quantity.column.rfind('_') + 1));
   assert(found != nullptr);
@@ -78,7 +78,7 @@ const Unit& unit_of(const ContourQuantity& quantity) {
 /// Column of a quantity in a file, and its conversion.
 struct ContourReading {
   std::string column;
-  double factor = 1.0;  ///< To rad or mm, with the sign.
+  double factor = 1.0;  ///< Factor to rad or mm, signed.
 };
 
 ContourReading reading_of(const ContourQuantity& quantity,
@@ -93,7 +93,7 @@ ContourReading reading_of(const ContourQuantity& quantity,
   return out;
 }
 
-/// The quantities that a file holds, in rad and mm; nothing for one without its column.
+/// The quantities in a file, in rad and mm; none for one without its column.
 using Columns = std::vector<std::optional<std::vector<double>>>;
 
 core::Result<Columns> read_columns(const std::string& file,
@@ -172,7 +172,7 @@ core::Result<void> read_axes(const std::string& file, const std::vector<ContourC
 core::Result<fit::GaugeRows> read_gauge(const std::string& file, bool main,
                                         const std::vector<ContourColumn>& mapping) {
   auto wanted = quantities({"angle", "deviation"});
-  // A main journal has columns of its own only where they are named.
+  // A main journal has its own columns only where they are named.
   const auto of_main = quantities({"main_angle", "main_deviation"});
   for (std::size_t i = 0; i < 2; ++i) {
     const bool named = std::any_of(mapping.begin(), mapping.end(), [&](const auto& column) {

@@ -14,7 +14,7 @@ struct ContourColumn {
   /// c, c_error, x_error (or alpha_cmd, alpha_act, d_cmd, d_act) of the controller; angle,
   /// deviation, main_angle, main_deviation of the gauge.
   std::string quantity;
-  std::string column;  ///< As in the header line.
+  std::string column;  ///< Name in the header line.
   std::string unit;    ///< Empty: the unit of the quantity without a mapping.
   double sign = 1.0;   ///< 1 or -1.
 };
@@ -33,13 +33,14 @@ struct ContourColumn {
 struct ContourFiles {
   std::string axes;
   std::string pin;
-  std::string main;  ///< Empty: none.
+  std::string main;  ///< File of the main journal; empty: none.
 };
 
-/// A part as read from its files.
+/// A part read from its files.
 struct ContourImport {
   fit::ContourPart part;
-  bool positions = false;  ///< Commanded and actual positions: their differences have a known sign.
+  /// Contains commanded and actual positions: their differences have a known sign.
+  bool positions = false;
 };
 
 /// Reads a part. Quantities without a mapping have the columns c_deg, c_error_deg, x_error_mm (with
@@ -47,7 +48,7 @@ struct ContourImport {
 /// differences are the errors); angle_deg and deviation_um of pin and main journal.
 ///
 /// @return The errors of parse_series_csv(), with file and line; kMissingKey when both sets of axis
-/// columns, or a column of the gauge, are missing.
+///     columns, or a column of the gauge, are missing.
 [[nodiscard]] core::Result<ContourImport> read_contour_part(
     const ContourFiles& files, const std::vector<ContourColumn>& mapping);
 

@@ -16,7 +16,7 @@
 namespace rondure::app {
 namespace {
 
-/// A found device, as it is displayed.
+/// A device found, prepared for display.
 struct FoundDevice {
   std::string role;    ///< "fixture", "indicator", "serial".
   std::string what;    ///< E.g. "Zaber controller X-MCC2".
@@ -35,7 +35,7 @@ std::string id_text(std::uint16_t vendor, std::uint16_t product) {
   return fmt::format("{:04x}:{:04x}", vendor, product);
 }
 
-/// State and what to do about it.
+/// State of a device and the remedy.
 std::pair<std::string, std::string> state_of(const wire::UsbDeviceInfo& device) {
   using Kind = wire::UsbFault::Kind;
   if (device.refused) {
@@ -100,7 +100,7 @@ std::vector<FoundDevice> found_devices(const std::vector<wire::UsbDeviceInfo>& d
   std::vector<FoundDevice> out;
   for (const wire::UsbDeviceInfo& device : devices) {
     const KnownDevice* known = wire::known_device(device.vendor, device.product);
-    // A serial line is shown by its /dev name, below.
+    // A serial line is listed by its /dev name, below.
     if (known == nullptr || known->role == KnownDevice::Role::kSerial) continue;
     out.push_back(described(device, *known));
   }

@@ -40,21 +40,21 @@ namespace {
 struct FitPlace {
   std::optional<fit::Axis> axis;
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  int coordinates = 3;  ///< Of the centre: 2 for a circle.
+  int coordinates = 3;  ///< Coordinates of the centre: 2 for a circle.
 };
 
 /// The result of one reference, for any shape.
 struct FitReference {
   FitPlace place;
-  std::optional<double> radius_mm;        ///< Least squares, circumscribed, inscribed.
-  std::optional<double> inner_radius_mm;  ///< Minimum zone.
+  std::optional<double> radius_mm;        ///< For least squares, circumscribed, inscribed.
+  std::optional<double> inner_radius_mm;  ///< For the minimum zone.
   std::optional<double> outer_radius_mm;
-  std::optional<double> diameter_mm;  ///< Minimum zone of a line.
+  std::optional<double> diameter_mm;  ///< For the minimum zone of a line.
   double deviation_mm = 0.0;
-  std::optional<double> rms_mm;  ///< Least squares.
+  std::optional<double> rms_mm;  ///< For least squares.
   std::vector<fit::Contact> outer;
   std::vector<fit::Contact> inner;
-  std::optional<fit::Certificate> certificate;  ///< All but least squares.
+  std::optional<fit::Certificate> certificate;  ///< For all but least squares.
   std::optional<fit::DeviationRange> range;     ///< For an inscribed circle that is not unique.
 };
 
@@ -63,7 +63,7 @@ struct FitOutcome {
   struct Entry {
     std::string name;                   ///< "ls", "mz", "mc", "mi".
     std::string title;                  ///< "LSCI", "MZCY", ...
-    std::optional<FitReference> found;  ///< Empty: it does not exist for these data.
+    std::optional<FitReference> found;  ///< Empty if it does not exist for these data.
   };
   std::string shape;
   std::size_t points = 0;
@@ -183,7 +183,7 @@ FitPlace place_of(const Eigen::Vector2d& center) {
 FitPlace place_of(const Eigen::Vector3d& center) { return {std::nullopt, center, 3}; }
 FitPlace place_of(const fit::Axis& axis) { return {axis, Eigen::Vector3d::Zero(), 3}; }
 
-/// At its axis, or at its centre.
+/// Point at which the fit is given: on its axis, or its centre.
 template <class Fit>
 FitPlace place_of_fit(const Fit& fit) {
   if constexpr (requires { fit.axis; }) {
@@ -239,9 +239,9 @@ class Collector {
 
   [[nodiscard]] bool wants(const char* name) const { return wanted_ == "all" || wanted_ == name; }
 
-  /// Adds a reference if it is wanted, or says in a warning that it does not exist; other errors
-  /// end the fit.
-  /// @param find  Gives the reference.
+  /// Adds a reference if it is wanted, or a warning that it does not exist; other errors end the
+  /// fit.
+  /// @param find  Returns the reference.
   template <class Find>
   void add(const char* name, const char* title, const Find& find) {
     if (!wants(name)) return;
@@ -272,7 +272,7 @@ class Collector {
   std::optional<core::Error> failure_;
 };
 
-/// Warns about an arc, seen along the axis about the centre: the unseen part can only add to the
+/// Warns about an arc, seen along the axis about the centre: the unseen part can only increase the
 /// deviation.
 void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& collector) {
   const double gap_rad = fit::largest_gap_rad(points, center_mm);
@@ -375,11 +375,11 @@ core::Result<FitOutcome> fit_line(Space points, Collector collector) {
 }
 
 /// Fits the requested references of a shape. A reference that does not exist for the points is
-/// empty in the outcome, with a warning that gives the reason.
+/// empty in the outcome, with a warning that states the reason.
 ///
 /// @param shape      "circle" (z is not used), "cylinder", "sphere", "line".
 /// @param reference  "ls", "mz", "mc", "mi" or "all"; a line has "ls" and "mz".
-/// @return Why the points cannot be fitted at all.
+/// @return The outcome, or why the points cannot be fitted at all.
 core::Result<FitOutcome> fit_shape(const std::string& shape, const std::string& reference,
                                    Space points_mm) {
   Collector collector(shape, reference, points_mm.size());

@@ -170,7 +170,7 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
   verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
   verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
   verb->require_subcommand(0, 1);
-  verb->callback([verb, &arguments] {  // a verb of its own, such as roundness, needs neither
+  verb->callback([verb, &arguments] {  // a verb such as roundness needs neither
     if (!verb->get_subcommands().empty()) return;
     if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
     if (arguments.file.empty()) throw CLI::RequiredError("FILE");

@@ -70,7 +70,7 @@ core::Result<record::ArchiveFilter> filter_of(const HistoryArguments& arguments)
                   core::printable(arguments.verdict)));
 }
 
-/// The newest `count` results, page by page; `take` gets each page, newest first.
+/// The newest `count` results, page by page; `take` receives each page, newest first.
 template <class Take>
 core::Result<void> read_pages(record::Archive& archive, const record::ArchiveFilter& filter,
                               std::size_t count, const Take& take) {
@@ -135,7 +135,8 @@ core::Result<void> show(record::Archive& archive, const std::string& place,
   if (!arguments.csv.empty()) return write_csv(archive, *filter, arguments);
   const bool charted = arguments.chart || arguments.json || !arguments.svg.empty();
   const std::size_t count = arguments.last.value_or(charted ? kCharted : kListed);
-  auto results = read_newest(archive, *filter, count + 1);  // one more: are there older ones?
+  // one more shows whether there are older ones
+  auto results = read_newest(archive, *filter, count + 1);
   if (!results) return core::fail(results.error());
   const bool more = results->size() > count;
   if (more) results->resize(count);
@@ -156,10 +157,10 @@ core::Result<void> show(record::Archive& archive, const std::string& place,
   return {};
 }
 
-/// One archive's share of the queue.
+/// Pushes one archive's share of the queue.
 bool push_to(const record::ArchivePlace& place, const fs::path& queue) {
   record::DeliveryOptions options;
-  options.give_up_after_s = 600.0;  // somebody waits for it, and may press Ctrl-C
+  options.give_up_after_s = 600.0;  // a person waits for it, and may press Ctrl-C
   const record::Delivery delivery = record::deliver(place, queue, nullptr, options);
   if (delivery.failure) print_error(*delivery.failure);
   if (delivery.queue_failure) print_error(*delivery.queue_failure);
@@ -189,7 +190,7 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
       well = false;
       continue;
     }
-    waited_for->key = target;  // older programs may have kept a password in it
+    waited_for->key = target;  // older versions may have stored a password in it
     well = push_to(*waited_for, arguments.queue) && well;
   }
   return well ? kAllWell : kBadInput;

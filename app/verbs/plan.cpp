@@ -25,7 +25,7 @@
 namespace rondure::app {
 namespace {
 
-/// Without blanks at either end.
+/// The text without blanks at either end.
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
@@ -62,7 +62,7 @@ int refuse_plan(const std::vector<core::Error>& problems, const PlanArguments& a
   return status;
 }
 
-/// The cloud to draw: the final one of the first feature, or of the one that is named.
+/// The cloud to draw: the final one of the first or of the named feature.
 core::Result<const plans::ForecastStage*> drawn_stage(const plans::Plan& plan,
                                                       const plans::Forecast& forecast,
                                                       const std::string& feature) {
@@ -78,7 +78,7 @@ core::Result<const plans::ForecastStage*> drawn_stage(const plans::Plan& plan,
 
 core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast,
                         const PlanArguments& arguments) {
-  std::error_code ignored;  // a picture that is not there yet is no plan
+  std::error_code ignored;  // a picture that does not exist yet cannot be the plan
   if (std::filesystem::equivalent(arguments.svg, arguments.plan, ignored)) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("--svg {} is the plan itself; name another file", arguments.svg));
@@ -88,7 +88,7 @@ core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast
   return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));
 }
 
-/// Results besides the forecast itself.
+/// Results in addition to the forecast.
 struct Outlook {
   std::vector<PredictedCharacteristic> predicted;
   std::optional<double> target_mm;

@@ -24,7 +24,7 @@ namespace {
 
 using Probes = std::vector<std::unique_ptr<cmm::DisplacementProbe>>;
 
-/// The names of the columns: the angle, then one reading each.
+/// The names of the columns: the angle, then one per reading.
 std::vector<std::string> columns_of(std::size_t indicators) {
   std::vector<std::string> out = {"alpha_deg"};
   for (std::size_t i = 1; i <= indicators; ++i) out.push_back(fmt::format("H{}_um", i));
@@ -35,7 +35,7 @@ std::string angle_text(const RecordArguments& arguments, int row) {
   return core::shortest(core::on_grid(arguments.from_deg + row * arguments.step_deg, 1e9));
 }
 
-/// How many rows a table already holds. kMeaning when it is not a beginning of this one.
+/// Number of rows that a table already holds. kMeaning when it is not the beginning of this table.
 core::Result<int> rows_in(const std::string& text, const RecordArguments& arguments) {
   const auto names = columns_of(arguments.probes.size());
   std::vector<record::WantedColumn> wanted;
@@ -101,7 +101,7 @@ core::Result<Probes> open_all(const RecordArguments& arguments) {
   return out;
 }
 
-/// One row: an angle and what every indicator reads at it.
+/// One row: an angle and the readings of all indicators.
 core::Result<std::string> read_row(const std::string& angle, const Probes& probes) {
   std::string row = angle;
   for (const auto& probe : probes) {
@@ -113,7 +113,7 @@ core::Result<std::string> read_row(const std::string& angle, const Probes& probe
   return row;
 }
 
-/// What stands in a file that begins.
+/// Header of a new file.
 std::string head_of(const Probes& probes) {
   std::string out = "# rondure record: read at stopped angles, one indicator after the other\n";
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -122,7 +122,7 @@ std::string head_of(const Probes& probes) {
   return out + fmt::format("{}\n", fmt::join(columns_of(probes.size()), ","));
 }
 
-/// Reads angle by angle; every row is on disk before the next angle is asked for.
+/// Reads angle by angle; each row is on disk before the request for the next angle.
 core::Result<void> record_rows(const RecordArguments& arguments, const Probes& probes,
                                std::string text, int from) {
   for (int i = from; i < arguments.count; ++i) {

@@ -21,13 +21,13 @@
 namespace rondure::app {
 namespace {
 
-/// The list of digests, when there is a signature of it.
+/// The list of digests, when it is signed.
 std::string signed_checksums(const std::filesystem::path& directory) {
   if (!record::read_file(directory / record::kSignatureName)) return {};
   return record::read_file(directory / record::kChecksumsName).value_or("");
 }
 
-/// The formats that were asked for, else all that can be written here.
+/// The requested formats, otherwise all that can be written here.
 std::vector<std::string> formats_of(const ReportArguments& arguments) {
   if (!arguments.formats.empty()) return arguments.formats;
   std::vector<std::string> all = reports::all_formats();

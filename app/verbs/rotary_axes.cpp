@@ -44,7 +44,7 @@ Json list(const Vector3d& v, double factor = 1.0) {
 Json um_list(const Vector3d& mm) { return list(mm, 1e3); }
 Json urad_list(const Vector3d& rad) { return list(rad, 1e6); }
 
-/// um^2, um urad, urad^2.
+/// Covariance in um^2, um urad, urad^2.
 Json covariance_json(const fit::Matrix6& c) {
   Json out = Json::array();
   for (Eigen::Index i = 0; i < 6; ++i) {
@@ -66,7 +66,7 @@ const char* name_of(fit::RotaryCurve curve) {
   return curve == fit::RotaryCurve::kPolynomial ? "polynomial" : "spline";
 }
 
-/// Standard uncertainty of a body point that stands at `place` in the reference pose.
+/// Standard uncertainty of a body point that is at `place` in the reference pose.
 Vector3d point_u_mm(const RotaryAxisResult& result, const fit::Matrix6& covariance,
                     double angle_rad) {
   const fit::RotaryAxis& axis = result.study.table.axis;
@@ -115,7 +115,7 @@ Json offset_json(const fit::AxisOffset& o) {
           {"direction", list(o.axis.direction)}};
 }
 
-/// Errors and their band over the stations.
+/// Errors over the stations, with their band.
 Json curve_json(const RotaryAxisResult& result) {
   Json out = Json::array();
   const bool circle = result.study.table.full_circle;
@@ -274,7 +274,7 @@ std::optional<Vector3d> direction_by_name(std::string_view name) {
   return std::nullopt;
 }
 
-/// "x" or "0,0.6,0.8".
+/// Parses "x" or "0,0.6,0.8".
 core::Result<Vector3d> direction_of(std::string_view text) {
   if (const auto known = direction_by_name(text)) return *known;
   Vector3d out;
@@ -331,7 +331,7 @@ fit::Approach approach_of(int direction) {
   return direction > 0 ? fit::Approach::kForward : fit::Approach::kBackward;
 }
 
-/// Where a row belongs: the pose under way, an earlier one, or a new one.
+/// Place of a row: the current pose, an earlier one, or a new one.
 std::vector<fit::BallCentre>& place_of(const record::BallRow& row, fit::RotaryMeasurement& out) {
   if (!row.station_deg) {
     for (auto& reference : out.references) {
@@ -372,7 +372,7 @@ core::Result<void> add_row(const record::BallRow& row, const RotaryAxesArguments
 /// Reads the files and sorts their rows by axis and station, in the order of measurement. A ball
 /// that recurs in the reference pose starts its next measurement.
 /// @return The errors of parse_ball_csv(); kBadOption when the direction of an axis is unknown, is
-/// not three numbers, or is given for several axes.
+///     not three numbers, or is given for several axes.
 core::Result<std::vector<NamedAxis>> read_rotary_axes(const RotaryAxesArguments& arguments) {
   std::vector<NamedAxis> out;
   for (const std::string& file : arguments.files) {

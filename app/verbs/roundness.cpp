@@ -132,7 +132,7 @@ std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::R
   return out + "\n";
 }
 
-/// The ten greatest harmonics from 2 on that show in four decimals, by number.
+/// The ten greatest harmonics from 2 on that are not zero in four decimals, by number.
 std::string harmonic_lines(const fit::HarmonicTable& table) {
   constexpr std::size_t kShown = 10;
   constexpr double kLeastUm = 5e-5;
@@ -184,7 +184,8 @@ std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool pol
   return out + harmonic_lines(evaluation.harmonics) + warnings_text(evaluation.warnings);
 }
 
-/// Roundness below this is beyond good spindles [um]; it is common for mm in a column of um.
+/// A smaller roundness is better than good spindles achieve [um]; usually the column of um holds
+/// mm.
 constexpr double kLeastRoundnessUm = 0.05;
 /// Radii outside these suggest metres or micrometres [mm].
 constexpr double kLeastRadius = 0.5;
@@ -228,7 +229,7 @@ core::Result<record::ProfileTable> load_profile(const std::string& file) {
   return record::parse_profile_csv(*bytes, std::filesystem::path(file).filename().string());
 }
 
-/// Angles that fill one turn in radians and nothing in degrees.
+/// Refuses angles that fill one turn in radians and nothing in degrees.
 core::Result<void> check_angle_unit(const std::vector<double>& theta_deg) {
   const auto [low, high] = std::minmax_element(theta_deg.begin(), theta_deg.end());
   const double span = *high - *low;

@@ -36,7 +36,7 @@ namespace {
 std::vector<web::PredictedStage> predicted_stages(const plans::Plan& plan) {
   std::vector<web::PredictedStage> out;
   const auto forecast = plans::forecast(plan);
-  if (!forecast) return out;  // the run says why
+  if (!forecast) return out;  // the run reports the reason
   for (const plans::ForecastStage& stage : forecast->stages) {
     out.push_back({stage.touches * stage.times, stage.time_s});
   }
@@ -67,7 +67,7 @@ core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& argum
   return std::move(*view);
 }
 
-/// kBadOption for --speed with a machine that is not simulated here and has its own speed.
+/// kBadOption for --speed with a machine that is not simulated here, because it has its own speed.
 core::Result<void> check_machine_speed(const RunArguments& arguments, const plans::Plan& plan) {
   if (!arguments.speed || !plan.machine ||
       plan.machine->driver == plans::MachinePlan::Driver::kSimulated)
@@ -85,10 +85,10 @@ class Pace {
   /// @param speed  Simulated seconds per second of real time; > 0.
   explicit Pace(double speed) : speed_(speed) {}
 
-  /// Waits until the wall clock has reached the machine's, or a stop is requested. The first call
-  /// sets the start of both.
+  /// Waits until the wall clock has reached the machine's clock, or a stop is requested. The first
+  /// call is the start of both.
   void keep(double machine_time_s) {
-    constexpr auto kLook = std::chrono::milliseconds(20);  // how soon a stop is seen
+    constexpr auto kLook = std::chrono::milliseconds(20);  // time after which a stop is noticed
     if (!first_s_) {
       first_s_ = machine_time_s;
       start_ = Clock::now();
@@ -118,7 +118,8 @@ std::string run_name(const fs::path& plan, const std::string& utc, const fs::pat
   }
   const std::string name = plan.stem().string() + "-" + compact;
   std::string unique = name;
-  std::error_code unknown;  // what cannot be looked at cannot be made either, and that is reported
+  // a directory that cannot be examined cannot be created either; that is reported
+  std::error_code unknown;
   for (int i = 2; fs::exists(parent / unique, unknown); ++i) unique = fmt::format("{}-{}", name, i);
   return unique;
 }
@@ -150,8 +151,8 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
-/// Measures, from the beginning or from the last touch on.
-/// @param held  The journal of the run to go on with; none: it begins.
+/// Measures, from the beginning or from the last touch.
+/// @param held  The journal of the run to resume; none: a new run.
 plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
                              std::optional<record::HeldJournal> held,
                              const RunArguments& arguments) {
@@ -212,7 +213,7 @@ core::Result<void> check_hand(const plans::Plan& plan) {
   return {};
 }
 
-/// Nobody shall measure for an hour and then learn that the report cannot be printed.
+/// Checks the printer first, so that an hour's measurement does not end without its report.
 core::Result<void> check_printing(const RunArguments& arguments, const plans::Plan& plan) {
   const auto& formats = formats_of(arguments, plan);
   if (std::find(formats.begin(), formats.end(), "pdf") == formats.end()) return {};
@@ -220,7 +221,7 @@ core::Result<void> check_printing(const RunArguments& arguments, const plans::Pl
   return browser ? core::Result<void>() : core::fail(browser.error());
 }
 
-/// Names of the command line stand in every report, as those of the plan do.
+/// Checks names of the command line as those of the plan, because every report contains them.
 core::Result<void> check_names(const RunArguments& arguments) {
   for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
                                      std::pair("--operator", &arguments.operator_name)}) {
@@ -234,7 +235,7 @@ core::Result<void> check_names(const RunArguments& arguments) {
   return {};
 }
 
-/// Measures, and what follows.
+/// Measures, evaluates and writes the reports.
 int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options,
                          std::optional<record::HeldJournal> held) {
   const bool resume = held.has_value();
@@ -251,8 +252,8 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
   return status;
 }
 
-/// A finished run ends with its verdict only when it is the run that was asked for: of another part
-/// or plan its verdict says nothing.
+/// A finished run ends with its verdict only when it is the requested run: for another part or plan
+/// its verdict says nothing.
 int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options,
                       record::HeldJournal held) {
   const auto differences = plans::differences_from_run(held.read.record, ending.plan, options);

@@ -33,9 +33,9 @@ using Json = nlohmann::ordered_json;
 using cmm::ipp::client::Survey;
 
 constexpr std::size_t kWidth = 80;
-constexpr std::size_t kIndent = 20;  // of what stands beside a name
+constexpr std::size_t kIndent = 20;  // indentation of text beside a name
 constexpr double kUsualDistance_mm = 3.0;
-// What a run needs in any case.
+// Commands that every run needs.
 constexpr auto kNeeded = std::to_array<std::string_view>(
     {"IsHomed", "Home", "Get", "GoTo", "PtMeas", "GetProp", "SetProp", "SetCoordSystem",
      "ClearAllErrors", "OnPtMeasReport"});
@@ -140,7 +140,7 @@ double within(const Survey::Parameter* limits, double usual) {
   return least <= greatest ? std::clamp(usual, least, greatest) : usual;
 }
 
-/// Only what a plan can hold: positive, finite.
+/// Adds only a number that a plan can hold: positive, finite.
 void add_key(Json& keys, const char* name, double value) {
   if (std::isfinite(value) && value > 0.0) keys[name] = value;
 }
@@ -297,7 +297,7 @@ std::string survey_text(const Json& found) {
   return out + fmt::format("\nFor the plan:\n\"machine\": {}\n", found["machine"].dump(2));
 }
 
-/// HOST, HOST:PORT or [ADDRESS]:PORT; a bare address of IPv6 has more than one colon.
+/// Parses HOST, HOST:PORT or [ADDRESS]:PORT; a bare IPv6 address has more than one colon.
 std::optional<ServerPlace> server_place(std::string_view text) {
   std::string_view port;
   if (text.starts_with('[')) {

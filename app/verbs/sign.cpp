@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the run verifies: nothing else should be signed.
+/// Whether the run verifies: no other run should be signed.
 bool verifies(const fs::path& directory) {
   reports::VerifyOptions options;
   options.processor = processor();

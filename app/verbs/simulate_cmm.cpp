@@ -45,7 +45,7 @@ cmm::ipp::ServerOptions options_of(const SimulateCmmArguments& arguments, const 
 
 int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   wire::TcpOptions limits;
-  limits.max_line_bytes = 2 * cmm::ipp::kMaxLineLength;  // what is longer is no client of ours
+  limits.max_line_bytes = 2 * cmm::ipp::kMaxLineLength;  // longer lines are not from an I++ client
   auto listener = wire::TcpListener::open(arguments.address, arguments.port, limits);
   if (!listener) return refuse(listener.error());
   plans::ServedCell cell(plan, arguments.seed.value_or(plan.simulation->seed));
@@ -75,7 +75,7 @@ int simulate_cmm(const SimulateCmmArguments& arguments) {
   if (!plan) return refuse(plan.error());
   if (auto servable = plans::check_servable(*plan); !servable)
     return refuse(servable.error().at(arguments.plan));
-  // Checked now, not when the first client connects.
+  // Checked now instead of when the first client connects.
   if (!arguments.wire_log.empty() && !std::ofstream(arguments.wire_log, std::ios::app)) {
     print_error(
         {core::Code::kFile, "cannot be written; choose another --wire-log", arguments.wire_log});

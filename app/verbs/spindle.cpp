@@ -57,7 +57,7 @@ std::array<NamedLayout, 3> known_layouts() {
            {"reference", fit::reference_layout()}}};
 }
 
-/// P2 and P3 from P1 in -180..180 deg.
+/// Angles of P2 and P3 from P1, in -180..180 deg.
 std::array<double, 2> places_deg(const fit::ProbeLayout& layout) {
   const auto angles = layout.angles_rad();
   return {std::remainder(core::degrees(angles[1]), 360.0),
@@ -165,7 +165,7 @@ using core::kMicrometre;
 constexpr std::array<record::WantedColumn, 5> kColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
 
-/// One way of stating the angles, completely.
+/// The layout from one complete set of angles.
 core::Result<fit::ProbeLayout> layout_of(const SpindleArguments& a) {
   const int own = (a.p1_to_p2_deg ? 1 : 0) + (a.p2_to_p3_deg ? 1 : 0) + (a.p1_to_p3_deg ? 1 : 0);
   if (a.layout && own > 0) {

@@ -41,9 +41,9 @@ struct SimulateCmmArguments {
   std::string plan;
   std::uint16_t port = 1294;
   std::string address = "127.0.0.1";
-  double speed = 1.0;  ///< Simulated seconds in a second; infinity: no waiting.
+  double speed = 1.0;  ///< Simulated seconds per second; infinity: no waiting.
   std::optional<std::uint64_t> seed;
-  double silence_limit_s = 60.0;  ///< Of a client; then another one takes its place.
+  double silence_limit_s = 60.0;  ///< Another client may replace one that is silent for this time.
   std::string wire_log;           ///< File; empty: none.
 };
 [[nodiscard]] int simulate_cmm(const SimulateCmmArguments& arguments);
@@ -64,7 +64,7 @@ struct VerifyArguments {
 
 struct CompareArguments {
   std::string directory;
-  bool all = false;  ///< Text with every combination.
+  bool all = false;  ///< Prints every combination.
   bool json = false;
 };
 [[nodiscard]] int compare(const CompareArguments& arguments);
@@ -72,10 +72,11 @@ struct CompareArguments {
 struct HistoryArguments {
   std::optional<std::string> archive;  ///< By default runs/archive.db.
   record::ArchiveFilter filter;
-  std::string since;  ///< Day or time, UTC; as until.
+  std::string since;  ///< Day or time, UTC; also for `until`.
   std::string until;
-  std::string verdict;              ///< With blanks or hyphens.
-  std::optional<std::size_t> last;  ///< How many; by default 50, of charts 1000, of CSV all.
+  std::string verdict;  ///< Words separated by blanks or hyphens.
+  /// Number of results; default 50, for charts 1000, for CSV all.
+  std::optional<std::size_t> last;
   bool chart = false;
   bool json = false;
   std::string csv;  ///< File, or "-".
@@ -113,7 +114,8 @@ struct RoundnessArguments {
 [[nodiscard]] int roundness(const RoundnessArguments& arguments);
 
 struct ContourArguments {
-  std::vector<std::string> axes;  ///< One file a part; as pin and main (or no main at all).
+  /// One file per part, also for `pin` and `main` (or no main at all).
+  std::vector<std::string> axes;
   std::vector<std::string> pin;
   std::vector<std::string> main;
   std::string mapping;
@@ -176,7 +178,7 @@ struct RotaryAxesArguments {
   std::string axis;               ///< x, y, z or a,b,c; empty: by the name of the axis.
   std::vector<double> origin_mm;  ///< Empty: 0,0,0.
   double reference_deg = 0.0;
-  std::vector<double> range_deg;  ///< Of the axis; empty: any.
+  std::vector<double> range_deg;  ///< Range of the axis; empty: any.
   std::string method = "exact";
   std::string curve = "spline";
   std::vector<double> place_mm;  ///< Place whose uncertainty is stated; empty: the origin.
@@ -209,21 +211,21 @@ struct SpindleArguments {
 [[nodiscard]] int spindle(const SpindleArguments& arguments);
 
 struct DesignArguments {
-  fit::LayoutSearch search;                    ///< Its ranges come from the two below.
-  std::vector<double> p2_deg = {40.0, 140.0};  ///< Lower and upper end.
+  fit::LayoutSearch search;                    ///< Its ranges come from the two members below.
+  std::vector<double> p2_deg = {40.0, 140.0};  ///< Lower and upper end of the range.
   std::vector<double> p3_deg = {-140.0, -40.0};
   bool json = false;
 };
 [[nodiscard]] int design_probes(const DesignArguments& arguments);
 
 struct RecordArguments {
-  std::vector<std::string> probes;  ///< As indicator_words() says.
+  std::vector<std::string> probes;  ///< Words as listed by indicator_words().
   double from_deg = 0.0;
   double step_deg = 10.0;
   int count = 36;
   std::string out;
   bool inches = false;
-  std::optional<double> rate_Hz;  ///< Refused, with the reason.
+  std::optional<double> rate_Hz;  ///< Always refused, with the reason.
 };
 /// The words that name an indicator, for help and messages.
 [[nodiscard]] std::string indicator_words();
@@ -236,7 +238,7 @@ struct DevicesArguments {
 
 struct ServerDeviceArguments {
   std::string place;     ///< HOST or HOST:PORT.
-  double limit_s = 5.0;  ///< For the connection and for each answer.
+  double limit_s = 5.0;  ///< Time limit for the connection and for each answer.
   bool json = false;
 };
 /// Surveys an I++ DME server; nothing moves.

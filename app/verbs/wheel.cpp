@@ -32,7 +32,7 @@ std::string center_words(const fit::WheelMeasurement& m) {
                      m.centers.accepted.size());
 }
 
-/// The other centre, that of the quadruples or that of least squares.
+/// The other centre: of the quadruples or of least squares.
 std::string check_words(const fit::WheelMeasurement& m) {
   if (m.mean == fit::WheelMean::kLeastSquares) {
     return fmt::format("weighted mean of {} quadruples ({:.6f}, {:.6f}) mm",
@@ -103,7 +103,7 @@ std::string path_lines(const fit::WheelEvaluation& e) {
   return out + "\n";
 }
 
-/// What run-out does to a path for the mean radius.
+/// Effect of the run-out on a path for the mean radius.
 std::string overcut_line(const fit::WheelEvaluation& e) {
   if (e.radius != fit::RadiusChoice::kMean || !e.wheel.runout) return {};
   return fmt::format(
@@ -176,7 +176,7 @@ core::Result<fit::WheelSurface> read_polynomial(std::string_view words) {
   return fit::WheelSurface::polynomial(std::move(out));
 }
 
-/// 0 for A2, 1 for A4, ...; nothing for another name.
+/// 0 for A2, 1 for A4, ...; none for another name.
 std::optional<std::size_t> even_term(std::string_view name) {
   for (std::size_t i = 0; i < kMostEvenTerms; ++i) {
     if (name == fmt::format("A{}", 2 * (i + 1))) return i;
@@ -390,7 +390,7 @@ int wheel(const WheelArguments& arguments) {
       return refuse(written.error());
     }
   }
-  // The wheel is measured even where the surface cannot be ground with it.
+  // The wheel result stands even where the surface cannot be ground with it.
   const int status = answer(found, arguments.json, [&] { return wheel_table(*evaluation, *task); });
   return evaluation->refused ? refuse(*evaluation->refused) : status;
 }

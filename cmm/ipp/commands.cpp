@@ -12,8 +12,8 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-/// The methods of the language (any issue up to 1.5, with known additions); a server need not
-/// support them. Case-sensitive; the name of one for the fast queue ends in E.
+/// The methods of the language (all issues up to 1.5, with known additions); a server need not
+/// support all of them. Names are case-sensitive; those for the fast queue end in E.
 constexpr auto kMethods = std::to_array<std::string_view>({
     "AbortE",
     "AlignPart",
@@ -84,7 +84,7 @@ tl::unexpected<Refusal> refuse(int number, std::optional<Tag> tag, std::string w
   return tl::unexpected(Refusal{number, tag, std::move(what)});
 }
 
-/// Checks what is needed before a tag can be answered.
+/// Checks the requirements for an answer to a tag.
 tl::expected<Tag, Refusal> read_head(std::string_view line) {
   if (line.size() > kMaxLineLength) {
     return refuse(

@@ -10,14 +10,15 @@ namespace rondure::cmm::ipp {
 
 /// Length of the numbers that are sent.
 enum class NumberForm {
-  kSixteenDigits,      ///< As the protocol allows.
-  kSixteenCharacters,  ///< With sign, point and exponent, for servers that refuse longer ones.
+  kSixteenDigits,  ///< As the protocol allows.
+  /// Including sign, point and exponent, for servers that refuse longer numbers.
+  kSixteenCharacters,
 };
 
 /// Writes a number for the wire: the shortest text that reads back to the same double, at most 16
 /// digits as the protocol allows ("-0.25", "300", "1e-10"). A double that needs 17 digits is
-/// rounded; positions on the grid of 1e-10 mm and directions on that of 1e-15 never do (grid.h).
-/// With kSixteenCharacters longer texts are rounded, directions to some 1e-13.
+/// rounded; positions on the grid of 1e-10 mm and directions on that of 1e-15 never need it
+/// (grid.h). With kSixteenCharacters longer texts are rounded, directions to about 1e-13.
 /// @pre `value` is finite.
 [[nodiscard]] std::string wire_number(double value, NumberForm form = NumberForm::kSixteenDigits);
 

@@ -56,7 +56,7 @@ std::optional<ErrorReport> read_error(std::string_view text) {
   if (!severity || !number) return std::nullopt;
   ErrorReport out{*severity, *number, {}, {}};
   text = trim(text);
-  std::size_t cut = text.rfind(',');  // of an unquoted text
+  std::size_t cut = text.rfind(',');  // for an unquoted text
   if (text.size() >= 2 && text.ends_with('"')) {
     const std::size_t quote = text.rfind('"', text.size() - 2);
     cut = quote == std::string_view::npos || quote == 0 ? std::string_view::npos

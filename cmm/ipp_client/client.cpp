@@ -41,7 +41,7 @@ IppMachine::IppMachine(Connect connect, IppMachineOptions options)
 core::Result<std::unique_ptr<IppMachine>> IppMachine::open(Connect connect,
                                                            const IppMachineOptions& options) {
   std::unique_ptr<IppMachine> out(new IppMachine(std::move(connect), options));
-  // Whatever the error of the machine, no command of the plan has been sent yet.
+  // For any error of the machine, no command of the plan has been sent yet.
   if (auto connected = out->connect(); !connected) {
     return core::machine_fault(connected.error().what);
   }
@@ -128,7 +128,7 @@ core::Result<MachineStatus> IppMachine::status() {
   out.fault = dialogue_->fault();
   out.homed = homed_;
   if (!dialogue_->session().usable()) out.fault = "the connection is lost";
-  if (!out.fault.empty()) return out;  // a server in its error state answers nothing else
+  if (!out.fault.empty()) return out;  // a server in its error state answers no other request
   const auto homed = dialogue_->is_homed();
   if (!homed) return core::fail(homed.error());
   out.homed = homed_ = *homed;
@@ -268,7 +268,7 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
   const auto reply = run("PtMeas", std::move(items), command.approach_mm + command.search_mm,
                          fmt::format("the touch at {}", in_words(command.expected_tip_W_mm)));
   if (!reply) {
-    // The way back is free along the line that was just searched.
+    // The return path is free along the line that was just searched.
     const bool goes_back = reply.error().code == core::Code::kNoTouch;
     if (goes_back) {
       if (auto back = go_to(start); !back) return core::fail(back.error());

@@ -22,17 +22,18 @@ namespace rondure::cmm {
 
 /// Settings of a machine that is reached over I++ DME, and the peculiarities of its server.
 struct IppMachineOptions {
-  std::string tool;  ///< Selected when the machine is homed; "": the active tool is kept.
+  std::string tool;  ///< Selected when the machine is homed; "": keep the active tool.
   Eigen::Vector3d park_W_mm = {0.0, 0.0, 500.0};
   Speeds speeds;
-  std::chrono::milliseconds answer_limit{5000};    ///< For & and for commands that move nothing.
+  std::chrono::milliseconds answer_limit{5000};    ///< For & and for commands without motion.
   std::chrono::milliseconds motion_limit{120000};  ///< For one motion, homing and tool change.
   bool abort_works = true;          ///< false: a server whose AbortE is broken; see session.h.
-  bool returns_to_approach = true;  ///< false: a server that refuses a negative Retract.
+  bool returns_to_approach = true;  ///< false: the server refuses a negative Retract.
   ipp::NamedPoint point = ipp::NamedPoint::kSurface;
   ipp::NumberForm numbers = ipp::NumberForm::kSixteenDigits;
-  double tip_radius_mm = 0.0;            ///< Nominal, from the plan; 0: any tool is accepted.
-  double tip_tolerance_mm = 0.1;         ///< Largest difference of the machine's tool from it.
+  double tip_radius_mm = 0.0;  ///< Nominal radius from the plan; 0: any tool is accepted.
+  /// Largest difference of the tip radius of the machine's tool from `tip_radius_mm`.
+  double tip_tolerance_mm = 0.1;
   std::function<bool()> stop_requested;  ///< Polled 50 times a second during a motion.
 };
 
@@ -46,17 +47,17 @@ struct IppMachineOptions {
 /// sends AbortE on the fast queue.
 ///
 /// The first touch of a connection shows whether the server means the same point: a negative
-/// Retract brings the tip back to the start of the search, which is one tip radius off if it does
-/// not. Before that no touch is made that could collide under either reading. A contradiction is
-/// kMeaning. A server that refuses a negative Retract gives no such evidence: then PtMeas stays
-/// slow.
+/// Retract returns the tip to the start of the search, or, if the server means the other point, to
+/// a position one tip radius off. Before that, no touch is made that could collide under either
+/// reading. A contradiction is kMeaning. A server that refuses a negative Retract gives no such
+/// evidence: PtMeas then stays slow.
 ///
 /// An answer that cannot belong to its command (touch_check.h) is kMachine and blocks every motion
 /// until recover().
 ///
 /// Unsolicited reports of the server and those of daemons are never taken for an answer. An error
-/// that only refuses a command is cleared; any other one (emergency stop, collision, fault of a
-/// drive) blocks every motion until recover(). When the connection is lost every command is
+/// that only refuses a command is cleared; any other error (emergency stop, collision, fault of a
+/// drive) blocks every motion until recover(). After the connection is lost, every command is
 /// kMachine; recover() connects again.
 ///
 /// time_s() is the time since the connection was opened, unless the server reports its own time
@@ -64,12 +65,12 @@ struct IppMachineOptions {
 /// the server does not report are absent; see knows_temperature().
 class IppMachine final : public Machine {
  public:
-  /// Makes the connection; recover() calls it again after a loss.
+  /// Opens the connection; recover() calls it again after a loss.
   using Connect = std::function<core::Result<std::unique_ptr<wire::LineTransport>>()>;
 
   /// Connects, opens a session and identifies the server. Nothing moves.
-  /// @return  kMachine when there is no answer, or not that of an I++ DME 1.x or 2.x machine, or
-  ///          when the machine reports a fault.
+  /// @return  kMachine when there is no answer, when it is not from an I++ DME 1.x or 2.x machine,
+  ///     or when the machine reports a fault.
   [[nodiscard]] static core::Result<std::unique_ptr<IppMachine>> open(
       Connect connect, const IppMachineOptions& options);
 
@@ -124,10 +125,10 @@ class IppMachine final : public Machine {
   [[nodiscard]] core::Result<void> check_named(const std::string& tool) const;
   /// Checks that the machine has a tool, with the expected tip.
   [[nodiscard]] core::Result<void> check_tool();
-  /// Reads the radius the machine works with; that of the plan if it reports none.
+  /// Reads the tip radius that the machine uses; the radius from the plan if it reports none.
   [[nodiscard]] core::Result<void> read_tool_radius();
-  /// Sends the number of the next touch to a simulator, so that other touches do not shift the
-  /// noise.
+  /// Sends the number of the next touch to a simulator, so that touches of other programs do not
+  /// shift its noise.
   [[nodiscard]] core::Result<void> number_touch(std::int64_t id);
   [[nodiscard]] core::Result<void> send_speeds();
   [[nodiscard]] core::Result<void> read_speed_limits();
@@ -139,21 +140,22 @@ class IppMachine final : public Machine {
                                                      const std::string& doing);
   [[nodiscard]] core::Result<void> go_to(const Eigen::Vector3d& tip_W_mm);
   [[nodiscard]] core::Result<void> set_touch_distances(const TouchCommand& command);
-  // The point that the server means: point.cpp.
-  /// The point to send for a tip centre.
+  // Conversion between tip centre and the point that the server means: point.cpp.
+  // The point to send for a tip centre.
   [[nodiscard]] Eigen::Vector3d named_point(const Eigen::Vector3d& tip_W_mm,
                                             const Eigen::Vector3d& direction_W) const;
-  /// Whether a tip could be damaged if the server means the other point. Not on a simulator, which
-  /// has no real tip and whose clock is to show the time of the planned path.
+  /// Whether a tip could be damaged if the server means the other point. False for a simulator,
+  /// which has no real tip and whose clock must show the time of the planned path.
   [[nodiscard]] bool is_cautious() const { return !point_known_ && !identity_.simulated; }
   /// The touch with distances that are safe under either reading.
   [[nodiscard]] TouchCommand for_either_reading(const TouchCommand& command) const;
-  /// Distance over which the tip has just moved straight along the line of the touch; it is free of
-  /// obstacles.
+  /// Distance over which the tip has just moved straight along the line of the touch, and which is
+  /// therefore free of obstacles.
   [[nodiscard]] double came_along_mm(const TouchCommand& command) const;
-  /// Limits the speed of PtMeas' own approach to the touch speed, or restores it.
+  /// Limits the approach speed of PtMeas to the touch speed, or restores it.
   [[nodiscard]] core::Result<void> slow_down(bool slow);
-  /// Checks where the tip returned to after `sent`, the touch `command` with other distances.
+  /// Checks the position to which the tip returned after `sent`, which is `command` with other
+  /// distances.
   [[nodiscard]] core::Result<void> check_point(const TouchCommand& command,
                                                const TouchCommand& sent);
   /// Adds advice to the error of a touch that failed while the point was not yet known.
@@ -164,7 +166,7 @@ class IppMachine final : public Machine {
   [[nodiscard]] core::Result<void> check_point_of(const ipp::client::PointReport& point,
                                                   const TouchCommand& command) const;
   /// Blocks every motion after an answer that does not belong to its command, because the position
-  /// of the tip is unknown. Returns the error.
+  /// of the tip is then unknown. Returns the error.
   [[nodiscard]] core::Error distrust(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<TouchReading>> readings_of(
       const ipp::client::Reply& reply, const ScanCircleCommand& command);

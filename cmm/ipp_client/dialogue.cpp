@@ -18,7 +18,7 @@ constexpr auto kPointReport = std::to_array<std::string_view>(
     {"X", "Y", "Z", "ER", "Part.Temperature", "Scale.Temperature", "Time"});
 constexpr auto kReportLengths = std::to_array<std::size_t>({7, 4, 3});
 
-/// All items of a reply, those inside a call too.
+/// All items of a reply, including those inside a call.
 void collect(std::span<const Item> items, std::vector<const Item*>& out) {
   for (const Item& item : items) {
     out.push_back(&item);
@@ -56,13 +56,13 @@ std::string fault_text(const Reply& reply) {
 constexpr double kFirstWithTemperatures = 1.5;
 
 /// Whether the answer to the first command reports more than an error state or session left by an
-/// earlier client: a person has to correct it before a session is started.
+/// earlier client: a person must then act before a session starts.
 bool waits_for_a_person(const ErrorReport& report) {
   return report.severity > kErrorState && report.number != kUseClearAllErrors &&
          !is_refusal(report);
 }
 
-/// Adds the earlier message of the machine to a failure, so that neither hides the other.
+/// Adds the earlier message of the machine to a failure, so that both are shown.
 Failure with_earlier(Failure failure, const std::string& said) {
   if (!said.empty()) failure.what += fmt::format("; before that the machine said {}", said);
   return failure;
@@ -183,7 +183,7 @@ core::Result<void> Dialogue::clear() {
 
 core::Result<void> Dialogue::fresh_session() {
   constexpr std::string_view kDoing = "opening a session";
-  // A session that was not ended may still exist; a server in its error state refuses EndSession.
+  // A session that was not ended may still exist; a server in its error state refuses EndSession().
   auto ended = session_.call("EndSession", {}, limit_);
   std::string said;
   if (!ended && ended.error().kind == Failure::Kind::kServer) {

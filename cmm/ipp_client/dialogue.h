@@ -24,26 +24,26 @@ namespace rondure::cmm::ipp::client {
 struct Identity {
   std::string version;             ///< "1.4"; "before 1.4" when the server cannot report it.
   std::string machine_class;       ///< "CartCMMWithRotaryTable"; "" when not reported.
-  std::vector<std::string> tools;  ///< Without the reserved names that measure nothing.
-  bool scans = false;              ///< It takes a scan report.
-  std::string no_scans;            ///< Why not.
-  bool has_temperatures = false;   ///< It may report those of part and scales.
+  std::vector<std::string> tools;  ///< Without the reserved names that cannot measure.
+  bool scans = false;              ///< The server accepts a scan report.
+  std::string no_scans;            ///< Why it cannot scan.
+  bool has_temperatures = false;   ///< The server may report temperatures of part and scales.
   bool tells_time = false;         ///< Points are reported with temperature and machine time.
-  bool simulated = false;          ///< It is rondure simulate-cmm.
+  bool simulated = false;          ///< The server is rondure simulate-cmm.
 };
 
 /// Values reported with a probed point.
 struct PointReport {
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();
-  std::optional<double> tip_radius_mm;      ///< ER.
-  std::optional<Eigen::Vector3d> normal_W;  ///< IJK, if the server reports it without a request.
-  std::optional<double> temperature_degC;   ///< Of the part.
-  std::optional<double> scale_temperature_degC;  ///< Of the scales of the machine.
+  std::optional<double> tip_radius_mm;           ///< ER.
+  std::optional<Eigen::Vector3d> normal_W;       ///< IJK, if the server reports it unasked.
+  std::optional<double> temperature_degC;        ///< Part temperature.
+  std::optional<double> scale_temperature_degC;  ///< Temperature of the machine scales.
   std::optional<double> time_s;
 };
 
-/// Finds a value of the reply by name, in any place: servers change the order, spread values over
-/// several lines, and put them inside the name of a method.
+/// Finds a value of the reply by name, in any position: servers change the order, spread values
+/// over several lines, and put them inside the name of a method.
 [[nodiscard]] const Item* find_value(const Reply& reply, std::string_view name);
 [[nodiscard]] std::optional<double> find_number(const Reply& reply, std::string_view name);
 /// X, Y and Z.
@@ -53,27 +53,27 @@ struct PointReport {
 /// All bare numbers in groups of three, as reported by a scan with X(),Y(),Z().
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_points(const Reply& reply);
 
-/// The requests of a client in values instead of lines. Errors that are mere refusals are cleared
-/// at once (is_refusal()); any other one leaves the server in its error state and is kept as
-/// fault() until clear().
+/// The requests of a client, as values instead of lines. Errors that only refuse a request are
+/// cleared at once (is_refusal()); any other error leaves the server in its error state and is kept
+/// as fault() until clear().
 class Dialogue {
  public:
   using Milliseconds = std::chrono::milliseconds;
 
   Dialogue(std::unique_ptr<wire::LineTransport> line, const SessionOptions& options,
            Milliseconds limit);
-  ~Dialogue();  ///< Ends the session with EndSession() if the line still works.
+  ~Dialogue();  ///< Ends the session with EndSession() if the connection still works.
   Dialogue(const Dialogue&) = delete;
   Dialogue& operator=(const Dialogue&) = delete;
 
   /// Starts a new session, identifies the server, keeps the machine frame active and sets the
-  /// contents of reports. kMachine when the server speaks another language or version, or reports a
+  /// contents of reports. kMachine when the server uses another language or version, or reports a
   /// fault.
   [[nodiscard]] core::Result<Identity> start();
 
   /// One command with its answer.
   [[nodiscard]] Outcome<Reply> ask(std::string_view method, std::vector<Item> arguments = {});
-  /// As ask(), for a motion: with its own time limit; a requested stop ends it.
+  /// ask() for a motion, with its own time limit; a requested stop ends it.
   [[nodiscard]] Outcome<Reply> move(std::string_view method, std::vector<Item> arguments,
                                     Milliseconds limit);
   /// As ask(); nothing when the server does not know the command, argument or property, or knows it
@@ -92,7 +92,7 @@ class Dialogue {
   /// Whether the active tool may have a property or block of properties; false when the server
   /// lists its properties and this one is missing. Avoids requests that the server would refuse.
   [[nodiscard]] core::Result<bool> tool_may_have(std::string_view name);
-  /// After a tool change the properties have the defaults of the tool and may be others.
+  /// After a tool change the properties have the defaults of the tool and must be read again.
   void forget_properties() {
     known_.clear();
     tool_list_.reset();
@@ -100,12 +100,12 @@ class Dialogue {
 
   [[nodiscard]] core::Result<PointReport> point_of(const Reply& reply) const;
 
-  /// The fault that the machine reports; "" when there is none.
+  /// The fault reported by the machine; "" when there is none.
   [[nodiscard]] const std::string& fault() const { return fault_; }
   /// Blocks every motion until clear().
   void hold(std::string why) { fault_ = std::move(why); }
-  /// Clears errors with ClearAllErrors(). kMachine, with the message of the machine, when one
-  /// stays.
+  /// Clears errors with ClearAllErrors(). kMachine, with the message of the machine, when an error
+  /// remains.
   [[nodiscard]] core::Result<void> clear();
   [[nodiscard]] Session& session() { return session_; }
   [[nodiscard]] const Session& session() const { return session_; }

@@ -10,7 +10,7 @@
 #include "cmm/grid.h"
 #include "cmm/touch_check.h"
 
-// The point that PtMeas means: as stated in the plan, and as shown by the first touch of a
+// The point that PtMeas means: as stated in the plan, and as verified by the first touch of a
 // connection.
 
 namespace rondure::cmm {
@@ -19,8 +19,8 @@ namespace {
 using Eigen::Vector3d;
 using ipp::NamedPoint;
 
-constexpr double kOnLine_mm = 1e-3;       // beside the line of a touch, but still on it
-constexpr double kOfRadius = 0.25;        // share of the tip radius that separates the readings
+constexpr double kOnLine_mm = 1e-3;  // off the line of a touch by less than this counts as on it
+constexpr double kOfRadius = 0.25;   // fraction of the tip radius that distinguishes the readings
 constexpr double kStillAtStart_mm = 0.1;  // positioning of a real machine
 
 std::string_view in_plan(NamedPoint point) {
@@ -43,11 +43,11 @@ double IppMachine::came_along_mm(const TouchCommand& command) const {
 }
 
 // Let A be the start of the planned search and -Q its end, measured outwards from the expected tip
-// centre, and r the tip radius. A server that takes the other point searches r deeper (surface
-// meant, centre taken) or r higher. If the tip has just moved in along this line, both searches may
-// begin at A or A + r, so the approach grows by r where the surface is meant. Otherwise no space is
-// known to be free: the tip moves to the other start at touch speed, at which a contact does no
-// harm. Where the centre is meant the search grows by r, so that both readings reach -Q.
+// centre, and r the tip radius. A server that means the other point searches r deeper (surface
+// meant, centre assumed) or r higher. If the tip has just moved in along this line, both searches
+// may begin at A or A + r, so the approach grows by r where the surface is meant. Otherwise no
+// space is known to be free: the tip moves to the other start at touch speed, at which a contact
+// does no harm. Where the centre is meant the search grows by r, so that both readings reach -Q.
 TouchCommand IppMachine::for_either_reading(const TouchCommand& command) const {
   TouchCommand out = command;
   if (!options_.returns_to_approach) return out;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kLastTag = 99'999;
 constexpr int kLastEventTag = 9'999;
 constexpr std::chrono::milliseconds kLook(20);       // between two polls for a stop
-constexpr std::chrono::milliseconds kGoodbye(1000);  // for AbortE on a line that is given up
+constexpr std::chrono::milliseconds kGoodbye(1000);  // for AbortE on a connection that is given up
 constexpr std::size_t kMaxReply_bytes = std::size_t{64} << 20;  // a scan of 100 000 points has 6 MB
 constexpr std::size_t kShown = 80;                              // characters of a line, in messages
 
@@ -203,7 +203,8 @@ tl::unexpected<Failure> Session::break_off(std::string what) {
     });
     if (may_move && options_.abort_works && line_->is_open() &&
         line_->write_line(to_line({next_tag(true), "AbortE", {}}))) {
-      const auto deadline = Clock::now() + kGoodbye;  // the server reads it before the line closes
+      // the server reads it before the connection closes
+      const auto deadline = Clock::now() + kGoodbye;
       const std::string end = complete_line({true, last_event_tag_});
       for (;;) {
         const auto left = std::chrono::duration_cast<Milliseconds>(deadline - Clock::now());

@@ -26,14 +26,14 @@ struct Reply {
 /// Why a transaction failed.
 struct Failure {
   enum class Kind {
-    kLine,     ///< The line is lost, silent, or carries another protocol: every later call fails.
-    kServer,   ///< The server reported an error of severity 2 or more (`report`).
-    kStopped,  ///< Stopped by this client with AbortE: ClearAllErrors() comes next.
+    kLine,    ///< The connection is lost, silent, or uses another protocol: every later call fails.
+    kServer,  ///< The server reported an error of severity 2 or more (`report`).
+    kStopped,  ///< Stopped by this client with AbortE: ClearAllErrors() must follow.
   };
 
   Kind kind = Kind::kLine;
   std::string what;    ///< For the user; includes the message of the machine.
-  ErrorReport report;  ///< For kServer the first such report.
+  ErrorReport report;  ///< For kServer, the first such report.
 };
 
 template <class T>
@@ -51,17 +51,17 @@ struct SessionOptions {
 /// One command is in flight at a time (begin() and finish() allow more). Lines of daemons, of
 /// unsolicited events (E0000) and with tags of old commands are never taken for an answer. An
 /// unsolicited error of severity 2 or more fails the command in progress, or the next one, whatever
-/// its answer; a motion is ended by AbortE. The end of AbortE ends every older command, whether the
-/// server says so or not. A line that is not an answer of I++ DME, a late answer and a lost
-/// connection end the session: motions are stopped by AbortE if the line still works, and every
-/// later call gives the same failure. Source: I++ DME 1.4.3, transactions; docs/ipp-dme.md
+/// its answer; a motion is ended by AbortE. The end of AbortE ends every older command, even if the
+/// server does not report that. A line that is not an I++ DME answer, a late answer and a lost
+/// connection end the session: motions are stopped by AbortE if the connection still works, and
+/// every later call gives the same failure. Source: I++ DME 1.4.3, transactions; docs/ipp-dme.md
 /// describes the behaviour of real servers.
 ///
 /// Not for use by two threads at once.
 class Session {
  public:
   using Milliseconds = std::chrono::milliseconds;
-  /// Whether a stop request ends a command: motions only.
+  /// Whether a stop request ends the command; for motions only.
   enum class Watch { kNothing, kStop };
 
   explicit Session(std::unique_ptr<wire::LineTransport> line, const SessionOptions& options = {});
@@ -70,7 +70,7 @@ class Session {
   void ask_for_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
 
   /// Sends a command and waits for its end.
-  /// @param limit  For the whole transaction.
+  /// @param limit  Time limit for the whole transaction.
   [[nodiscard]] Outcome<Reply> call(std::string_view method, std::vector<Item> arguments,
                                     Milliseconds limit, Watch watch = Watch::kNothing);
   /// As call(), on the fast queue with an event tag: GetErrStatusE, OnMoveReportE.
@@ -79,7 +79,7 @@ class Session {
 
   /// Sends a command and waits only for its &.
   [[nodiscard]] Outcome<Tag> begin(std::string_view method, std::vector<Item> arguments);
-  /// Waits for the end of a command that was begun.
+  /// Waits for the end of a command sent by begin().
   [[nodiscard]] Outcome<Reply> finish(const Tag& tag, Milliseconds limit,
                                       Watch watch = Watch::kNothing);
   /// Stops all motion: sends AbortE and waits for its end. Older commands end as kStopped.
@@ -124,7 +124,7 @@ class Session {
   int last_event_tag_ = 0;
   std::string broken_;       ///< Why the session ended; "" while it is open.
   std::string unsolicited_;  ///< The last E0000 error.
-  /// The first of severity 2 or more that has not failed a command.
+  /// The first error of severity 2 or more that has not failed a command.
   std::optional<ErrorReport> severe_;
   std::string heard_;  ///< Start of the last valid I++ DME line.
 };

@@ -129,7 +129,7 @@ class Surveyor {
       const auto words = words_of(*id);
       out_.simulated = !words.empty() && words.front() == kSimulatorId;
     }
-    // An older server is not asked by a run either: it would refuse the names.
+    // A run does not ask an older server either: it would refuse the names.
     has_temperatures_ = out_.simulated || std::strtod(out_.version.c_str(), nullptr) >= 1.5;
   }
 
@@ -183,7 +183,7 @@ class Surveyor {
     if (const auto sensors = ask("GetTemperatureSensors")) out_.sensors = words_of(*sensors);
   }
 
-  /// Finds the values that reports may hold; EndSession restores the previous choice.
+  /// Finds the possible values of reports; EndSession restores the previous choice.
   void ask_reports() {
     const std::vector<Item> place = {call_item("X"), call_item("Y"), call_item("Z")};
     if (ask("OnPtMeasReport", place)) out_.point_values = {"X", "Y", "Z"};
@@ -200,7 +200,7 @@ class Surveyor {
   Session session_;
   std::chrono::milliseconds limit_;
   Survey out_;
-  bool has_temperatures_ = false;  ///< And the time, with points: since issue 1.5.
+  bool has_temperatures_ = false;  ///< Also the time, with points: since issue 1.5.
   std::string lost_;               ///< Why no further answers arrive.
 };
 

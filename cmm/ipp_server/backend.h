@@ -39,7 +39,7 @@ class Backend {
 
   // Restore the state of a simulation after an interrupted run. Not part of I++ DME.
 
-  /// Selects the feature of the part to measure, from 0; kOutOfRange when there are fewer.
+  /// Selects the feature of the part to measure, from 0; kOutOfRange beyond the last one.
   [[nodiscard]] virtual core::Result<void> choose_feature(int index) = 0;
   /// Sets the number of the next turn of the table since homing, counted from 1.
   virtual void set_next_turn(std::uint64_t number) = 0;

@@ -105,7 +105,7 @@ void Server::receive_event(const Waiting& waiting, double now_s) {
   const Command& command = waiting.command;
   say(ack_line(waiting.tag));
   const auto closed = gate(command);
-  // A stop must get through, whatever failed before.
+  // A stop must get through, regardless of earlier errors.
   const bool stops = command.method == "AbortE" && session_;
   if (closed && !stops) return conclude(waiting, tl::unexpected(*closed));
   if (command.method == "GetPropE") return conclude(waiting, controller_.execute(command));

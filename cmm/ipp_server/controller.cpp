@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 5> kMotions = {"Home", "GoTo", "PtMeas", 
 constexpr std::array<std::string_view, 9> kOfServer = {
     "StartSession",    "EndSession",    "AbortE",     "ClearAllErrors", "GetErrStatusE",
     "GetXtdErrStatus", "OnMoveReportE", "StopDaemon", "StopAllDaemons"};
-constexpr double kMaxOrigin_mm = 1e6;  // of a coordinate system
+constexpr double kMaxOrigin_mm = 1e6;  // limit for a coordinate system
 
 double as_number(bool value) { return value ? 1.0 : 0.0; }
 
@@ -162,7 +162,7 @@ Outcome Controller::take_hint(const Arguments& arguments) {
     return item.kind == Item::Kind::kNumber;
   });
   if (arguments.size() != 2 || !numbers) return wrong_arguments("(displacement, form)");
-  return Reply{};  // the simulated scan follows any form without being told
+  return Reply{};  // the simulated scan follows any form without such hints
 }
 
 Outcome Controller::set_coord_system(const Arguments& arguments) {

@@ -26,9 +26,10 @@ struct CsyTransformation {
   double phi_deg = 0.0;
 };
 
-/// Maps the machine frame to the system: turn about z by psi, the new x by theta, the new z by phi,
-/// x_csy = R (x_machine - x0). This follows the chapter on machines, and VDMA 8722; the description
-/// of the command in 1.4.3 has x_csy = R x_machine + x0, and servers follow either.
+/// Maps the machine frame to the system: rotation about z by psi, about the new x by theta, about
+/// the new z by phi, x_csy = R (x_machine - x0). This follows the chapter on machines, and VDMA
+/// 8722; the description of the command in 1.4.3 has x_csy = R x_machine + x0, and servers use one
+/// or the other.
 [[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation);
 
 /// Settings of a server that the machine does not report itself.
@@ -37,16 +38,16 @@ struct ControllerOptions {
   NamedPoint point = NamedPoint::kSurface;
   NumberForm numbers = NumberForm::kSixteenDigits;
   double tip_radius_mm = 2.0;      ///< Tool.AvrRadius().
-  double temperature_degC = 20.0;  ///< Of the part, until the first touch has measured it.
+  double temperature_degC = 20.0;  ///< Part temperature, until the first touch has measured it.
   std::string version = "1.4";     ///< GetDMEVersion().
 };
 
 /// A part of a motion.
 struct Phase {
-  /// A straight move of the tip, made at the end of its time: until then it can be stopped
-  /// anywhere.
+  /// A straight move, made at the end of its time: until then it can be stopped anywhere.
   std::function<Eigen::Vector3d()> target_W_mm;
-  /// Any other action: done at once, then its time passes. Returns the corners of the tip's path.
+  /// Any other action: executed at once, then its time passes. Returns the corners of the tip's
+  /// path.
   std::function<core::Result<std::vector<Eigen::Vector3d>>()> act;
 };
 
@@ -130,7 +131,7 @@ class Controller {
   tl::expected<Motion, Failure> plan_touch(const Arguments& arguments);
   tl::expected<Motion, Failure> plan_scan(const Arguments& arguments);
   tl::expected<Motion, Failure> plan_align(const Arguments& arguments);
-  /// The tip centre in contact for the point in a command.
+  /// The tip centre in contact for the point given in a command.
   [[nodiscard]] Eigen::Vector3d tip_at(const Eigen::Vector3d& named_W_mm,
                                        const Eigen::Vector3d& direction_W) const;
   Motion touch_motion(const TouchCommand& touch);
@@ -144,7 +145,7 @@ class Controller {
                                   const std::vector<double>& limits_deg,
                                   const std::vector<Eigen::Vector3d>& reached) const;
   [[nodiscard]] Reply scan_reply(const std::vector<TouchReading>& readings) const;
-  /// (X(..), Y(..), Z(..)) in the active system; a missing value keeps the present position.
+  /// (X(..), Y(..), Z(..)) in the active system; a missing value keeps the current position.
   tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
                                                            bool direction_allowed);
   [[nodiscard]] tl::expected<void, Failure> ready_to_move();

@@ -13,7 +13,7 @@
 #include "cmm/touch_check.h"
 #include "core/units.h"
 
-// Commands with motion: they become phases of a motion.
+// Commands with motion, which become phases of a motion.
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -145,7 +145,8 @@ tl::expected<Motion, Failure> Controller::plan_touch(const Arguments& arguments)
 
 Vector3d Controller::tip_at(const Vector3d& named_W_mm, const Vector3d& direction_W) const {
   if (options_.point == NamedPoint::kCenter) return named_W_mm;
-  // On the grid, so that a client that started from a tip centre there gets its bits back.
+  // On the grid, so that a client that started from a tip centre on the grid gets the same bits
+  // back.
   return on_grid_mm(named_W_mm - options_.tip_radius_mm * direction_W);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kNumbersInALine = 400;  // of a scan: some 8000 characters
+constexpr std::size_t kNumbersInALine = 400;  // numbers of a scan per line: some 8000 characters
 constexpr std::array<std::string_view, 9> kTouchValues = {
     "X", "Y", "Z", "IJK", "ER", "Q", "Part.Temperature", "Scale.Temperature", "Time"};
 constexpr std::array<std::string_view, 5> kScanValues = {"X", "Y", "Z", "ER", "Q"};

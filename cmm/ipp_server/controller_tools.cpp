@@ -16,7 +16,7 @@ constexpr std::string_view kNoTool = "NoTool";
 constexpr std::string_view kTool = "Tool.";
 constexpr std::string_view kFoundTool = "FoundTool.";
 constexpr std::string_view kSimulation = "Simulation.";
-constexpr double kLargestCount = 9e15;  // a double holds every whole number up to here
+constexpr double kLargestCount = 9e15;  // a double holds every whole number up to this value
 
 struct PropertyName {
   std::string_view name;
@@ -36,7 +36,7 @@ bool is_count(double value) {
   return value >= 0.0 && value <= kLargestCount && value == std::floor(value);
 }
 
-/// All properties with their types, the parameters of the tool among them.
+/// All properties with their types, including the parameters of the tool.
 std::vector<std::pair<std::string, std::string>> property_list(const ToolParameters& parameters) {
   std::vector<std::pair<std::string, std::string>> out;
   for (const PropertyName& property : kProperties) out.emplace_back(property.name, property.type);
@@ -48,7 +48,7 @@ std::vector<Item> pair_of_strings(std::string_view a, std::string_view b) {
   return {string_item(a), string_item(b)};
 }
 
-/// "Tool.PtMeasPar." of the argument Tool.PtMeasPar().
+/// "Tool.PtMeasPar." for the argument Tool.PtMeasPar().
 std::optional<std::string> prefix_of(const Arguments& arguments) {
   if (arguments.size() != 1 || arguments[0].kind != Item::Kind::kCall) return std::nullopt;
   if (!arguments[0].arguments.empty()) return std::nullopt;

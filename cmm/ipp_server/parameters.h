@@ -11,10 +11,10 @@ namespace rondure::cmm::ipp {
 
 /// Values of the parameters of a tool after every tool change.
 struct ParameterDefaults {
-  Speeds speeds;  ///< Of travel (GoToPar), of touches (PtMeasPar), of scans (ScanPar).
+  Speeds speeds;  ///< Speeds of travel (GoToPar), of touches (PtMeasPar), of scans (ScanPar).
   double approach_mm = 3.0;
   double search_mm = 3.0;
-  double retract_mm = -1.0;  ///< Negative: back to where the search started.
+  double retract_mm = -1.0;  ///< Negative: back to the start of the search.
 };
 
 /// The blocks GoToPar, PtMeasPar and ScanPar of the active tool: each parameter with the values
@@ -35,7 +35,7 @@ class ToolParameters {
 
   [[nodiscard]] Speeds speeds() const;
   [[nodiscard]] double act(std::string_view name) const { return get(name).value_or(0.0); }
-  /// All names, as "PtMeasPar.Speed".
+  /// All names, e.g. "PtMeasPar.Speed".
   [[nodiscard]] std::vector<std::string> names() const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kEchoLength = 512;  // of a command in an error report
+constexpr std::size_t kEchoLength = 512;  // characters of a command in an error report
 
 std::string echo_of(std::string_view line) { return std::string(line.substr(0, kEchoLength)); }
 
@@ -213,7 +213,7 @@ void Server::stop_running(double now_s) {
   if (!running_) return;
   const Phase& phase = running_->motion.phases[running_->phase];
   if (phase.target_W_mm) {
-    // The tip has come here on a straight line; a collision on it stops it earlier.
+    // The tip has come here on a straight line; a collision on that line stops it earlier.
     [[maybe_unused]] const auto stopped = controller_.machine().move_to(tip_now_W_mm(now_s));
   }
   running_.reset();

@@ -28,7 +28,7 @@ struct ServerOptions {
 /// A command is acknowledged at once and waits for the commands before it; event commands are
 /// executed at once. A straight move is made at the end of its time and can be stopped on its path
 /// (AbortE); a touch or scan is made when it starts, and its result is reported at the end of its
-/// time. An error of severity 2 or more closes the waiting commands with 0006.
+/// time. An error of severity 2 or more ends the waiting commands with 0006.
 ///
 /// Any input is accepted: only bad_alloc is thrown, and at most kMaxWaiting commands and
 /// kMaxDaemons daemons are stored.
@@ -41,9 +41,10 @@ class Server {
 
   /// Takes a line from the client. `now_s` is the time of any monotonic clock.
   void receive(const RawLine& line, double now_s);
-  /// Advances the motions; call it when the time of next_event_s() has come.
+  /// Advances the motions; call it at the time of next_event_s().
   void advance(double now_s);
-  /// The client has disconnected: motions are stopped, the session ends, no responses are sent.
+  /// Call when the client has disconnected: motions are stopped, the session ends, no responses are
+  /// sent.
   void disconnect(double now_s);
 
   /// Lines to send, in order.
@@ -71,7 +72,7 @@ class Server {
     std::optional<Failure> failure;    ///< Reported at the end of the time.
   };
 
-  /// OnMoveReportE.
+  /// A daemon started by OnMoveReportE.
   struct Daemon {
     Tag tag;
     double interval_s = std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ double now_s() {
   return std::chrono::duration<double>(since).count();
 }
 
-/// Time to wait for a line: until the server has something to do.
+/// Time to wait for a line: until the server's next event.
 milliseconds waits(const Server& server) {
   const auto next_s = server.next_event_s();
   if (!next_s) return kLook;
@@ -58,7 +58,7 @@ void send_away(wire::LineTransport& client, const std::string& why) {
   client.close();
 }
 
-/// Why the service of a client ended.
+/// Reason why the service of a client ended.
 struct Departure {
   std::string why;
   std::unique_ptr<wire::LineTransport> next;  ///< The client that takes its place; null: none yet.
@@ -78,7 +78,8 @@ Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client,
     looked_s = now_s();
     auto other = listener.accept(milliseconds(0));
     if (!other || *other == nullptr) continue;
-    // The first client may just have closed: its program ended, and the other is the next one.
+    // The first client may just have closed its connection because its program ended; the other is
+    // next.
     const auto there = serve_once(client, server);
     if (!there) return {there.error().what, std::move(*other)};
     if (*there) active_s = now_s();

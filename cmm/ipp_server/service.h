@@ -20,12 +20,12 @@ struct ServiceOptions {
   std::chrono::milliseconds silence_limit{60'000};
 };
 
-/// Serves one client after the other until a stop is requested. A second client is told who is
-/// connected and is disconnected, unless the first one exceeds the silence limit: then the first
-/// one is disconnected (a hung or halted program would otherwise keep its connection for ever).
-/// When a client leaves, motions are stopped and its session ends; the machine keeps its state for
-/// the next one.
-/// @return  kMachine when the port can no longer be listened to, kFile for the wire log.
+/// Serves one client after the other until a stop is requested. A second client receives a message
+/// that names the connected client, and is disconnected, unless the first one exceeds the silence
+/// limit: then the first one is disconnected (a hung or halted program would otherwise keep its
+/// connection for ever). When a client leaves, motions are stopped and its session ends; the
+/// machine keeps its state for the next one.
+/// @return  kMachine when listening on the port fails, kFile for the wire log.
 [[nodiscard]] core::Result<void> serve(wire::TcpListener& listener, Server& server,
                                        const ServiceOptions& options);
 

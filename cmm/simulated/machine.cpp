@@ -20,13 +20,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kTouchStream = 0x746f756368;  // separates the noise from other devices
+// separates the noise from that of other devices
+constexpr std::uint64_t kTouchStream = 0x746f756368;
 constexpr std::uint64_t kDustStream = 0x64757374;
 constexpr std::uint64_t kScanStream = 0x7363616e;
 constexpr std::size_t kLeastScanned = 3;
 constexpr double kGraze_mm = 1e-6;  // a move may overlap a surface by this much
 constexpr double kSettle_s = 0.2;
-constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm holds it with 15 digits
+constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm represents it with 15 digits
 constexpr Speeds kSlowest = {0.001, 0.001, 0.001};
 constexpr Speeds kFastest = {1000.0, 50.0, 500.0};
 
@@ -166,7 +167,7 @@ core::Result<void> SimulatedMachine::move_to(const Vector3d& target_W_mm) {
 
 core::Error SimulatedMachine::stop_before(const Obstacle& obstacle, const Vector3d& direction,
                                           const Vector3d& target_W_mm) {
-  // Stops 1e-6 mm before the contact, so that the tip is free to go back.
+  // Stops 1e-6 mm before the contact, so that the tip can move back.
   const double travel_mm = std::max(0.0, obstacle.travel_mm - kGraze_mm);
   position_W_mm_ = on_grid_mm(position_W_mm_ + travel_mm * direction);
   time_s_ += travel_mm / options_.speeds.travel_mm_s;
@@ -262,7 +263,7 @@ core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const Touch
     if (!contact) return core::fail(contact.error());
     return Found{start + contact->travel_mm * command.direction_W, !contact->is_sphere};
   }
-  // The errors bend a path of a few mm by less than 1e-9 mm: it stays a straight line.
+  // The errors bend a path of a few mm by less than 1e-9 mm: it is treated as a straight line.
   const Vector3d from = true_position(options_.errors, start, time_s);
   const Vector3d way =
       true_position(options_.errors, start + reach_mm * command.direction_W, time_s) - from;
@@ -342,7 +343,7 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
     readings.push_back(reading_at(found, points[i], scan_time_s(command, static_cast<int>(i))));
   }
   settle(command, readings.back());
-  // Full revolutions end where they began, to the last bit.
+  // Full revolutions end at their start, to the last bit.
   const bool full_turns = std::abs(std::remainder(command.sweep_rad, core::kTwoPi)) < 1e-9;
   if (!full_turns) position_W_mm_ = on_grid_mm(start_of(scan_point(command, command.points)));
   return readings;

@@ -27,7 +27,7 @@ struct SimulatedMachineOptions {
   Eigen::Vector3d park_W_mm = {0.0, 0.0, 500.0};
   Speeds speeds;
   double temperature_degC = 20.0;
-  std::string tool = "T1";         ///< The one tool it has.
+  std::string tool = "T1";         ///< Name of its only tool.
   MachineErrors errors;            ///< Hidden truth.
   PartErrors part_errors;          ///< Hidden truth.
   ScanScatter scan_scatter;        ///< Hidden truth.
@@ -57,13 +57,13 @@ struct SimulatedMachineOptions {
 /// lost every command is kMachine. home() goes straight up to the park height, then across.
 class SimulatedMachine final : public Machine {
  public:
-  /// The tip stands in the park position; nothing moves before home().
+  /// The tip is in the park position; nothing moves before home().
   explicit SimulatedMachine(const SimulatedMachineOptions& options);
 
   /// Puts a part on the table (X_WP maps its frame to the machine), or moves it there.
   void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
   void remove_part();
-  /// These are all the spheres on the table, in place of those that were there.
+  /// Replaces all spheres on the table.
   void place_spheres(std::vector<ReferenceSphere> spheres);
 
   [[nodiscard]] std::string description() const override;
@@ -115,7 +115,7 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] double tip_radius_mm() const;
   /// The part at its temperature, or nullptr.
   [[nodiscard]] const PartSurface* warm_part() const;
-  /// @param part  Null: only the reference spheres are there.
+  /// @param part  Null: there are only the reference spheres.
   [[nodiscard]] core::Result<Obstacle> first_obstacle(const PartSurface* part,
                                                       const Eigen::Vector3d& start_W_mm,
                                                       const Eigen::Vector3d& direction_W,
@@ -140,7 +140,7 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] double scan_time_s(const ScanCircleCommand& command, int index) const;
   /// Time from one point of a scan to the next.
   [[nodiscard]] double scan_step_s(const ScanCircleCommand& command) const;
-  /// Sets the clock to the end of a touch or scan, including the way back and the settling.
+  /// Sets the clock to the end of a touch or scan, including the return and the settling.
   void settle(const TouchCommand& command, const TouchReading& reading);
   void settle(const ScanCircleCommand& command, const TouchReading& last);
   /// Checks connection, stop and homing.

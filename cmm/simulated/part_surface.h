@@ -30,11 +30,11 @@ struct PartForm {
 ///   dr = height W(u) W(z),  W = 1 within the patch but for its flanks, 0 outside,
 /// u along the circumference at the nominal radius; the floor follows the surface.
 struct SurfaceMark {
-  double theta_rad = 0.0;  ///< Of its middle.
-  double z_mm = 0.0;       ///< Of its middle, from mid-length.
-  double width_mm = 0.0;   ///< Along the circumference, flanks included; > 0.
-  double length_mm = 0.0;  ///< Along the axis, flanks included; > 0.
-  double height_mm = 0.0;  ///< Toward the free side: a burr > 0, a keyway < 0.
+  double theta_rad = 0.0;  ///< Angle of the middle.
+  double z_mm = 0.0;       ///< Height of the middle, from mid-length.
+  double width_mm = 0.0;   ///< Width along the circumference, flanks included; > 0.
+  double length_mm = 0.0;  ///< Length along the axis, flanks included; > 0.
+  double height_mm = 0.0;  ///< Height toward the free side: a burr > 0, a keyway < 0.
   double flank_mm = 0.1;   ///< Width of each flank; > 0, at most half of width and length.
 };
 

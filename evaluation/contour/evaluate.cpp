@@ -58,7 +58,7 @@ fit::GaugeRows gauge_of(const record::Series& series) {
   return {scaled(series, "angle_deg", kDegree), scaled(series, "deviation_um", kMicrometre)};
 }
 
-/// The parts of a record, in order; as many as there are traces of axes.
+/// The parts of a record, in order; one for each axis trace.
 std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int index) {
   std::vector<fit::ContourPart> out;
   for (int i = 1;; ++i) {
@@ -86,7 +86,7 @@ std::vector<std::string> names_of(const ContourTask& task, std::size_t parts) {
   return out;
 }
 
-/// All parts together: greatest peak to valley of t.
+/// Greatest peak to valley of t over all parts.
 core::Result<AnalysisValue> deviation_value(const ContourResult& facts) {
   AnalysisValue out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
@@ -108,7 +108,7 @@ core::Result<AnalysisValue> spread_value(const ContourResult& facts) {
   return out;
 }
 
-/// The harmonic of any part that comes nearest to its limit, or goes farthest beyond.
+/// The harmonic of any part that is nearest to its limit, or farthest beyond it.
 core::Result<AnalysisValue> mask_value(const ContourResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;

@@ -10,16 +10,16 @@ namespace rondure::evaluation {
 
 struct FeatureResult;  // results/evaluation.h
 
-/// Everything found of a contour feature.
+/// All results for a contour feature.
 struct ContourResult {
   fit::ContourStudyOptions options;
   fit::ContourStudy study;
-  std::vector<std::string> names;  ///< One a part.
+  std::vector<std::string> names;  ///< One name per part.
 };
 
 /// Evaluates feature `index` of a record.
-/// @param result  With the feature; gets the warnings.
-/// @return  Why there is no result, where there is none.
+/// @param result  Holds the feature; receives the warnings.
+/// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<ContourResult> evaluate_contour(const record::RunRecord& record,
                                                            int index, FeatureResult& result);
 

@@ -17,7 +17,7 @@ tl::unexpected<core::Error> no_verdict(core::Phrase why) {
   return core::fail(core::Code::kMeaning, std::move(why));
 }
 
-/// Where a rule accepts and rejects, on the scale of the value it compares.
+/// Acceptance and rejection limits of a rule, on the scale of the compared value.
 struct Limits {
   double compared_mm = 0.0;
   double acceptance_mm = 0.0;
@@ -30,7 +30,7 @@ Verdict verdict_of(const Limits& limits) {
 }
 
 /// The greatest estimate at which the probability of conformance is at least `least`, found by
-/// moving the distribution.
+/// shifting the distribution.
 double limit_at(const UncertaintyStatement& known, const std::optional<Prior>& prior,
                 double tolerance_mm, double least) {
   const double span_mm = known.values_mm.back() - known.values_mm.front() + tolerance_mm;
@@ -39,7 +39,8 @@ double limit_at(const UncertaintyStatement& known, const std::optional<Prior>& p
   for (int i = 0; i < 40; ++i) {
     const double middle_mm = 0.5 * (low_mm + high_mm);
     const auto p = conformance(known, prior, middle_mm - known.estimate_mm, tolerance_mm);
-    // Without weight the prior says which side of it the distribution lies on.
+    // Where the prior gives the distribution no weight, the middle of the distribution decides on
+    // which side of the limit the part lies.
     const bool enough = p ? *p >= least : middle_mm < tolerance_mm;
     (enough ? low_mm : high_mm) = middle_mm;
   }
@@ -65,7 +66,7 @@ Limits limits_of(const DecisionRule& rule, const KnownValue& value, double toler
   return out;
 }
 
-/// A length in um, one digit beyond those that the uncertainty warrants.
+/// A length in um with one digit more than the uncertainty warrants.
 std::string in_digits(const KnownValue& value, double length_mm) {
   const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
   return fixed(micrometres(length_mm), decimals);
@@ -188,7 +189,8 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
   if (value.statement) {
     out.conformance_1 = conformance(*value.statement, rule.prior, 0.0, tolerance_mm);
   }
-  // JCGM 106 speaks of the probability itself; its limits are where that probability stands.
+  // JCGM 106 decides by the probability itself; the limits are the values where it reaches its
+  // bound.
   out.verdict = verdict_of(limits);
   if (rule.kind == DecisionRule::Kind::kJcgm106) {
     const double p = *out.conformance_1;

@@ -12,24 +12,24 @@
 
 namespace rondure::evaluation {
 
-/// What was known of the parts before this one was measured: the spread of their form deviation.
-/// Zero below 0 mm, where no form deviation is.
+/// Prior knowledge: the distribution of the form deviation of parts of this kind before
+/// measurement. Zero below 0 mm, because no form deviation is negative.
 struct Prior {
   using Kind = record::PriorTask::Distribution;
   Kind kind = Kind::kGamma;
-  double mean_mm = 0.0;                ///< > 0. Of the normal one before the cut.
-  double standard_deviation_mm = 0.0;  ///< > 0; of the gamma one at most the mean.
+  double mean_mm = 0.0;                ///< > 0. Mean of the normal distribution before truncation.
+  double standard_deviation_mm = 0.0;  ///< > 0; for kGamma at most the mean.
 
   /// Density at a value, up to a common factor.
   [[nodiscard]] double density(double value_mm) const;
 };
 
-/// How a value and its tolerance make a verdict. Form deviations have one limit T, the upper one.
+/// How a value and its tolerance give a verdict. Form deviations have one limit, the upper one, T.
 struct DecisionRule {
   using Kind = record::DecisionRuleTask::Rule;
   Kind kind = Kind::kSimpleAcceptance;
-  Measurand measurand = Measurand::kSampledPoints;  ///< What the verdict is about.
-  /// false: a value as read above the tolerance never conforms. true: by agreement of the parties
+  Measurand measurand = Measurand::kSampledPoints;  ///< Subject of the verdict.
+  /// false: a measured value above the tolerance never conforms. true: by agreement of the parties
   /// only the corrected value counts.
   bool judge_corrected = false;
   double guard_factor =
@@ -59,59 +59,59 @@ struct DecisionRule {
 
 [[nodiscard]] Measurand measurand_of(record::DecisionRuleTask::Measurand asked);
 
-/// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 says only
-/// its name. kMeaning for a rule this program does not know, and the errors of record::task_of():
-/// then every verdict is void.
+/// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 holds
+/// only its name. kMeaning for a rule, measurand, judged value or prior that this program does not
+/// know: every verdict is then void.
 [[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
 
-/// What is known of a value.
+/// A measured value with its uncertainty statement.
 struct KnownValue {
-  double measured_mm = 0.0;  ///< Of the points as read, not corrected.
+  double measured_mm = 0.0;  ///< Value of the points as read, not corrected.
   std::optional<UncertaintyStatement> statement = {};
 };
 
-/// Chances over all parts of the stated prior, with this measurement.
+/// Probabilities over all parts of the stated prior, for this measurement.
 struct GlobalRisks {
-  double false_acceptance_1 = 0.0;  ///< A part does not conform and is accepted.
-  double false_rejection_1 = 0.0;   ///< A part conforms and is rejected.
+  double false_acceptance_1 = 0.0;  ///< That a part does not conform and is accepted.
+  double false_rejection_1 = 0.0;   ///< That a part conforms and is rejected.
 };
 
-/// What a rule makes of a value.
+/// Result of applying a rule to a value.
 struct RuleOutcome {
   Verdict verdict = Verdict::kUndecided;  ///< Never void: that is an error.
   core::Phrase sentence;                  ///< Why, with numbers.
   double compared_mm = 0.0;    ///< The measured value (simple acceptance) or the corrected one.
   double acceptance_mm = 0.0;  ///< A value up to this conforms; T minus the guard band.
-  double rejection_mm = 0.0;   ///< A value above this does not; T plus the guard band.
+  double rejection_mm = 0.0;   ///< A value above this does not conform; T plus the guard band.
   std::optional<double> conformance_1 = {};  ///< Probability that the part conforms.
 
-  /// The chance that this verdict is wrong: of an accepted part the specific consumer's risk, of a
-  /// rejected part the specific producer's risk. Nothing while undecided or without an interval.
+  /// Probability that this verdict is wrong: the specific consumer's risk of an accepted part, the
+  /// specific producer's risk of a rejected one. None while undecided or without an interval.
   [[nodiscard]] std::optional<double> specific_risk_1() const;
 };
 
 /// Applies a rule. Pure.
 ///
-/// The errors of the value are taken to be distributed alike for every part of this kind: the
-/// distribution behind the statement, moved. `y` is the corrected value, [lo, hi] its interval,
-/// U = (hi - lo) / 2, P the probability that the part conforms:
+/// The errors of the value are assumed to have the same distribution for every part of this kind:
+/// that of the statement, shifted. `y` is the corrected value, [lo, hi] its interval, U = (hi - lo)
+/// / 2, P the probability that the part conforms:
 ///   simple acceptance  conforms where the measured value <= T
 ///   ISO 14253-1        y + f (hi - y) <= T conforms, y - f (y - lo) > T does not, else undecided
 ///   JCGM 106           P >= 1 - R_c conforms, P <= R_p does not, else undecided
 ///   N:1                only where T >= N (hi - lo): y <= T conforms, else does not
 ///   guard band         y <= T - a U conforms, y > T + r U does not, else undecided
-/// Whatever the rule, a value as read above T does not conform unless corrected values are judged:
-/// the correction grows with the noise that the party declares whom it favours.
+/// Under every rule, a measured value above T does not conform unless corrected values are judged:
+/// the correction grows with the declared noise, and the party that benefits declares it.
 /// @param tolerance_mm  T, > 0.
-/// @return  kMeaning, with the reason for a void verdict: no interval for the measurand of the
-///          rule, N:1 does not apply, the prior leaves the measurement no weight.
+/// @return  The outcome; or kMeaning with the reason for a void verdict: no interval for the
+///     measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
 /// Sources: ISO 14253-1:2017; JCGM 106:2012, 7 to 9; ASME B89.7.3.1-2001.
 [[nodiscard]] core::Result<RuleOutcome> apply_rule(const DecisionRule& rule,
                                                    const KnownValue& value, double tolerance_mm);
 
-/// Global risks of JCGM 106, 9, of what apply_rule() gave: over the prior of the rule, with the
-/// errors of the compared value distributed as behind the statement for every part. Nothing without
-/// a prior or a distribution.
+/// Global risks (JCGM 106, clause 9) of the outcome of apply_rule(), over the prior of the rule,
+/// where the errors of the compared value are distributed as in the statement for every part. None
+/// without a prior or a distribution.
 [[nodiscard]] std::optional<GlobalRisks> global_risks(const DecisionRule& rule,
                                                       const KnownValue& value,
                                                       const RuleOutcome& outcome,

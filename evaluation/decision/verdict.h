@@ -4,7 +4,8 @@
 
 namespace rondure::evaluation {
 
-/// What is said of a value and its tolerance. kVoid: nothing can be said, a condition is missing.
+/// Verdict on a value and its tolerance. kVoid: no verdict is possible because a condition is
+/// missing.
 enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranced };
 
 /// "conforms", "does not conform", "undecided", "void", "not toleranced".

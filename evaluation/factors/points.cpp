@@ -26,7 +26,7 @@ using record::Reference;
 
 constexpr double kPointsPerUndulation = 7.0;
 
-/// Height of a layer over its angle, z = a + b cos + c sin: how its plane lies.
+/// Plane of a layer: its height over the angle, z = a + b cos + c sin.
 Eigen::Vector3d plane_heights(const Points3& points, const Eigen::Vector2d& center) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -108,14 +108,14 @@ core::Result<double> roundness(const Points3& points, Reference reference) {
   return zone->width_mm();
 }
 
-/// A point and where it stands on its layer.
+/// A point with its angle on its layer.
 struct PlacedPoint {
   double angle_rad = 0.0;
   Eigen::Vector3d place_mm;
 };
 
-/// By angle from the first point on: half a step of room keeps a neighbour that lies just before it
-/// from becoming the last.
+/// Sorts by angle from the first point. Half a step of margin keeps a neighbour just before the
+/// first point from becoming the last.
 void sort_by_angle(std::vector<PlacedPoint>& layer) {
   const double from =
       layer.front().angle_rad - 0.5 * core::kTwoPi / static_cast<double>(layer.size());

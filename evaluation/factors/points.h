@@ -14,13 +14,13 @@ namespace rondure::evaluation {
 
 using Points3 = std::vector<Eigen::Vector3d>;
 
-/// The points behind a characteristic, on their way through another program: some of them chosen,
-/// outliers left out, sections filtered, a reference fitted, in this order.
+/// The points of a characteristic, processed as another program might: subset chosen, outliers
+/// removed, sections filtered, reference fitted, in this order.
 struct FactorPoints {
   record::Form form = record::Form::kCylindricity;  ///< CYLt, or RONt of the worst layer.
   bool layers_known = true;                         ///< false: one list, in the order of the data.
-  /// The layers from the first, each by angle from its first point on; axis of the feature along z,
-  /// as it was reported.
+  /// The layers in order; points of each by angle from its first point. The reported axis of the
+  /// feature is z.
   std::vector<Points3> layers_mm;
 
   [[nodiscard]] std::size_t count() const;
@@ -31,7 +31,7 @@ struct FactorPoints {
 /// Points of a layer across the axis.
 [[nodiscard]] std::vector<Eigen::Vector2d> across_axis(const Points3& points_mm);
 
-/// Which points another sampling plan would have touched. Even: the first, third, ... one.
+/// Points that another sampling plan would have touched. Even: the first, third, ... one.
 enum class PointSubset {
   kAll,
   kEvenPoints,
@@ -46,24 +46,25 @@ enum class PointSubset {
 [[nodiscard]] std::string_view name_of(PointSubset subset);
 
 /// The points of an evaluated feature.
-/// @return Its failure; kNoPoints where RONt is asked of points whose layers are not known.
+/// @return The failure of the feature; kNoPoints where RONt is asked for and the layers are not
+///     known.
 [[nodiscard]] core::Result<FactorPoints> factor_points(const FeatureResult& result,
                                                        record::Form form);
 
-/// The subsets that mean something for these points: those of layers need two.
+/// The subsets that make sense for these points: leaving out layers needs at least two.
 [[nodiscard]] std::vector<PointSubset> subsets_of(const FactorPoints& points);
 [[nodiscard]] FactorPoints chosen(const FactorPoints& points, PointSubset subset);
 
-/// Every layer through a Gaussian low pass about its least-squares circle, as
+/// Filters every layer with a Gaussian low pass about its least-squares circle, as
 /// fit::evaluate_section() does; heights follow the plane of the layer.
 /// @return kSampling where a layer has fewer than 7 points per undulation or a wide gap, or where
 ///         layers are not known; the errors of fit::evaluate_section().
 [[nodiscard]] core::Result<FactorPoints> filtered(const FactorPoints& points, double cutoff_upr);
 
 /// The peak to valley deviation about a reference [mm]: CYLt of all points, RONt of the worst
-/// layer. Proven locally only.
-/// @return kTooFewPoints for fewer than 6 points (of a section 4), whose zone is 0 whatever the
-///         part; the errors of the fits.
+/// layer. The optimum is proven locally only.
+/// @return kTooFewPoints for fewer than 6 points (4 in a section), whose zone is 0 for any part;
+///     the errors of the fits.
 [[nodiscard]] core::Result<double> deviation_mm(const FactorPoints& points,
                                                 record::Reference reference);
 

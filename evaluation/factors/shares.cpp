@@ -17,15 +17,15 @@ bool in_block(const std::vector<std::size_t>& combination, const Levels& used) {
   return true;
 }
 
-/// A level that lacks values, and how badly.
+/// A level with missing values, and their fraction.
 struct Lacking {
   std::size_t factor = 0;
   std::size_t level = 0;
   double missing_1 = 0.0;
-  std::size_t levels = 0;  ///< That its factor has.
+  std::size_t levels = 0;  ///< Number of levels of its factor.
 };
 
-/// Values and missing ones of each level of each factor within the block.
+/// Counts of values and of missing values for each level of each factor within the block.
 struct Census {
   std::vector<std::vector<std::size_t>> values;
   std::vector<std::vector<std::size_t>> missing;

@@ -22,10 +22,10 @@ constexpr std::array kStudiedReferences = {Reference::kLeastSquares, Reference::
                                            Reference::kMaximumInscribed};
 constexpr std::array kCutoffsUpr = {0.0, 15.0, 50.0, 150.0};  ///< 0: unfiltered.
 
-constexpr double kRoundOffMm = 1e-9;  ///< No change.
+constexpr double kRoundOffMm = 1e-9;  ///< Smaller changes count as none.
 
-/// Fills the cells of a study: one subset, one outlier rule, one filter after the other, so that
-/// each is made once.
+/// Fills the cells of a study: loops over subset, outlier rule and filter, so that each is made
+/// once.
 class Cells {
  public:
   Cells(const FactorPoints& points, FactorStudy& study)
@@ -55,7 +55,7 @@ class Cells {
     const auto kept = without_outliers(subset, kOutlierRules[o]);
     const bool same = kept && o > 0 && kept->left_out == 0;
     for (std::size_t f = 0; f < kCutoffsUpr.size(); ++f) {
-      if (same) {  // nothing was left out: the values of no rule
+      if (same) {  // nothing was left out: same values as without a rule
         for (std::size_t r = 0; r < kStudiedReferences.size(); ++r)
           cell(r, f, o, s) = cell(r, f, 0, s);
         continue;
@@ -69,7 +69,8 @@ class Cells {
                                   : core::Result<double>(core::fail(points.error()));
         if (value) out.value_mm = *value;
         if (!value) out.why = value.error().what;
-        if (is_reported(r, f, o, s)) out = {study_.reported_mm, {}, 0, 0};  // it is certified
+        // keep the certified value
+        if (is_reported(r, f, o, s)) out = {study_.reported_mm, {}, 0, 0};
         out.points = kept ? kept->points.count() : subset.count();
         out.left_out = kept ? kept->left_out : 0;
       }
@@ -123,7 +124,7 @@ record::Shape shape_of(record::Form form) {
   return form == record::Form::kRoundness ? record::Shape::kCircle : record::Shape::kCylinder;
 }
 
-/// What a change is called where it is the farthest of its factor.
+/// Words for the change where it is the largest of its factor.
 std::string change_words(const FactorStudy& study, Factor factor) {
   const FactorEffect& effect = study.effects[at(factor)];
   const FactorCell& cell = study.changed(factor, effect.strongest);
@@ -132,7 +133,7 @@ std::string change_words(const FactorStudy& study, Factor factor) {
                      study.levels[at(factor)][effect.strongest]);
 }
 
-/// Why the first other level of a factor has no value, without what follows a colon.
+/// Why the first other level of a factor has no value, without the text after a colon.
 std::string why_not(const FactorStudy& study, Factor factor) {
   const std::size_t level = study.reported[at(factor)] == 0 ? 1 : 0;
   const std::string& why = study.changed(factor, level).why;

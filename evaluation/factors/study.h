@@ -16,11 +16,12 @@
 
 namespace rondure::evaluation {
 
-/// What two programs may do differently with the same points, in the order of a FactorTable.
+/// Choices that two programs may make differently for the same points, in the order of a
+/// FactorTable.
 enum class Factor : std::size_t { kReference, kFilter, kOutliers, kSampling };
 inline constexpr std::array kFactors = {Factor::kReference, Factor::kFilter, Factor::kOutliers,
                                         Factor::kSampling};
-/// Its place in arrays by factor.
+/// Index of a factor in arrays by factor.
 [[nodiscard]] constexpr std::size_t at(Factor factor) { return static_cast<std::size_t>(factor); }
 
 /// "reference", "filter", "outliers", "sampling".
@@ -29,22 +30,24 @@ inline constexpr std::array kFactors = {Factor::kReference, Factor::kFilter, Fac
 /// The value of a characteristic under one choice of all factors.
 struct FactorCell {
   std::optional<double> value_mm;
-  std::string why;           ///< Without a value: why there is none.
-  std::size_t points = 0;    ///< Evaluated, before any resampling.
-  std::size_t left_out = 0;  ///< By the outlier rule.
+  std::string why;           ///< Why there is no value; empty with one.
+  std::size_t points = 0;    ///< Number evaluated, before any resampling.
+  std::size_t left_out = 0;  ///< Number removed by the outlier rule.
 };
 
-/// What one factor does with all others as they were reported.
+/// Effect of one factor while all others stay as reported.
 struct FactorEffect {
-  double least_change_mm = 0.0;  ///< Of all its levels that have a value, the reported one (0) too.
+  /// Least change over all levels that have a value, including the reported one (0).
+  double least_change_mm = 0.0;
   double greatest_change_mm = 0.0;
-  std::size_t strongest = 0;  ///< Level of the change farthest from 0; the reported one: none.
-  std::size_t levels = 0;     ///< That have a value.
+  /// Level with the largest change; the reported level if nothing changes.
+  std::size_t strongest = 0;
+  std::size_t levels = 0;  ///< Number of levels that have a value.
 
   [[nodiscard]] double range_mm() const { return greatest_change_mm - least_change_mm; }
 };
 
-/// A characteristic as other programs might have evaluated it, and what makes the differences.
+/// A characteristic as other programs might have evaluated it, and the causes of the differences.
 struct FactorStudy {
   std::string feature;
   record::Characteristic characteristic;
@@ -52,38 +55,38 @@ struct FactorStudy {
   std::string value;           ///< As reported, with its interval: "8.31 um [7.60, 9.40]".
   std::string operator_words;  ///< "MZCY; unfiltered; ..."
   double reported_mm = 0.0;
-  std::array<std::vector<std::string>, 4> levels;  ///< Their names, by factor.
+  std::array<std::vector<std::string>, 4> levels;  ///< Names of the levels, by factor.
   std::array<std::size_t, 4> reported = {0, 0, 0, 0};
-  std::vector<FactorCell> cells;  ///< Every combination, the sampling fastest.
+  std::vector<FactorCell> cells;  ///< Every combination; the sampling varies fastest.
   std::array<FactorEffect, 4> effects;
   std::optional<FactorShares> shares;  ///< None where nothing makes a difference.
 
   [[nodiscard]] const FactorCell& cell(const std::array<std::size_t, 4>& levels_of) const;
-  /// As reported, but for one factor.
+  /// The cell that differs from the reported one in one factor.
   [[nodiscard]] const FactorCell& changed(Factor factor, std::size_t level) const;
 };
 
 /// Evaluates a characteristic under every combination of reference (LS, MZ, MC, MI), filter
 /// (unfiltered, Gaussian 15, 50, 150 UPR section by section), outlier rule and sampling subset.
 ///
-/// The steps follow each other as in factor_points.h and factor_outliers.h. The reported
-/// combination carries the reported value, which is certified; the other values are proven locally.
-/// A combination that cannot be evaluated says why.
+/// The steps follow each other as in points.h and internal/outliers.h. The reported combination
+/// carries the reported value, which is certified; the other values are proven locally. A
+/// combination that cannot be evaluated states the reason.
 ///
-/// @return The failure of the feature; kMeaning for another form than cylindricity and roundness;
-///         kReferenceAbsent where the characteristic has no value.
+/// @return The failure of the feature; kMeaning for a form other than cylindricity and roundness;
+///     kReferenceAbsent where the characteristic has no value.
 /// Cost: docs/compare.md.
 [[nodiscard]] core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                                       const CharacteristicResult& characteristic);
 
-/// The studies of a run, and of what there is none.
+/// The studies of a run, and the characteristics that have none.
 struct RunComparison {
   std::vector<FactorStudy> studies;
   std::vector<core::Error> without;  ///< `where`: "feature / characteristic".
 };
 
 /// Studies every characteristic of every cylinder and circle of a run, in its order.
-/// @return kNoPoints when there is not one that has a value.
+/// @return kNoPoints when no characteristic has a value.
 [[nodiscard]] core::Result<RunComparison> compare_run(const Evaluation& evaluation);
 
 /// One sentence: the value as reported, and how much each factor changes it.

@@ -22,7 +22,7 @@ using core::micrometres;
 
 using record::Form;
 
-/// The value of a characteristic and whether what proves it is there.
+/// The value of a characteristic, if what proves it is present.
 core::Result<Deviation> value_of(const FeatureResult& result,
                                  const record::Characteristic& characteristic) {
   if (result.failure) return core::fail(*result.failure);
@@ -61,7 +61,6 @@ core::Phrase tip_words(const FeatureResult& result) {
                               : core::phrase("r_tip unknown");
 }
 
-/// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
 ValueOperator operator_of(const FeatureResult& result,
                           const record::Characteristic& characteristic) {
   return {ReferenceTerm(core::as_it_is(reference_of(characteristic))),
@@ -102,7 +101,7 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
                                                             ? record::Shape::kCircle
                                                             : record::Shape::kCylinder)));
   }
-  // A zone of some points is never wider than that of all: above the tolerance it proves enough.
+  // A zone of some points is never wider than that of all: above the tolerance it is proof enough.
   const bool too_wide = characteristic.reference == record::Reference::kMinimumZone &&
                         characteristic.tolerance_mm &&
                         value.value_mm > *characteristic.tolerance_mm;
@@ -119,15 +118,15 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
   return temperature_fault(record, result);
 }
 
-/// What stands behind a verdict besides the feature itself.
+/// The inputs of a verdict besides the feature itself.
 struct Circumstances {
   const record::RunRecord& record;
   const core::Result<DecisionRule>& rule;
   const std::optional<fit::ProbeTip>& probe;
 };
 
-/// Against a mask the harmonic decides that comes nearest to its limit; that limit is the
-/// tolerance. Certificates play no part.
+/// Against a mask, the harmonic nearest to its limit decides; that limit is the tolerance.
+/// Certificates play no part.
 void judge_harmonics(const Circumstances& by, const FeatureResult& result,
                      CharacteristicResult& out) {
   record::Characteristic& asked = out.characteristic;
@@ -215,7 +214,7 @@ std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
                        result.feature.strategy != record::Strategy::kSeries;
   const auto stated = record::task_of<record::EnvironmentSettings>(record.settings, "environment/");
-  if (!stated) return stated.error().what;
+  if (!stated) return stated.error().said();
   if (!touched && !stated->declared) return std::nullopt;
   if (!result.temperatures) {
     return core::phrase(
@@ -276,7 +275,7 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 }
 
 Verdict overall(const std::vector<FeatureResult>& features) {
-  // From bad to good; void first, because nothing can be said then.
+  // Decreasing severity; void first, because it prevents any overall verdict.
   constexpr std::array kOrder = {Verdict::kVoid, Verdict::kDoesNotConform, Verdict::kUndecided,
                                  Verdict::kConforms};
   const auto failed = [](const FeatureResult& feature) { return feature.failure.has_value(); };

@@ -10,11 +10,11 @@ namespace rondure::evaluation {
 
 /// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its
 /// reason. Void when a condition is missing: no result, a reference that does not exist for the
-/// points, no certificate behind it, a section that proves nothing, temperature or probe
-/// qualification outside the limits of the plan, a run that did not finish, a rule that is not
-/// known, or one that cannot be applied (apply_rule()).
+/// points, no certificate for it, a section that proves nothing, temperature or probe qualification
+/// outside the limits of the plan, a run that did not finish, an unknown rule, or one that cannot
+/// be applied (apply_rule()).
 ///
-/// @param probe  The qualification of the run; a touched feature without a sound one is void.
+/// @param probe  The qualification of the run; a touched feature without a valid one is void.
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
             const std::optional<fit::ProbeTip>& probe, FeatureResult& result);
 
@@ -23,12 +23,12 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 [[nodiscard]] core::Phrase temperature_words(const FeatureResult& result);
 
 /// Why temperature makes a result void: outside the limits, or neither measured nor declared. The
-/// limits hold for all that is touched, and for points of files and series where the plan has the
+/// limits apply to all touched features, and to points of files and series where the plan has the
 /// object `environment`.
 [[nodiscard]] std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
                                                             const FeatureResult& result);
 
-/// Applies the rule to a characteristic whose value is stated and sound.
+/// Applies the rule to a characteristic that has a stated, valid value.
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);
 
 /// Void when a feature failed; else the worst verdict of all toleranced characteristics, in the

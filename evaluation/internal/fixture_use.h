@@ -8,14 +8,15 @@
 
 namespace rondure::evaluation {
 
-/// What a record says of the fixture that carried the part.
+/// The fixture that carried the part, according to the record.
 struct FixtureFacts {
-  fixture::Kinematics kinematics;  ///< Nominal, or with the errors of the calibration.
-  std::optional<FixtureUse> use;   ///< The calibration; none: the fixture was taken as nominal.
+  fixture::Kinematics kinematics;  ///< Nominal, or with the calibrated errors.
+  std::optional<FixtureUse> use;   ///< The calibration; none: the fixture was treated as nominal.
 };
 
-/// Reads axes and calibration from the settings of the record and judges once more whether the run
-/// may use it: fixture::check_calibration() at the start of the run. A pure function of the record.
+/// Reads axes and calibration from the settings of the record and checks again whether the run may
+/// use the calibration: fixture::check_calibration() at the start of the run. A pure function of
+/// the record.
 [[nodiscard]] FixtureFacts fixture_facts(const record::RunRecord& record);
 
 /// Makes the characteristics of a touched feature void when the calibration does not hold.

@@ -20,9 +20,9 @@ using record::MergedPosesSettings;
 using record::RunRecord;
 using record::Touch;
 
-/// The least standard uncertainty of a mean touch that is believed: the resolution of a machine.
+/// Lower bound of the standard uncertainty of a mean touch: the resolution of a machine.
 constexpr double kLeastTouch_mm = 0.02e-3;
-/// Peak to valley of some 13 normal values in standard deviations.
+/// Peak to valley of some 13 normal values, in standard deviations.
 constexpr double kFormPerSigma = 3.3;
 
 /// How the fixture moved the part: its nominal axes, with the errors of its calibration.
@@ -33,7 +33,7 @@ fixture::Kinematics kinematics_of(const RunRecord& record, const MergedPosesSett
   return out;
 }
 
-/// The mean touches of one pose, with the sum of squares about them along the approach.
+/// The mean touches of one pose, with their sum of squares along the approach.
 struct PoseMeans {
   std::map<std::pair<int, int>, CloudPoint> targets;
   double squares = 0.0;
@@ -83,7 +83,7 @@ double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::P
   return std::max(kLeastTouch_mm, single / std::sqrt(static_cast<double>(repeats)));
 }
 
-/// The poses as pose_joint() wants them, and the points as the kinematics place them.
+/// The poses as input of pose_joint(), and the points transformed by the kinematics.
 std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
                                        const MergedPosesSettings& said,
                                        const std::vector<const record::PoseVisit*>& visits,

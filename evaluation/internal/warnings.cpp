@@ -15,7 +15,7 @@ namespace {
 constexpr double kGapLimit =
     120.0 * core::kDegree;              // beyond it the certificate of a section needs care
 constexpr std::size_t kFewPoints = 21;  // 3 layers of 7
-constexpr double kTold = 1e-6;          // radii nearer than this look alike in every report [mm]
+constexpr double kTold = 1e-6;          // differences below this do not show in any report [mm]
 
 void add_warning(FeatureResult& result, core::Code code, core::Phrase said) {
   result.warnings.push_back(core::error_of(code, std::move(said)));
@@ -68,8 +68,8 @@ void warn_exact_fit(FeatureResult& result) {
   }
 }
 
-/// References that the points do not have: of the feature, or of sections of a cylinder that has
-/// it.
+/// Warns of references that do not exist for the points: of the feature, or of single sections of a
+/// cylinder that has one.
 void warn_absent(FeatureResult& result) {
   using record::Reference;
   for (const Reference reference :
@@ -93,8 +93,8 @@ void warn_absent(FeatureResult& result) {
   }
 }
 
-/// A one-sided reference is the optimum next to the least-squares one. Where the place of the
-/// minimum zone serves better, there are several, and a gauge may settle in another.
+/// A one-sided reference is the optimum nearest to the least-squares one. Where the optimum near
+/// the minimum zone is better, there are several, and a gauge may settle in another.
 template <class Zone, class OneSided>
 void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::Result<OneSided>& mi,
                  record::Shape shape, const std::string& place, FeatureResult& result) {
@@ -113,7 +113,7 @@ void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::R
     say(Reference::kMaximumInscribed, mi->radius_mm, mz.inner_radius_mm - mi->radius_mm);
 }
 
-/// Circles as large as the maximum inscribed one, about which the deviation is another.
+/// Other circles as large as the maximum inscribed one, with a different deviation.
 void warn_range(const LayerResult& layer, FeatureResult& result) {
   if (!layer.mi || !layer.mi->range) return;
   add_warning(result, core::Code::kSeveralOptima,
@@ -124,7 +124,7 @@ void warn_range(const LayerResult& layer, FeatureResult& result) {
                   layer.mi->range->high_mm / core::kMicrometre)));
 }
 
-/// A better cylinder that is not the reference: across a disc, or out of reach.
+/// A better cylinder that is not the reference: lying across a disc, or out of reach of the search.
 void warn_other(FeatureResult& result) {
   using record::Reference;
   const auto say = [&](Reference reference, const core::Result<fit::OneSidedCylinder>& fit) {

@@ -16,10 +16,11 @@
 namespace rondure::evaluation {
 namespace {
 
-/// Mean range of 25 normal values, touches of the qualification sphere (influences.h).
+/// Mean range of 25 normal values: the touches of the qualification sphere (influences.h).
 constexpr double kRangeOf25 = 3.93;
-constexpr double kWork = 4e6;           // points times trials of a prediction: a second, about
-constexpr double kOneSidedCost = 10.0;  // of a circumscribed or inscribed cylinder, in zones
+constexpr double kWork = 4e6;  // points times trials of a prediction: about one second
+// cost of a circumscribed or inscribed cylinder, relative to a zone
+constexpr double kOneSidedCost = 10.0;
 constexpr int kLeastInspections = 8;
 constexpr int kLeastTrials = 200;
 
@@ -49,7 +50,7 @@ core::Result<void> check(const PredictionOptions& options) {
   return {};
 }
 
-/// Fewer parts for clouds and spectra whose trials take long.
+/// Uses fewer parts for clouds and spectra whose trials take long.
 PredictionOptions affordable(const FormCloud& cloud, const FormSpectrum& form, bool whole,
                              const record::Characteristic& asked, PredictionOptions options) {
   auto cost = static_cast<double>(cloud.points.size());
@@ -66,7 +67,7 @@ PredictionOptions affordable(const FormCloud& cloud, const FormSpectrum& form, b
   return options;
 }
 
-/// What each inspection says of one measurand.
+/// The statements of all inspections about one measurand.
 class Statements {
  public:
   void take(const UncertaintyStatement& said) {
@@ -76,7 +77,7 @@ class Statements {
     widths_.push_back(said.high_mm - said.low_mm);
   }
 
-  /// Whether the mean width is known to a share of it.
+  /// Whether the mean width is known to a given fraction of itself.
   [[nodiscard]] bool settled(double share) const {
     const auto count = static_cast<double>(widths_.size());
     if (count < 2.0) return widths_.empty();
@@ -104,7 +105,7 @@ class Statements {
   std::vector<double> widths_;
 };
 
-/// Budgets of many inspections: root mean squares of spreads and shares.
+/// Combines the budgets of many inspections: root mean squares of spreads and shares.
 class Budgets {
  public:
   void take(const std::vector<BudgetLine>& lines) {
@@ -138,7 +139,7 @@ class Budgets {
   double count_ = 0.0;
 };
 
-/// The repeatability that the run would find by itself; in words what is assumed of it.
+/// The repeatability that the run would determine itself; also describes the assumption in words.
 std::string assume_repeatability(const record::RunRecord& record, TrialInspection& rehearsal) {
   const auto declared = declared_for(record, rehearsal.result(), std::nullopt);
   if (!declared || !declared->influences.probe) return {};
@@ -177,7 +178,7 @@ UncertaintyOptions trials_of(const UncertaintyOptions& declared, const Predictio
   return out;
 }
 
-/// Inspects parts and puts together what is said of them.
+/// Inspects simulated parts and combines their statements.
 Prediction rehearsed(const record::RunRecord& record, const TrialInspection& rehearsal,
                      const Declared& declared, const FormSpectrum& form,
                      const record::Characteristic& asked, const PredictionOptions& options) {

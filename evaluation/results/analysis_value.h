@@ -8,7 +8,7 @@
 
 namespace rondure::evaluation {
 
-/// What an analysis found for one characteristic.
+/// Value of one characteristic from an analysis.
 struct AnalysisValue {
   double value_mm = 0.0;
   std::optional<double> limit_mm;            ///< In place of the tolerance: the line of a mask.

@@ -30,25 +30,25 @@ namespace rondure::evaluation {
 
 struct AnalysisResult;  // analysis_result.h
 
-/// One point of the cloud that is evaluated: the mean of its repeated touches, or, where those do
-/// not meet at one place (scans), one of them.
+/// One point of the evaluated cloud: the mean of its repeated touches or, where repeats do not meet
+/// at one place (scans), one of them.
 struct CloudPoint {
   int layer = 0;
   int point = 0;
   int repeats = 1;
-  std::optional<int> pass;  ///< Of a point that was not averaged: in which repeat it was measured.
+  std::optional<int> pass;  ///< Repeat in which a point that was not averaged was measured.
   double time_s = 0.0;      ///< Mean time of its touches.
-  int pose = 0;             ///< Of a cloud that several poses make: in which of them.
-  /// Mean tip centre, machine frame; of a cloud that several poses make: body frame.
+  int pose = 0;             ///< Index of the pose, in a cloud of several poses.
+  /// Mean tip centre, machine frame; body frame in a cloud of several poses.
   Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();
-  double angle_rad = 0.0;     ///< About the minimum-zone axis, in [0, 2 pi).
-  double height_mm = 0.0;     ///< Along that axis, from the mean point.
+  double angle_rad = 0.0;     ///< Angle about the minimum-zone axis, in [0, 2 pi).
+  double height_mm = 0.0;     ///< Height along that axis, from the mean point.
   double deviation_mm = 0.0;  ///< Distance from the axis minus the mean of the two zone radii.
   bool outer_contact = false;
   bool inner_contact = false;
 };
 
-/// f in one pose: the least zone with the axis held parallel to machine z.
+/// f in one pose: the least zone whose axis is parallel to machine z.
 struct PoseValue {
   core::Pose pose;
   double f_mm = 0.0;
@@ -58,7 +58,7 @@ struct PoseValue {
   bool final_pose = false;
 };
 
-/// What stands in place of a reference that nobody asked the fits for.
+/// Placeholder for a reference that was not requested.
 [[nodiscard]] inline tl::unexpected<core::Error> not_fitted() {
   return core::fail(core::Code::kReferenceAbsent, "it was not fitted");
 }
@@ -67,26 +67,27 @@ struct PoseValue {
 struct LayerResult {
   int layer = 0;
   double height_mm = 0.0;
-  std::vector<std::size_t> rows;        ///< Of the cloud.
-  core::Result<fit::MinZoneCircle> mz;  ///< About its own minimum-zone centre (RONt).
+  std::vector<std::size_t> rows;        ///< Rows of the cloud.
+  core::Result<fit::MinZoneCircle> mz;  ///< Zone about its own minimum-zone centre (RONt).
   core::Result<fit::LsCircle> ls;
-  core::Result<fit::OneSidedCircle> mc = not_fitted();  ///< Where there is none: why.
+  core::Result<fit::OneSidedCircle> mc = not_fitted();  ///< Or why there is none.
   core::Result<fit::OneSidedCircle> mi = not_fitted();
-  /// Gaussian, 50 UPR, with harmonics, where 7 points stand for an undulation; else nothing.
+  /// Gaussian, 50 UPR, with harmonics, where there are 7 points per undulation; else none.
   std::optional<fit::RoundnessEvaluation> filtered = {};
-  std::vector<Eigen::Vector2d> points_mm = {};  ///< What was fitted: `rows`, in the centres' frame.
+  /// The fitted points: `rows`, in the frame of the centres.
+  std::vector<Eigen::Vector2d> points_mm = {};
 };
 
-/// Verdict on one characteristic.
+/// Value and verdict of one characteristic.
 struct CharacteristicResult {
   record::Characteristic characteristic;
-  std::optional<StatedValue> value;  ///< Nothing when it could not be evaluated.
+  std::optional<StatedValue> value;  ///< None when it could not be evaluated.
   Verdict verdict = Verdict::kVoid;
   core::Phrase reason;                 ///< One sentence behind the verdict.
   std::optional<RuleOutcome> outcome;  ///< What the rule made of it; none for void, not toleranced.
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
 
-  /// The value as measured, without what must be said with it: for computing, not for writing.
+  /// The value as measured, without its qualifying words: for computing, not for writing.
   [[nodiscard]] std::optional<double> value_mm() const {
     return value ? std::optional(value->value_mm()) : std::nullopt;
   }
@@ -98,44 +99,45 @@ struct FixtureUse {
   std::string fixture_id;
   std::string measured_utc;
   std::string expires_utc;
-  std::optional<double> age_days;      ///< At the start of the run.
-  double residual_rms_mm = 0.0;        ///< Left at its combined poses.
-  double residual_max_mm = 0.0;        ///< The largest of them.
-  double residual_tilt_rad = 0.0;      ///< Largest turn of a pose.
-  std::optional<core::Error> invalid;  ///< Why it does not hold; results are void then.
+  std::optional<double> age_days;      ///< Age at the start of the run.
+  double residual_rms_mm = 0.0;        ///< Residual at its combined poses.
+  double residual_max_mm = 0.0;        ///< Largest such residual.
+  double residual_tilt_rad = 0.0;      ///< Largest residual rotation of a pose.
+  std::optional<core::Error> invalid;  ///< Why it does not hold; results are then void.
 };
 
-/// Everything evaluated of one feature.
+/// All results for one feature.
 struct FeatureResult {
   record::Feature feature;
   std::vector<CloudPoint> cloud;
   std::optional<fit::LsCylinder> ls_cylinder;
-  std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Cylinder features.
-  core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Where there is none: why.
+  std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Only for cylinder features.
+  core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Or why there is none.
   core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
   std::vector<LayerResult> layers;
-  fit::Axis section_axis = {};               ///< Of a circle: origin and normal of its plane.
-  std::vector<PoseValue> poses;              ///< In the order visited.
-  std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
-  std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.
-  std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
-  int repeat_freedom = 0;                    ///< Degrees of freedom behind it.
+  fit::Axis section_axis = {};          ///< For a circle: origin and normal of its plane.
+  std::vector<PoseValue> poses;         ///< In the order of the visits.
+  std::optional<double> tip_radius_mm;  ///< Tip radius used; none for points with an unknown tip.
+  std::optional<core::Pose> levelling_pose;   ///< Pose that would turn the found axis to machine z.
+  std::optional<double> repeat_sigma_mm;      ///< Pooled standard deviation of a single touch.
+  int repeat_freedom = 0;                     ///< Degrees of freedom of `repeat_sigma_mm`.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
-  std::optional<Temperatures> temperatures;        ///< Of the final cloud; none: not known.
-  std::shared_ptr<const MergedPoses> merged;       ///< Of the strategy "merged".
-  std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
-  std::optional<ThermalCorrection> thermal;        ///< All above is at 20 degC; none: as measured.
+  std::optional<Temperatures> temperatures;        ///< During the final cloud; none: not known.
+  std::shared_ptr<const MergedPoses> merged;       ///< Only for the strategy "merged".
+  std::shared_ptr<const AnalysisResult> analysis;  ///< Only for a feature whose data are series.
+  /// All values above are at 20 degC; none: as measured.
+  std::optional<ThermalCorrection> thermal;
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.
 };
 
-/// What a record says: a pure function of it.
+/// Evaluation of a record: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
-  std::optional<FixtureUse> fixture;                 ///< None: taken as nominal.
-  core::Result<DecisionRule> rule = DecisionRule();  ///< Of the run, or why it is not known.
+  std::optional<FixtureUse> fixture;                 ///< None: the fixture was treated as nominal.
+  core::Result<DecisionRule> rule = DecisionRule();  ///< Rule of the run, or why it is not known.
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };

@@ -14,7 +14,7 @@ std::vector<fit::Contact> in_rows(const std::vector<fit::Contact>& contacts,
   return result;
 }
 
-/// Zone of a fit that has radii and contacts, whatever its shape.
+/// Zone of a fit that has radii and contacts, for any shape.
 template <class Fit>
 Zone zone_from(const Fit& fit, const FeatureResult& feature) {
   const double offset_mm = surface_offset_mm(feature);
@@ -161,7 +161,8 @@ const PoseValue* final_pose_of(const FeatureResult& feature) {
 }
 
 const record::SimulationTruth* truth_of(const record::RunRecord& record, std::size_t index) {
-  // A part that was located again while its final cloud was repeated has two: the later counts.
+  // A part that was located again while its final cloud was repeated has two truths: use the later
+  // one.
   const record::SimulationTruth* last = nullptr;
   for (const record::SimulationTruth& truth : record.truths) {
     if (truth.feature >= 0 && static_cast<std::size_t>(truth.feature) == index) last = &truth;

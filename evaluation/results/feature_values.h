@@ -10,13 +10,13 @@
 
 namespace rondure::evaluation {
 
-/// The minimum zone of a feature as every report states it: of the cylinder, or of the one section
-/// of a circle.
+/// The minimum zone of a feature as every report states it: that of the cylinder, or of the one
+/// section of a circle.
 struct Zone {
   double deviation_mm = 0.0;
-  double inner_radius_mm = 0.0;  ///< Of the surface when the tip is known, else of the points.
+  double inner_radius_mm = 0.0;  ///< Of the surface when the tip is known, otherwise of the points.
   double outer_radius_mm = 0.0;
-  double mean_radius_mm = 0.0;      ///< Middle of the zone, of the same kind.
+  double mean_radius_mm = 0.0;      ///< Middle of the zone; of the surface or the points, as above.
   bool of_surface = false;          ///< The radii are corrected for the tip radius.
   std::vector<fit::Contact> outer;  ///< `index` is the row of FeatureResult::cloud.
   std::vector<fit::Contact> inner;
@@ -26,12 +26,12 @@ struct Zone {
 /// The zone of a feature, or nothing when it has none.
 [[nodiscard]] std::optional<Zone> zone_of(const FeatureResult& feature);
 
-/// What is added to a radius through tip centres to give the radius of the surface: minus rho on an
-/// outside feature, plus rho on an inside one, 0 when the tip is unknown [mm].
+/// Offset from a radius through tip centres to the radius of the surface: minus rho on an outside
+/// feature, plus rho on an inside one, 0 when the tip is unknown [mm].
 [[nodiscard]] double surface_offset_mm(const FeatureResult& feature);
 
 /// Least-squares deviation of the feature (peak to valley about the least-squares axis or centre),
-/// its radius (of the same kind as the radii of the zone) and rms.
+/// its rms, and its radius (of the surface or the points, as for the zone).
 struct LeastSquares {
   double deviation_mm = 0.0;
   double radius_mm = 0.0;
@@ -39,16 +39,16 @@ struct LeastSquares {
 };
 [[nodiscard]] std::optional<LeastSquares> least_squares_of(const FeatureResult& feature);
 
-/// The minimum circumscribed or maximum inscribed reference of a feature: of the cylinder, or of
-/// the one section of a circle.
+/// The minimum circumscribed or maximum inscribed reference of a feature: that of the cylinder, or
+/// of the one section of a circle.
 struct OneSided {
   double deviation_mm = 0.0;
-  double radius_mm = 0.0;              ///< Of the same kind as the radii of the zone.
+  double radius_mm = 0.0;              ///< Of the surface or the points, as for the zone.
   std::vector<fit::Contact> contacts;  ///< `index` is the row of FeatureResult::cloud.
   fit::Certificate certificate;
-  std::optional<fit::DeviationRange> range;  ///< Of a circle that is not unique.
+  std::optional<fit::DeviationRange> range;  ///< Only for a circle that is not unique.
 };
-/// @return Why the reference does not exist. Other references than these two are never there.
+/// @return The reference, or why it does not exist. Other kinds of reference never exist here.
 [[nodiscard]] core::Result<OneSided> one_sided_of(const FeatureResult& feature,
                                                   record::Reference reference);
 
@@ -57,7 +57,7 @@ struct OneSided {
 
 /// "CYLt" or "RONt"; "MZCY", "LSCY", "MCCY", "MICY", "MZCI", "LSCI", "MCCI" or "MICI".
 [[nodiscard]] std::string symbol_of(const record::Characteristic& characteristic);
-/// Symbol of the zone of a feature: "CYLt", or "RONt" of a circle.
+/// Symbol of the zone of a feature: "CYLt", or "RONt" for a circle.
 [[nodiscard]] std::string_view symbol_of(record::Shape shape);
 [[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
 [[nodiscard]] std::string reference_of(record::Reference reference, record::Shape shape);

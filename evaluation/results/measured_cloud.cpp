@@ -26,16 +26,18 @@ std::vector<const record::Touch*> touches_of(const record::RunRecord& record, in
 
 namespace {
 
-/// Touches of one place, across the approach: controllers hold the line to some micrometres. A mean
-/// over touches so far apart stands off a surface of 2 mm radius by 6e-6 mm (square over 8 radii).
+/// Largest distance of touches of one place, across the approach: controllers hold the line to a
+/// few micrometres. A mean over touches so far apart is off a surface of 2 mm radius by 6e-6 mm
+/// (square over 8 radii).
 constexpr double kOnePlace_mm = 10e-3;
-/// Points of two passes that see the noise: at most so many steps of a pass apart.
+/// Largest distance of two points of different passes that still shows the noise, in steps of a
+/// pass.
 constexpr double kClose = 0.125;
-constexpr double kOneStep = 1.5;  // a longer one has lost a point
+constexpr double kOneStep = 1.5;  // a longer step has lost a point
 
 using PassPlace = std::tuple<int, int, int>;  // layer, pass, point
 
-/// Whether the touches of each target lie at one place.
+/// Whether the touches of each target are at one place.
 bool at_one_place(const std::vector<const record::Touch*>& touches) {
   std::map<std::pair<int, int>, const record::Touch*> first;
   for (const record::Touch* touch : touches) {
@@ -56,8 +58,8 @@ double ahead(const CloudPoint& from, const CloudPoint& to) {
 }
 
 /// Adds the pairs of points of two passes that lie close to each other. A pair shows the difference
-/// of two errors, and the slope of the form over the way between them, which is taken from the
-/// neighbours of one of the two.
+/// of two errors plus the slope of the form between the points; the slope is taken from the
+/// neighbours of one of them.
 void add_close_pairs(const std::vector<PassSection>& passes, double& squares, int& freedom) {
   struct Placed {
     const PassSection* section;
@@ -90,7 +92,7 @@ void add_close_pairs(const std::vector<PassSection>& passes, double& squares, in
                         share * (after.deviation_mm - before.deviation_mm);
     squares += rest * rest / (2.0 + 2.0 * share * share);
     ++freedom;
-    ++i;  // each point in one pair only
+    ++i;  // use each point in one pair only
   }
 }
 
@@ -125,7 +127,7 @@ std::vector<CloudPoint> measured_cloud(const std::vector<const record::Touch*>& 
     point.point = touch->point;
     if (!average) point.pass = pass;
     point.repeats = fresh ? 1 : point.repeats + 1;
-    // Running mean: keeps the digits of coordinates far from the origin.
+    // A running mean keeps the digits of coordinates far from the origin.
     point.tip_mm += (touch->tip_mm - point.tip_mm) / point.repeats;
     point.time_s += (touch->time_s - point.time_s) / point.repeats;
   }

@@ -9,7 +9,7 @@
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
-// Private to the room: the touches of a pose as a cloud, and f of it.
+// Private to the room: the touches of a pose as a cloud, and f of that cloud.
 
 namespace rondure::evaluation {
 
@@ -18,45 +18,45 @@ namespace rondure::evaluation {
                                                            int pose);
 
 /// The cloud of some touches, in the order of layer, pass (where there are several) and point. The
-/// repeats of a point are averaged where they lie at one place. Scans give about the step that was
-/// asked for: their n-th points lie at different angles, and a mean over those would smooth the
-/// form and cut the chords; then every touch is a point of its own, with the noise of one touch.
+/// repeats of a point are averaged where they lie at one place. Scans only keep about the requested
+/// step: their n-th points lie at different angles, and averaging them would smooth the form and
+/// cut the chords. Every touch is then a point of its own, with the noise of one touch.
 [[nodiscard]] std::vector<CloudPoint> measured_cloud(
     const std::vector<const record::Touch*>& touches);
 
-/// How many passes over the layers make a cloud: 1 where repeats were averaged.
+/// Number of passes over the layers in a cloud: 1 where repeats were averaged.
 [[nodiscard]] int passes_of(const std::vector<CloudPoint>& cloud);
 
-/// What touches that were measured several times say of the noise of one [mm].
+/// Noise of one touch, estimated from repeated touches [mm].
 struct RepeatNoise {
   double sigma_mm = 0.0;
-  int freedom = 0;  ///< Degrees of freedom; 0: nothing is known.
+  int freedom = 0;  ///< Degrees of freedom; 0: no estimate.
 };
 
-/// From the places that were averaged: how far their touches lie apart along the approach. Where
-/// passes were not averaged: from points of two passes that lie close to each other.
-/// @param cloud  With the angles and deviations about its axis.
+/// For averaged places: from the scatter of their touches along the approach. For passes that were
+/// not averaged: from points of two passes that lie close to each other.
+/// @param cloud  With angles and deviations about its axis.
 [[nodiscard]] RepeatNoise repeat_noise(const std::vector<const record::Touch*>& touches,
                                        const std::vector<CloudPoint>& cloud);
 
 [[nodiscard]] std::vector<Eigen::Vector3d> tips_of(const std::vector<CloudPoint>& cloud);
 
-/// x and y of the points, turned.
+/// x and y of the points after rotation.
 [[nodiscard]] std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
                                                      const Eigen::Matrix3d& turn);
 
-/// Turns the body by a pose: Rx(alpha) Ry(beta).
+/// Rotation of the body by a pose: Rx(alpha) Ry(beta).
 [[nodiscard]] Eigen::Matrix3d rotation(const core::Pose& pose);
 
-/// f of a section by the centre search that the strategy names; pose and marks are not filled in.
+/// f of a section by the centre search of the strategy; does not set pose and marks.
 [[nodiscard]] PoseValue pose_value(const std::vector<Eigen::Vector2d>& section,
                                    record::Strategy strategy);
 
 /// Whether the cloud of a pose is evaluated. A part that was located again while its final cloud
-/// was repeated has two that are marked: the later one counts. Of merged poses all do.
+/// was repeated has two marked clouds: the later one counts. All merged poses count.
 [[nodiscard]] bool is_final(const record::RunRecord& record, const record::PoseVisit& visit);
 
-/// f of a pose from its own touches; nothing when there are none.
+/// f of a pose from its own touches; none without touches.
 [[nodiscard]] std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                                      const record::PoseVisit& visit,
                                                      record::Strategy strategy);

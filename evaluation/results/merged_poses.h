@@ -8,18 +8,18 @@
 #include "core/pose.h"
 #include "fit/poses/joint.h"
 
-// A cloud that several poses of the fixture make, and what the fixture adds to it.
+// A cloud from several poses of the fixture, and the fixture's contribution to its errors.
 
 namespace rondure::evaluation {
 
-/// How the clouds of several poses became one.
+/// Combination of the clouds of several poses.
 struct MergedPoses {
-  bool joint = false;               ///< The errors of the poses were solved for and taken out.
-  std::vector<core::Pose> poses;    ///< As the fixture read them, in the order measured.
-  std::vector<std::size_t> points;  ///< Targets touched in each.
+  bool joint = false;               ///< The errors of the poses were solved for and removed.
+  std::vector<core::Pose> poses;    ///< As read from the fixture, in the order measured.
+  std::vector<std::size_t> points;  ///< Number of targets touched in each pose.
   double touch_mm = 0.0;            ///< Standard uncertainty of the mean touches of a target.
-  /// Part and poses solved together; with the merge by kinematics for what the fixture may add
-  /// only. Nothing: `refusal` says why.
+  /// Joint solution of part and poses; for a merge by kinematics only to estimate the fixture's
+  /// contribution. None: `refusal` gives the reason.
   std::optional<fit::PoseJoint> solved;
   std::optional<core::Error> refusal;
 };

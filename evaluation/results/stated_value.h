@@ -7,7 +7,7 @@
 
 namespace rondure::evaluation {
 
-/// One term of what must be said with a value, in words. The tag keeps terms from being exchanged.
+/// One term of the statement of a value, in words. The tag prevents terms from being swapped.
 template <class Tag>
 class Term {
  public:
@@ -26,8 +26,8 @@ using SamplingTerm = Term<struct SamplingTag>;        ///< "4 x 7 points; mean o
 using TipTerm = Term<struct TipTag>;                  ///< "r_tip 1.9984 mm"
 using TemperatureTerm = Term<struct TemperatureTag>;  ///< "20.3 degC"
 
-/// How a value came about, the verification operator in the sense of ISO 17450-2: it cannot be made
-/// without all of its terms.
+/// How a value came about: the verification operator in the sense of ISO 17450-2. It cannot be
+/// constructed without all of its terms.
 class ValueOperator {
  public:
   ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling, TipTerm tip,
@@ -39,13 +39,13 @@ class ValueOperator {
   core::Phrase words_;
 };
 
-/// What is known of the uncertainty of a value: an interval, or why there is none.
+/// The uncertainty of a value: an interval, or why there is none.
 class UncertaintyStatus {
  public:
   [[nodiscard]] static UncertaintyStatus none(core::Phrase why);
   [[nodiscard]] static UncertaintyStatus stated(UncertaintyResult result, double coverage_1);
 
-  /// Nothing: see why().
+  /// The result; if none, see why().
   [[nodiscard]] const std::optional<UncertaintyResult>& result() const { return result_; }
   [[nodiscard]] const core::Phrase& why() const { return why_; }
   [[nodiscard]] double coverage_1() const { return coverage_1_; }
@@ -59,15 +59,16 @@ class UncertaintyStatus {
   double coverage_1_ = 0.0;
 };
 
-/// A value as every report writes it: never without its operator and the status of its uncertainty.
+/// A value as every report writes it: always with its operator and the status of its uncertainty.
 class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints);
 
-  /// As read: not corrected for any bias [mm].
+  /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
-  /// What is quoted: the estimate, which lies in the interval; as read where there is none [mm].
+  /// Quoted value: the estimate, which lies in the interval; without an interval the value as read
+  /// [mm].
   [[nodiscard]] double quoted_mm() const {
     return statement() == nullptr ? value_mm_ : statement()->estimate_mm;
   }
@@ -75,9 +76,9 @@ class StatedValue {
   [[nodiscard]] std::string in_digits(double length_mm) const;
   [[nodiscard]] const ValueOperator& value_operator() const { return operator_; }
   [[nodiscard]] const UncertaintyStatus& uncertainty() const { return uncertainty_; }
-  /// What the interval printed beside the value is about.
+  /// The measurand of the printed interval.
   [[nodiscard]] Measurand measurand() const { return measurand_; }
-  /// The statement about it, or nullptr.
+  /// The statement about measurand(), or nullptr.
   [[nodiscard]] const UncertaintyStatement* statement() const {
     return uncertainty_.about(measurand_);
   }

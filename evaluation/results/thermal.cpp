@@ -23,9 +23,8 @@ double scale_factor(double expansion_1_K, double degC) {
   return 1.0 + expansion_1_K * (degC - kReference_degC);
 }
 
-/// Mean temperatures of the touches that measure in a pose, as far as `out` has an expansion for
-/// them.
-/// @return  false: one that is needed is neither measured nor declared.
+/// Mean temperatures of the measuring touches in a pose, for those expansions that `out` has.
+/// @return  false: a temperature that is needed is neither measured nor declared.
 bool take_means(const RunRecord& record, int pose, ThermalCorrection& out) {
   const std::optional<double> assumed = assumed_degC(record);
   const auto known = [&](const std::optional<double>& measured) {
@@ -114,7 +113,7 @@ std::optional<ThermalCorrection> thermal_correction(const RunRecord& record, int
 std::optional<RunRecord> compensated(const RunRecord& record) {
   std::optional<RunRecord> out;
   const double assumed = assumed_degC(record).value_or(kReference_degC);
-  double scales_1_K = 0.0;  // of the machine: alike for every feature
+  double scales_1_K = 0.0;  // one value of the machine for every feature
   for (const record::PoseVisit& visit : record.poses) {
     const auto correction = thermal_correction(record, visit.feature, visit.id);
     if (!correction) continue;

@@ -24,15 +24,16 @@ using core::kMicrometre;
 using Eigen::Vector3d;
 using record::RotaryTask;
 
-constexpr double kZero_rad = 1e-9;    // of a commanded angle
-constexpr double kBeside_rad = 1e-6;  // of the other axis at a station: 0.1 um at a lever of 100 mm
+constexpr double kZero_rad = 1e-9;  // tolerance of a commanded angle
+// tolerance of the other axis at a station: 0.1 um at a lever of 100 mm
+constexpr double kBeside_rad = 1e-6;
 constexpr double kDay_s = 86'400.0;
 
 /// The balls found in one pose.
 struct VisitBalls {
   core::Pose commanded;
   core::Pose reached;
-  std::map<int, fit::BallCenter> centers;  ///< By number of the ball.
+  std::map<int, fit::BallCenter> centers;  ///< By ball number.
 };
 
 struct Measurement {
@@ -107,7 +108,7 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
     out.visits.push_back(std::move(balls));
   }
   if (freedoms <= 0) return core::fail(core::Code::kNoPoints, "no ball was touched");
-  // Touches without any scatter, as of a simulation without errors, still have their digits.
+  // Touches without scatter, as in an error-free simulation, are still rounded to their digits.
   out.touch_sigma_mm = std::max(1e-9, std::sqrt(squares_mm2 / freedoms));
   return out;
 }
@@ -134,7 +135,7 @@ Role role_of(const core::Pose& commanded) {
   return beta ? Role::kBeta : Role::kReference;
 }
 
-/// That the axis that is not measured stands at 0.
+/// Checks that the axis that is not measured is at 0.
 core::Result<void> check_other_axis(const VisitBalls& visit, Role role) {
   const bool of_alpha = role == Role::kAlpha;
   const double other_rad = of_alpha ? visit.reached.beta_rad : visit.reached.alpha_rad;
@@ -164,7 +165,7 @@ core::Result<fit::RotaryStudy> study_of(const Measurement& measured, Role role,
       task.stations.push_back({angle_rad, fit::Approach::kUnknown, measured.balls_of(visit)});
     }
   }
-  // The zero pose between the axes is the station at 0 of both.
+  // The zero pose between the axes is the station at 0 for both.
   if (references.size() > 2) {
     task.stations.push_back(
         {0.0, fit::Approach::kUnknown, measured.balls_of(*references[references.size() / 2])});
@@ -196,7 +197,7 @@ double variance_mm2(const fixture::Calibration& c, const core::Pose& pose, const
          u_mm.squaredNorm();
 }
 
-/// That every ball touched in a combined pose has its place from the zero poses.
+/// Checks that every ball touched in a combined pose has a place from the zero poses.
 core::Result<void> check_balls(const Measurement& measured, const RotaryResult& facts) {
   const auto& reference = facts.alpha.reference;
   for (const VisitBalls& visit : measured.visits) {
@@ -219,7 +220,7 @@ struct Sums {
   double expected_mm2 = 0.0;
 };
 
-/// What is left at one combined pose, its points added to the sums and the largest distances.
+/// Residual at one combined pose; its points are added to the sums and the largest distances.
 CombinedPose verify_pose(const Measurement& measured, const VisitBalls& visit,
                          const std::map<std::string, Vector3d>& body_mm, RotaryResult& facts,
                          Sums& sums) {
@@ -303,7 +304,7 @@ core::Result<void> date_calibration(const record::RunRecord& record, const Rotar
   return {};
 }
 
-/// Of all balls about the base-fixed axis, and how well a centre is known.
+/// Condition of all balls about the base-fixed axis, and the uncertainty of a centre.
 void judge_balls(const Measurement& measured, RotaryResult& facts) {
   std::vector<Vector3d> balls;
   for (const fit::BallCentre& ball : facts.alpha.reference) {

@@ -11,17 +11,17 @@ namespace rondure::evaluation {
 
 struct FeatureResult;  // results/evaluation.h
 
-/// What is left at one combined pose.
+/// Residual at one combined pose.
 struct CombinedPose {
-  core::Pose pose;  ///< As the fixture read it.
+  core::Pose pose;  ///< Pose as the fixture read it.
   std::size_t points = 0;
   double rms_mm = 0.0;
   double max_mm = 0.0;
-  double tilt_rad = 0.0;       ///< Turn that is left.
-  double before_rms_mm = 0.0;  ///< Against the nominal kinematics.
+  double tilt_rad = 0.0;       ///< Residual rotation.
+  double before_rms_mm = 0.0;  ///< Residual against the nominal kinematics.
 };
 
-/// Everything found of the fixture.
+/// All results for the fixture.
 struct RotaryResult {
   fit::RotaryStudy alpha;
   fit::RotaryStudy beta;
@@ -30,14 +30,14 @@ struct RotaryResult {
   std::size_t touches = 0;
   double touch_sigma_mm = 0.0;  ///< Pooled scatter of a touch about its ball.
   double center_u_mm = 0.0;     ///< Root mean square standard uncertainty of a centre coordinate.
-  double condition = 0.0;       ///< Of all balls; see fit::setup_condition().
+  double condition = 0.0;       ///< Condition of the set of balls; see fit::setup_condition().
   std::vector<CombinedPose> combined;
   fixture::Calibration calibration;
 };
 
 /// Evaluates feature `index` of a record.
-/// @param result  With the feature and the tip radius; gets the warnings and the temperatures.
-/// @return  Why there is no result, where there is none.
+/// @param result  Holds the feature and the tip radius; receives the warnings and the temperatures.
+/// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int index,
                                                          FeatureResult& result);
 
@@ -49,7 +49,7 @@ struct RotaryResult {
 [[nodiscard]] core::Phrase filter_text(const RotaryResult& result);
 [[nodiscard]] core::Phrase sampling_text(const RotaryResult& result);
 
-/// One axis: "alpha" or "beta", and which study it is.
+/// One axis, "alpha" or "beta", with its study.
 struct AxisFacts {
   const char* key = "";
   const fit::RotaryStudy* study = nullptr;

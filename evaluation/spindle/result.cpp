@@ -70,7 +70,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   return out;
 }
 
-/// The harmonic that comes nearest to its limit, or goes farthest beyond.
+/// The harmonic that is nearest to its limit, or farthest beyond it.
 core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;

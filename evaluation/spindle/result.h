@@ -9,18 +9,18 @@ namespace rondure::evaluation {
 
 struct FeatureResult;  // results/evaluation.h
 
-/// Everything found of a spindle feature.
+/// All results for a spindle feature.
 struct SpindleResult {
   fit::SwingArm arm;
   fit::ThreeProbeResult separation;
-  fit::RoundnessEvaluation roundness;  ///< Of the recovered profile.
+  fit::RoundnessEvaluation roundness;  ///< Roundness of the recovered profile.
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
 };
 
 /// Evaluates feature `index` of a record.
-/// @param result  With the feature; gets the warnings.
-/// @return  Why there is no result, where there is none.
+/// @param result  Holds the feature; receives the warnings.
+/// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record,
                                                            int index, FeatureResult& result);
 
@@ -32,7 +32,7 @@ struct SpindleResult {
 [[nodiscard]] core::Phrase filter_text(const SpindleResult& result);
 [[nodiscard]] core::Phrase sampling_text(const SpindleResult& result);
 
-/// Roundness of a recovered profile, all references.
+/// Roundness of a recovered profile, with all references.
 /// @param cutoff_upr  Gaussian low pass; 0: unfiltered.
 [[nodiscard]] core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
                                                         const fit::SwingArm& arm,

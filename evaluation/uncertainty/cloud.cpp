@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// Axis and radius, by least squares.
+/// Axis and radius by least squares.
 core::Result<FormCloud> located(FormKind kind, std::span<const Vector3d> points_mm,
                                 const std::optional<Vector3d>& near_direction) {
   FormCloud cloud;

@@ -12,7 +12,7 @@
 
 namespace rondure::evaluation {
 
-/// Which value a cloud is measured for.
+/// The form value that a cloud is measured for.
 enum class FormKind {
   kCylindricity,  ///< CYLt of all points.
   kRoundness,     ///< RONt of one section.
@@ -20,32 +20,34 @@ enum class FormKind {
 
 /// A sampled point in the frame of its cylinder.
 struct FormPoint {
-  double angle_rad = 0.0;     ///< About the axis.
-  double height_mm = 0.0;     ///< Along the axis, from its point; 0 in a section.
-  double deviation_mm = 0.0;  ///< Distance from the axis minus the radius; 0 where nothing was
-                              ///< measured yet.
-  int repeats = 1;            ///< Touches that the point is the mean of, >= 1.
-  int pose = 0;               ///< Fixture pose it was touched in.
-  double time_1 = 0.0;        ///< When, from 0 (first touch) to 1 (last touch).
+  double angle_rad = 0.0;  ///< Angle about the axis.
+  double height_mm = 0.0;  ///< Height along the axis, from its point; 0 in a section.
+  /// Distance from the axis minus the radius; 0 before the measurement.
+  double deviation_mm = 0.0;
+  int repeats = 1;      ///< Number of touches that the point is the mean of, >= 1.
+  int pose = 0;         ///< Fixture pose in which it was touched.
+  double time_1 = 0.0;  ///< Time of the touch, from 0 (first touch) to 1 (last touch).
 };
 
-/// Points of a cylinder or a section with what the engine of the uncertainty needs to know of
-/// them: measured (form_cloud()) or nominal (before the first touch).
+/// Points of a cylinder or a section with all data that the uncertainty engine needs: measured
+/// (form_cloud()) or nominal (before the first touch).
 struct FormCloud {
   FormKind kind = FormKind::kCylindricity;
-  record::Reference reference = record::Reference::kMinimumZone;  ///< That the value is about.
+  record::Reference reference = record::Reference::kMinimumZone;  ///< Reference of the value.
   fit::Axis axis;          ///< Machine frame; angles count from the first vector of fit::across().
-  double radius_mm = 0.0;  ///< Of the tip centres, > 0.
-  int passes = 1;          ///< Over its layers, at places of their own, that make the points.
-  bool outside = true;     ///< A shaft, touched towards the axis; else a bore.
+  double radius_mm = 0.0;  ///< Radius of the tip centres, > 0.
+  /// Number of passes over the layers, at places of their own.
+  int passes = 1;
+  bool outside = true;  ///< A shaft, touched towards the axis; false: a bore.
   std::vector<FormPoint> points;
 };
 
 /// The cloud of measured points about their least-squares axis, in the order they were touched:
 /// even times, one pose, one touch each (correct them afterwards where that is not so).
 ///
-/// @param points_mm       Tip centres, machine frame. Of a section: the plane through them.
-/// @param near_direction  Of the axis; for a section its normal (z if absent).
+/// @param points_mm       Tip centres, machine frame. For a section, its plane is fitted to them.
+/// @param near_direction  Approximate direction of the axis; for a section, its normal (z if
+///     absent).
 /// @return  The errors of fit::ls_cylinder(), fit::ls_circle().
 [[nodiscard]] core::Result<FormCloud> form_cloud(
     FormKind kind, std::span<const Eigen::Vector3d> points_mm,
@@ -57,7 +59,7 @@ struct FormCloud {
 /// Where the tip centre is, machine frame [mm].
 [[nodiscard]] Eigen::Vector3d position_mm(const FormCloud& cloud, const FormPoint& point);
 
-/// What a shift, a tilt (cylinder only) and a change of radius do to the deviations, to first
+/// Effect of a shift, a tilt (cylinder only) and a change of radius on the deviations, to first
 /// order: n x 5 or n x 3, orthonormal columns (fewer where the points do not determine them).
 [[nodiscard]] Eigen::MatrixXd rigid_basis(const FormCloud& cloud);
 

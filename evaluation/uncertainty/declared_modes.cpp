@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double kRangeOf25Normals = 3.931;  // mean range of 25 normal values, in sigma
 
-/// Collects what each influence does to each point.
+/// Collects the effect of each influence on each point.
 class ModeCollector {
  public:
   explicit ModeCollector(const FormCloud& cloud) : cloud_(cloud) {
@@ -92,7 +92,8 @@ void ModeCollector::probe(const ProbeInfluences& probe) {
   begin("probe-lobing");
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
     if (lobe.amplitude_mm == 0.0) continue;
-    // The reading lies behind the contact along the approach; what acts across the stylus counts.
+    // The position is read after the contact, along the approach; only motion across the stylus
+    // counts.
     const auto wave = [&](std::size_t i, double shift) {
       const Vector3d& n = normals_[i];
       const double side = cloud_.outside ? -1.0 : 1.0;
@@ -115,7 +116,8 @@ void ModeCollector::probe(const ProbeInfluences& probe) {
   }
 }
 
-/// The modes of one error curve: its linear and quadratic coefficient, its wave in two phases.
+/// Adds the modes of one error curve: its linear and quadratic coefficients, its wave in two
+/// phases.
 void ModeCollector::curve(const cmm::GeometricErrors& frame, std::size_t axis,
                           std::size_t component, bool rotation) {
   const cmm::AxisErrors& errors = frame.axes[axis];

@@ -58,7 +58,8 @@ core::Result<void> check_machine(const MachineInfluences& machine) {
       }
     }
   }
-  return check_numbers(numbers, true);  // typical_errors() has signs; a spread has none
+  // typical_errors() has signed values; a spread must not be negative
+  return check_numbers(numbers, true);
 }
 
 core::Result<void> check_thermal(const ThermalInfluences& thermal) {
@@ -84,7 +85,7 @@ core::Result<void> check_fixture(const FixtureInfluences& fixture) {
                        false);
 }
 
-/// Writes the declaration, one line an influence.
+/// Writes the declaration, one line per influence.
 class Declaration {
  public:
   void group(bool declared) { declared_ = declared; }
@@ -139,7 +140,7 @@ void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out)
                                              kUm * probe.tip_radius_mm));
 }
 
-/// Whether a curve has anything but zeros.
+/// Whether a curve has any value other than zero.
 bool says(const cmm::ErrorCurve& curve) {
   return curve.linear_1_mm != 0.0 || curve.quadratic_1_mm2 != 0.0 || curve.wave != 0.0;
 }

@@ -18,28 +18,28 @@ struct FormTerm {
   double amplitude_mm = 0.0;  ///< Standard deviation of its coefficient(s), >= 0.
 };
 
-/// The stated form spectrum of a surface: which forms it may have, and how large. It is what says
-/// something about the surface between the points; without one there is no statement about it.
+/// The stated form spectrum of a surface: which forms it may have, and how large. It describes the
+/// surface between the points; without one there is no statement about the whole surface.
 struct FormSpectrum {
-  std::vector<FormTerm> terms;  ///< None: the form is learnt from the cloud.
-  /// Whether the amplitudes are known as such; else their ratios are, and the size common to all is
+  std::vector<FormTerm> terms;  ///< Empty: the form is learnt from the cloud.
+  /// Whether the amplitudes are known; otherwise only their ratios are, and their common size is
   /// estimated from the deviations.
   bool absolute = false;
-  double low_mm = 0.0;   ///< Ends of the surface along the axis, in the heights of the cloud.
+  double low_mm = 0.0;   ///< Lower end of the surface along the axis, in the heights of the cloud.
   double high_mm = 0.0;  ///< > low_mm; both 0 in a section.
   core::Phrase source;   ///< Where it comes from, for the report: "form_spectrum of the plan".
 };
 
-/// kBadOption for what a spectrum must not hold, naming the term; or when it has more than 400
-/// coefficients, or undulations and degrees that need a grid of more than 10 000 places.
+/// kBadOption for an invalid term, which it names; for more than 400 coefficients; or for
+/// undulations and degrees that need a grid of more than 10 000 places.
 [[nodiscard]] core::Result<void> check_spectrum(const FormSpectrum& spectrum, FormKind kind);
 
-/// Values of the terms at points: one row a point, one or two columns a term (cos, sin), each times
-/// its amplitude.
+/// Values of the terms at points: one row per point, one or two columns per term (cos, sin), each
+/// times its amplitude.
 [[nodiscard]] Eigen::MatrixXd spectrum_columns(const FormSpectrum& spectrum,
                                                std::span<const FormPoint> points);
 
-/// Places of a grid that is fine enough for a spectrum.
+/// Number of places of a grid that is fine enough for a spectrum.
 [[nodiscard]] std::size_t grid_places(const FormSpectrum& spectrum, FormKind kind);
 
 }  // namespace rondure::evaluation

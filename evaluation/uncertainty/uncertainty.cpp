@@ -28,7 +28,7 @@ UncertaintyStatement statement_of(std::vector<double> trials, double coverage) {
   const auto beyond = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
   out.low_mm = trials[beyond];
   out.high_mm = trials[trials.size() - 1 - beyond];
-  if (out.estimate_mm < out.low_mm || out.estimate_mm > out.high_mm) {  // a few far trials
+  if (out.estimate_mm < out.low_mm || out.estimate_mm > out.high_mm) {  // a few extreme trials
     out.estimate_mm = trials[trials.size() / 2];
   }
   out.values_mm = std::move(trials);
@@ -45,8 +45,8 @@ std::vector<double> all_of(const FormChains& chains, ValuesOf values) {
   return out;
 }
 
-/// JCGM 101 section 7.9.4: twice the standard deviation of the mean of the chains, of the worst of
-/// the four numbers.
+/// JCGM 101 section 7.9.4: twice the standard deviation of the mean of the chains, the worst of the
+/// four numbers.
 double left_open(const FormChains& chains, ValuesOf values, double coverage) {
   if (chains.values().size() < 2 || (chains.values().front().*values).empty()) return 0.0;
   std::vector<std::vector<double>> numbers(4);
@@ -139,7 +139,7 @@ int threads_of(const UncertaintyOptions& options) {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
 }
 
-/// A reference that exists for the points as measured may not exist for all that they may be.
+/// A reference that exists for the measured points may not exist for every possible drawn form.
 core::Result<void> check_values(const std::vector<double>& values) {
   const auto lost =
       std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
@@ -157,7 +157,7 @@ core::Result<void> check_values(const FormChains& chains) {
 constexpr std::size_t kManyPoints = 20'000;
 constexpr int kTrialsOfMany = 1000;
 
-/// Draws until the numbers stand still. Source: JCGM 101 section 7.9.
+/// Draws until the numbers are stable. Source: JCGM 101 section 7.9.
 core::Result<UncertaintyResult> run_chains(FormChains& chains, const UncertaintyOptions& options,
                                            std::size_t points) {
   UncertaintyResult out;
@@ -195,7 +195,7 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
   return out;
 }
 
-/// What the draws found the cloud to be made of.
+/// The composition of the cloud according to the draws.
 FormFinding finding_of(const FormChains& chains, std::size_t points) {
   FormFinding out;
   std::vector<int> counts(points, 0);
@@ -215,17 +215,19 @@ FormFinding finding_of(const FormChains& chains, std::size_t points) {
   return out;
 }
 
-constexpr double kMostFlagged = 0.2;    // of the points of a cloud
-constexpr double kErrorLimit = 0.975;   // quantile of what declared errors can make
-constexpr double kReadLimit = 4.0;      // standard deviations of what the model would read
-constexpr double kScatterLimit = 4.0;   // the same, of the residual scatter
-constexpr double kFewResiduals = 40.0;  // below them nothing shows a noise declared too large
+constexpr double kMostFlagged = 0.2;  // of the points of a cloud
+// quantile of the inflation that the declared errors can produce
+constexpr double kErrorLimit = 0.975;
+constexpr double kReadLimit = 4.0;     // standard deviations of the readings of the model
+constexpr double kScatterLimit = 4.0;  // the same, of the residual scatter
+// below this number, noise declared too large cannot be detected
+constexpr double kFewResiduals = 40.0;
 
 tl::unexpected<core::Error> void_interval(Code code, core::Phrase why) {
   return core::fail(code, std::move(why));
 }
 
-/// The correction is not larger than the declared errors can make it.
+/// Checks that the correction is not larger than the declared errors can produce.
 core::Result<void> guard_correction(const FormChains& chains, const UncertaintyResult& found) {
   std::vector<double> errors = all_of(chains, &ChainValues::of_errors_mm);
   std::erase_if(errors, [](double value) { return !std::isfinite(value); });
@@ -241,7 +243,7 @@ core::Result<void> guard_correction(const FormChains& chains, const UncertaintyR
                                     1e3 * found.noise_inflation_mm, 1e3 * most));
 }
 
-/// The model would read what was read.
+/// Checks that the model would read the measured value.
 core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResult& found) {
   std::vector<double> read = all_of(chains, &ChainValues::read_mm);
   std::erase_if(read, [](double value) { return !std::isfinite(value); });
@@ -256,7 +258,8 @@ core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResu
                    1e3 * mean, 1e3 * spread, 1e3 * found.uncorrected_mm));
 }
 
-/// The points do not scatter less than declared. Notes it where nothing could show that.
+/// Checks that the points do not scatter less than declared. Adds a note where that cannot be
+/// shown.
 core::Result<void> guard_scatter(const FormChains& chains, std::size_t points,
                                  UncertaintyResult& found) {
   double scatter = 0.0;
@@ -281,7 +284,7 @@ core::Result<void> guard_scatter(const FormChains& chains, std::size_t points,
                    1e3 * found.finding.noise_mm));
 }
 
-/// Each line's share of the lines of (a); sampling's of all.
+/// Each line's share of the lines of (a); sampling's share of all lines.
 void share_out(std::vector<BudgetLine>& budget) {
   double sampled = 0.0;
   double all = 0.0;
@@ -319,7 +322,7 @@ core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const 
     budget.push_back(line);
   }
   const std::vector<double> whole = all_of(chains, &ChainValues::whole_mm);
-  if (!whole.empty()) {  // what the form between the points leaves open
+  if (!whole.empty()) {  // uncertainty of the form between the points
     std::vector<double> loss = all_of(chains, &ChainValues::sampled_mm);
     for (std::size_t t = 0; t < loss.size(); ++t) loss[t] -= whole[t];
     BudgetLine line;
@@ -334,7 +337,7 @@ core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const 
 }
 
 constexpr int kDenseLayers = 3;
-constexpr int kDensePoints = 14;  // of a layer
+constexpr int kDensePoints = 14;  // per layer
 
 /// The ends of the surface; kSampling where a cloud cannot show its own spectrum.
 core::Result<std::optional<WholeExtent>> extent_of(const FormCloud& cloud, const FormModel& model,
@@ -381,14 +384,14 @@ core::Phrase source_of(const FormModel& model, const FormSpectrum& spectrum) {
       3 * columns.most_undulations());
 }
 
-/// Whether nothing at all is known of the errors of single touches.
+/// Whether nothing is known of the errors of single touches.
 bool noise_is_unknown(const ErrorModel& errors, const Influences& influences) {
   if (!errors.point_variance_mm2().isZero(0.0)) return false;
   return !influences.probe || !influences.probe->repeatability_known;
 }
 
-/// Without a known noise there is no interval: only bounds. The lower one takes all that the model
-/// does not follow for noise.
+/// Without known noise there is no interval, only bounds. The lower one counts everything that the
+/// model does not follow as noise.
 tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences& influences,
                                         const FormModel& model, const UncertaintyOptions& options) {
   core::Phrase why = core::phrase(

@@ -16,19 +16,20 @@ namespace rondure::evaluation {
 /// Settings of measurement_uncertainty(). A value outside its range gives kBadOption.
 struct UncertaintyOptions {
   /// Trials stop when twice the standard deviation of each printed number is below this [mm], JCGM
-  /// 101 section 7.9; 0: when the most trials are done.
+  /// 101 section 7.9; 0: run most_trials.
   double tolerance_mm = 0.0;
-  int chains = 8;            ///< Of draws; compared with one another, 1..64. One has no comparison.
+  int chains = 8;  ///< Chains of draws, compared with one another, 1..64. One has no comparison.
   int least_trials = 2000;   ///< >= 100; shared among the chains.
   int most_trials = 10000;   ///< >= least_trials, <= 10 000 000; 1000 above 20 000 points.
-  int budget_trials = 1000;  ///< Of each influence alone, >= 2; 0: no budget.
-  double expected_spots = 0.5;  ///< Points of a part that stand out by themselves, 0.01..10.
-  double coverage = 0.95;       ///< Probability of the interval, 0.5..0.999.
-  std::uint64_t seed = 1;       ///< Same seed, same numbers, at any number of threads.
-  int threads = 0;              ///< 0: as many as the processor has.
+  int budget_trials = 1000;  ///< Trials of each influence alone, >= 2; 0: no budget.
+  /// Expected spots on a part (single points that stand out), 0.01..10.
+  double expected_spots = 0.5;
+  double coverage = 0.95;  ///< Probability of the interval, 0.5..0.999.
+  std::uint64_t seed = 1;  ///< Same seed, same numbers, at any number of threads.
+  int threads = 0;         ///< 0: as many as the processor has.
 };
 
-/// What a statement is about. Never mixed.
+/// Subject of a statement. The two are never mixed.
 enum class Measurand {
   kSampledPoints,  ///< (a) the value of the surface at the sampled points, free of noise.
   kWholeSurface,   ///< (b) the value of the whole surface, under the stated form spectrum.
@@ -39,38 +40,39 @@ enum class Measurand {
 /// A value with its interval.
 struct UncertaintyStatement {
   Measurand measurand = Measurand::kSampledPoints;
-  double estimate_mm = 0.0;  ///< Corrected for the bias: mean of the trials. In the interval.
-  double low_mm = 0.0;       ///< Coverage interval, as much outside on either side.
+  double estimate_mm = 0.0;  ///< Mean of the trials, corrected for the bias. Inside the interval.
+  double low_mm = 0.0;       ///< Coverage interval, with equal probability on either side.
   double high_mm = 0.0;
   double standard_uncertainty_mm = 0.0;  ///< Standard deviation of the trials.
   /// Twice the standard deviation of the mean of the chains, the largest of estimate, standard
-  /// uncertainty, low and high [mm]: what the number of trials leaves open.
+  /// uncertainty, low and high [mm]: the numerical error of a finite number of trials.
   double numerical_tolerance_mm = 0.0;
-  std::vector<double> values_mm;  ///< Of the trials, ascending: the whole distribution.
+  std::vector<double> values_mm;  ///< Values of the trials, ascending: the whole distribution.
 
-  /// U: half the width of the interval, which need not lie evenly about the estimate.
+  /// U: half the width of the interval, which need not be symmetric about the estimate.
   [[nodiscard]] double expanded_mm() const { return 0.5 * (high_mm - low_mm); }
 };
 
-/// Decimals of a length in um whose uncertainty is U: two digits of U, 1 to 4 decimals.
+/// Decimals for a length in um with uncertainty U: two digits of U, 1 to 4 decimals.
 [[nodiscard]] int decimals_for(double expanded_mm);
 
-/// What one influence alone does to the measured value.
+/// Effect of one influence alone on the measured value.
 struct BudgetLine {
   std::string name;  ///< As in InfluenceStatement; "sampling" for (b).
   Measurand measurand = Measurand::kSampledPoints;
-  double standard_uncertainty_mm = 0.0;  ///< Spread it gives the value.
-  double shift_mm = 0.0;                 ///< Mean change of the value, with sign.
-  double share_1 = 0.0;                  ///< Of the sum of the squares of the spreads, 0..1.
+  double standard_uncertainty_mm = 0.0;  ///< Spread of the value.
+  double shift_mm = 0.0;                 ///< Mean change of the value, signed.
+  double share_1 = 0.0;                  ///< Fraction of the sum of the squared spreads, 0..1.
 };
 
-/// What the cloud was found to be made of: means over the draws.
+/// Composition of the cloud: means over the draws.
 struct FormFinding {
   double noise_mm = 0.0;       ///< Standard deviation of the error of a point.
-  double unresolved_mm = 0.0;  ///< Of form rougher than the columns.
-  double groups = 0.0;         ///< Undulations (of a degree along the axis) that are there.
-  double spots = 0.0;          ///< Points that stand out by themselves: burrs, dirt, scratches.
-  std::vector<std::size_t> spot_rows;  ///< Of the cloud: spots in more than half of the draws.
+  double unresolved_mm = 0.0;  ///< Standard deviation of form rougher than the columns.
+  double groups = 0.0;         ///< Number of undulations (of a degree along the axis) present.
+  double spots = 0.0;          ///< Number of spots: burrs, dirt, scratches.
+  /// Rows of the cloud that are spots in more than half of the draws.
+  std::vector<std::size_t> spot_rows;
 };
 
 /// The uncertainty of one form value.
@@ -78,7 +80,7 @@ struct UncertaintyResult {
   double uncorrected_mm = 0.0;                ///< The value of the points as read.
   UncertaintyStatement sampled;               ///< (a)
   std::optional<UncertaintyStatement> whole;  ///< (b), where a spectrum was stated.
-  /// Expected inflation by noise: uncorrected minus estimate (a) [mm]; commonly > 0.
+  /// Expected inflation by noise: uncorrected minus estimate (a) [mm]; usually > 0.
   double noise_inflation_mm = 0.0;
   /// Expected loss by sparse sampling: estimate (a) minus estimate (b) [mm]; <= 0. Hence
   /// uncorrected = estimate (b) + inflation + loss.
@@ -87,24 +89,23 @@ struct UncertaintyResult {
   FormFinding finding;
   std::vector<core::Phrase> notes;              ///< To be read beside the interval.
   std::vector<BudgetLine> budget;               ///< Ranked by spread, the largest first.
-  std::vector<InfluenceStatement> declaration;  ///< Covered and not covered.
+  std::vector<InfluenceStatement> declaration;  ///< Covered and uncovered influences.
   int trials = 0;
-  bool tolerance_reached = false;  ///< false too when none was asked for.
+  bool tolerance_reached = false;  ///< false too when no tolerance was set.
 };
 
 /// Uncertainty of a form value by propagating distributions (Monte Carlo).
 ///
-/// The deviations are form + declared errors; what is declared is noise, all else is form. A model
-/// of the form (undulations times degrees in bands of a common size, what is rougher, single spots)
-/// is learnt from the one cloud, and forms that may stand behind the deviations are drawn from it
+/// The deviations are form + declared errors: only declared errors are noise, the rest is form. A
+/// model of the form (undulations times degrees in bands of a common size, rougher form, single
+/// spots) is learnt from the one cloud, and forms compatible with the deviations are drawn from it
 /// by Gibbs sampling. Their values are the distribution: (a) at the points, (b) of the same form on
 /// the whole surface.
 ///
-/// @param cloud       >= 4 (section) or 6 (cylinder) points that determine place and size;
-/// measured,
-///                    or nominal with deviations made by somebody else.
-/// @param spectrum    For (b); without terms what the cloud shows by itself, for which it must be
-///                    dense; none: no statement about the whole surface.
+/// @param cloud       >= 4 (section) or 6 (cylinder) points that determine position and size;
+///     measured, or nominal with deviations from elsewhere.
+/// @param spectrum    For (b); with no terms the spectrum that the cloud shows, which must then be
+///     dense; none: no statement about the whole surface.
 /// @return  kTooFewPoints, kNotFinite (row), kRank, kBadOption; kSampling (too sparse for its own
 ///          spectrum); kMeaning (no noise known); kOutliers, kInconsistent (the data contradict the
 ///          model or the declaration: a void, with its reason). Same input, same bits, at any
@@ -117,13 +118,13 @@ struct UncertaintyResult {
     const std::optional<FormSpectrum>& spectrum = std::nullopt,
     const UncertaintyOptions& options = {});
 
-/// What one inspection of a part of a form spectrum would read: for a prediction before the first
-/// touch, whose measurement_uncertainty() is then that of such an inspection.
+/// Reading of one inspection of a part with a given form spectrum: for a prediction before the
+/// first touch; measurement_uncertainty() of the result is that of such an inspection.
 ///
-/// @param nominal   Places; their deviations are not looked at.
-/// @param spectrum  Its amplitudes are taken as they are.
-/// @param seed      Another seed, another part and another inspection.
-/// @return  The cloud with deviations, about its axis; as measurement_uncertainty() otherwise.
+/// @param nominal   Places; their deviations are ignored.
+/// @param spectrum  Its amplitudes are used as they are.
+/// @param seed      Another seed gives another part and another inspection.
+/// @return  The cloud with deviations, about its axis; errors as for measurement_uncertainty().
 [[nodiscard]] core::Result<FormCloud> simulated_cloud(const FormCloud& nominal,
                                                       const Influences& influences,
                                                       const FormSpectrum& spectrum,

@@ -127,7 +127,7 @@ core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
   return out;
 }
 
-/// What the points about the whole turn and the dropped ones leave of a roundness.
+/// Turns a roundness into a bound, given the points about the whole turn and the dropped ones.
 /// @param with_dropped_mm  Roundness of all points.
 /// @param zone  A minimum zone: that of some points is never wider than that of all.
 AnalysisValue bounded(AnalysisValue value, const fit::WheelMeasurement& m, double with_dropped_mm,
@@ -187,7 +187,7 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
   if (!m.runout) return core::fail(core::Code::kNoAxis, m.runout_absent);
   AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
   if (!m.runout->bound_because.empty()) {
-    // All points within the tolerance settle it, where the whole turn is seen.
+    // If all points lie within the tolerance, that decides, where the whole turn is seen.
     if (m.sees_whole_turn() && characteristic.tolerance_mm &&
         m.runout->fim_with_dropped_mm <= *characteristic.tolerance_mm) {
       out.value_mm = m.runout->fim_with_dropped_mm;

@@ -11,16 +11,16 @@ namespace rondure::evaluation {
 
 struct FeatureResult;  // results/evaluation.h
 
-/// Everything found of a wheel feature, with what was asked for.
+/// All results for a wheel feature, with its settings.
 struct WheelResult {
-  std::vector<Eigen::Vector2d> points_mm;  ///< As recorded, x and z.
+  std::vector<Eigen::Vector2d> points_mm;  ///< x and z as recorded.
   fit::WheelTask task;
   fit::WheelEvaluation evaluation;
 };
 
 /// Evaluates feature `index` of a record.
-/// @param result  With the feature; gets the warnings.
-/// @return  Why there is no result, where there is none.
+/// @param result  Holds the feature; receives the warnings.
+/// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,
                                                        FeatureResult& result);
 

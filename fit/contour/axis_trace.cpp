@@ -16,8 +16,8 @@
 namespace rondure::fit {
 namespace {
 
-constexpr double kMargin = 0.2;       ///< Beside the turn, for the ends of the spline [rad].
-constexpr double kMissingStep = 1.6;  ///< Times the neighbouring steps.
+constexpr double kMargin = 0.2;       ///< Margin beside the turn, for the ends of the spline [rad].
+constexpr double kMissingStep = 1.6;  ///< As a multiple of the neighbouring steps.
 constexpr double kLargeX = 0.5;       ///< mm
 constexpr double kLargeC = 0.5 * core::kDegree;
 constexpr double kLargeMeanX = 0.1;  ///< mm
@@ -58,10 +58,10 @@ core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options
   return {};
 }
 
-/// The trace in the sense and sign of the method, continuous, alpha ascending.
+/// The trace with the sense and sign of the method, continuous, alpha ascending.
 struct Oriented {
   AxisTrace rows;
-  bool reversed = false;  ///< The row recorded last comes first.
+  bool reversed = false;  ///< The row recorded last is the first.
 };
 
 Oriented oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
@@ -113,7 +113,7 @@ core::Result<void> check_steps(const std::vector<double>& alpha, bool reversed) 
   return {};
 }
 
-/// The step between two rows as they were recorded; one that begins again at zero is no step.
+/// The step between two rows as recorded; a return to zero is not a step.
 double recorded_step(const std::vector<double>& c_rad) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < c_rad.size(); ++i) {
@@ -165,7 +165,7 @@ core::Result<Cut> cut_of(const std::vector<double>& alpha, bool reversed) {
                         : alpha[std::min(first_at(alpha, start - 0.5 * step), alpha.size() - 1)];
   }
   const double reserve = cut.margins ? kMargin : 0.0;
-  // Where both ends of the turn have a row, the row recorded first counts.
+  // Where both ends of the turn have a row, use the one recorded first.
   const double open = reversed && cut.start_rad < alpha.front() ? 2.0 * core::kSameAngle : 0.0;
   cut.first = first_at(alpha, cut.start_rad - reserve + open);
   cut.end = first_at(alpha, cut.start_rad + core::kTwoPi + reserve + open);

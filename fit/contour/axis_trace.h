@@ -9,7 +9,7 @@
 
 namespace rondure::fit {
 
-/// Recording of both axes by the control, sample by sample on one time base.
+/// Recording of both axes by the control, sample by sample on a common time base.
 struct AxisTrace {
   std::vector<double> c_rad;        ///< Commanded C position; wrapped or not, any number of turns.
   std::vector<double> c_error_rad;  ///< Error of C.
@@ -22,7 +22,7 @@ struct AxisTrace {
 struct AxisTraceOptions {
   int error_sign = 1;          ///< 1: errors are actual minus command; -1: command minus actual.
   int c_direction = 1;         ///< 1: C is the polar angle of the wheel; -1: it turns against it.
-  std::size_t samples = 1440;  ///< N of the result.
+  std::size_t samples = 1440;  ///< Number of samples of the result.
 };
 
 /// One turn of a trace on uniform command angles.

@@ -62,7 +62,7 @@ bool increases_all_round(const std::vector<double>& beta) {
   return beta.back() < beta.front() + core::kTwoPi;
 }
 
-/// (beta, r) of one turn to the angles 2 pi m / M.
+/// Resamples (beta, r) of one turn to the angles 2 pi m / M.
 std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samples) {
   std::vector<std::pair<double, double>> rows;
   for (std::size_t i = 0; i < curve.r_mm.size(); ++i) {
@@ -85,7 +85,7 @@ std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samp
 core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
   FilterOptions options;
   options.cutoff_upr = cutoff_upr;
-  options.override_sampling = true;  // the caller asks for it; the sampling is checked with kc
+  options.override_sampling = true;  // requested by the caller; the sampling is checked with kc
   auto c = filter_closed(errors.c_rad, options);
   if (!c) return core::fail(c.error());
   auto x = filter_closed(errors.x_mm, options);

@@ -70,7 +70,7 @@ struct GroundContourOptions {
 /// A ground pin at the angles 2 pi m / M.
 struct GroundContour {
   std::vector<double> r_mm;
-  double regularity = 0.0;         ///< Of the unfiltered path, see ParallelCurve.
+  double regularity = 0.0;         ///< Regularity of the unfiltered path, see ParallelCurve.
   double least_regular_rad = 0.0;  ///< Command angle of the least regular place.
   bool undercut = false;           ///< The unfiltered path has loops.
   bool from_envelope = false;      ///< The radii are those of envelope_radii_mm().

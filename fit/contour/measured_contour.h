@@ -27,7 +27,7 @@ struct FilterTrace {
   double upper_rms_mm = 0.0;  ///< rms above 3 times the cut-off.
   /// Cut-off of a Gaussian filter that fits the fall of the amplitudes, if there is one.
   std::optional<double> cutoff_upr;
-  bool filtered = false;  ///< Less is left there than an unfiltered surface would have.
+  bool filtered = false;  ///< Less remains above the cut-off than on an unfiltered surface.
 };
 
 /// A contour from a gauge as a contour error at the angles 2 pi m / M.

@@ -90,7 +90,7 @@ class CrossCorrelation {
 
  private:
   std::vector<Complex> terms_;
-  std::vector<double> powers_;  ///< Of f, in the scale of the terms.
+  std::vector<double> powers_;  ///< Powers of f, in the scale of the terms.
   double norm_total_ = 0.0;
   double norm_following_ = 0.0;
 };

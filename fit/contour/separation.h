@@ -17,9 +17,9 @@ struct ContourSeparation {
   double following_mm2 = 0.0;   ///< mean(f^2).
   double rest_mm2 = 0.0;        ///< mean(n^2).
   double cross_mm2 = 0.0;       ///< 2 mean(f n); negative where n lowers the total.
-  double correlation = 0.0;     ///< Of f with n; 0 where one of them is zero.
+  double correlation = 0.0;     ///< Correlation of f with n; 0 where one of them is zero.
 
-  /// n makes the total greater than f alone.
+  /// Whether n makes the total greater than f alone.
   [[nodiscard]] bool enlarges() const { return rest_mm2 + cross_mm2 > 0.0; }
 };
 
@@ -66,13 +66,13 @@ struct CurvePair {
 /// Evidence that the axis traces have the wrong sign or the wrong sense.
 struct SenseEvidence {
   double as_given = 0.0;           ///< Correlation of t with f, all parts together.
-  double mirrored = 0.0;           ///< With f(-beta), as for the opposite sense of C.
+  double mirrored = 0.0;           ///< Correlation with f(-beta), as for the opposite sense of C.
   double rms_difference_mm = 0.0;  ///< rms(t - f) over all parts.
   double rms_sum_mm = 0.0;         ///< rms(t + f): the rest for the opposite sign.
 
-  /// t and f oppose each other: the errors are probably command minus actual.
+  /// Whether t and f oppose each other: the errors are then probably command minus actual.
   [[nodiscard]] bool sign_suspect() const { return as_given < -0.5; }
-  /// t fits the mirrored f far better.
+  /// Whether t fits the mirrored f far better.
   [[nodiscard]] bool sense_suspect() const { return mirrored > 0.7 && mirrored > as_given + 0.3; }
 };
 [[nodiscard]] SenseEvidence sense_evidence(std::span<const CurvePair> pairs);

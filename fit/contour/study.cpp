@@ -14,9 +14,10 @@ namespace rondure::fit {
 namespace {
 
 constexpr double kSamplesPerUndulation = 6.0;
-constexpr std::size_t kMostSamples = 100'000;  ///< Of a turn; gauges give some thousands.
-constexpr double kStrokeLimit = 0.05;          ///< mm
-constexpr double kPositionLimit = 0.02;        ///< mm, rms
+/// Most samples of a turn; gauges give some thousands.
+constexpr std::size_t kMostSamples = 100'000;
+constexpr double kStrokeLimit = 0.05;    ///< mm
+constexpr double kPositionLimit = 0.02;  ///< mm, rms
 
 MeasuredContourOptions gauge_options(const ContourStudyOptions& options, bool main) {
   MeasuredContourOptions out;
@@ -97,7 +98,7 @@ core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& ge
                   -std::arg(f[1]) / core::kDegree));
 }
 
-/// f from the axes alone.
+/// Computes f from the axes alone.
 core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& options,
                           ContourPartResult& out) {
   auto axes = last_turn(part.trace, options.axes);

@@ -32,15 +32,15 @@ enum class ContourMethod {
 struct ContourStudyOptions {
   ContourMethod method = ContourMethod::kCorrected;
   CrankGeometry geometry;
-  double main_radius_mm = 30.0;  ///< Of the main journals.
+  double main_radius_mm = 30.0;  ///< Radius of the main journals.
   AxisTraceOptions axes;
-  bool refine_path = true;             ///< See GroundContourOptions::refine.
-  double pre_filter_upr = 0.0;         ///< Of the axis errors before the envelope; 0: none.
-  std::size_t samples = 1440;          ///< M, of every contour.
-  ContourErrorOptions error;           ///< Base circle and filter of every contour.
-  bool prefiltered = false;            ///< The gauge has filtered pins and mains.
-  double phase_offset_rad = 0.0;       ///< Gauge angle of the direction O to pin centre, pins.
-  double main_phase_offset_rad = 0.0;  ///< The same, main journals.
+  bool refine_path = true;        ///< See GroundContourOptions::refine.
+  double pre_filter_upr = 0.0;    ///< Low pass of the axis errors before the envelope; 0: none.
+  std::size_t samples = 1440;     ///< Samples M of every contour.
+  ContourErrorOptions error;      ///< Base circle and filter of every contour.
+  bool prefiltered = false;       ///< The gauge has filtered pins and mains.
+  double phase_offset_rad = 0.0;  ///< Gauge angle of the direction O to pin centre, pins.
+  double main_phase_offset_rad = 0.0;  ///< The same for the main journals.
   int gauge_direction = 1;             ///< -1: the gauge turns against beta.
   bool map_main = false;               ///< See rest_from_main().
   StabilityLimits limits;
@@ -62,8 +62,8 @@ struct ContourPart {
 /// Indirect separation: a main journal represents the rest.
 struct IndirectSeparation {
   std::vector<double> following_mm;  ///< t minus the main journal.
-  double correlation = 0.0;          ///< With the direct following part.
-  double rms_difference_mm = 0.0;    ///< From the direct following part.
+  double correlation = 0.0;          ///< Correlation with the direct following part.
+  double rms_difference_mm = 0.0;    ///< Rms difference from the direct following part.
 };
 
 /// The separated contour of one part.
@@ -84,13 +84,13 @@ struct ContourStudy {
   std::optional<Repeatability> total;
   std::optional<Repeatability> following;
   std::optional<Repeatability> rest;
-  std::optional<Repeatability> main;     ///< When every part has a main journal.
+  std::optional<Repeatability> main;     ///< If every part has a main journal.
   std::optional<Repeatability> c_error;  ///< rad, over the command angle.
   std::optional<Repeatability> x_error;  ///< mm, over the command angle.
   double amplitude_ratio = 0.0;          ///< rms(f) / rms(n) over all parts; 0 when n is zero.
-  CorrelationOffset offset;              ///< One for all parts together, a diagnosis.
+  CorrelationOffset offset;              ///< Common offset of all parts, a diagnosis.
   SenseEvidence sense;
-  std::vector<core::Error> warnings;  ///< `where` "parts/i/..." for those of one part.
+  std::vector<core::Error> warnings;  ///< `where` is "parts/i/..." for warnings about one part.
 };
 
 /// Separates the contour of one part. See contour_study() for the errors.

@@ -19,7 +19,7 @@ class CenterFrame {
   static constexpr int kDimension = D;
   static constexpr bool kHasBall = true;  ///< EnclosingBall minimises the outer distance.
   using Point = Eigen::Matrix<double, D, 1>;
-  using Place = Point;  ///< Measuring reference of a scan.
+  using Place = Point;  ///< Reference of the distances in a scan.
 
   explicit CenterFrame(const Point& center_mm) : center_(center_mm) {}
 

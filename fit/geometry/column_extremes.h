@@ -29,7 +29,7 @@ template <class Range, class Measure>
 }
 
 /// Finds the extremes of a column, two numbers at a time if the processor can. The compiler may not
-/// reorder minima and would leave a plain loop scalar.
+/// reorder minima, so that a plain loop would stay scalar.
 [[nodiscard]] Extremes column_extremes(std::span<const double> values);
 
 /// Returns the largest absolute value; not finite if any number is not.

@@ -21,7 +21,7 @@ class CylinderFrame {
   static constexpr int kDimension = 3;
   static constexpr bool kHasBall = false;
   using Point = Eigen::Vector3d;
-  using Place = Axis;  ///< Measuring reference of a scan.
+  using Place = Axis;  ///< Reference of the distances in a scan.
 
   /// @param half_length_mm  Z > 0: the scale of the tilts.
   CylinderFrame(const Axis& axis, double half_length_mm);

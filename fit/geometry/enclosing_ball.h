@@ -44,7 +44,7 @@ class EnclosingBall {
   Ball<D> enclose(const WorkingPoints<D>& points, bool again, double round_off);
 
  private:
-  static constexpr int kMost = D + 2;  // with the point that enters
+  static constexpr int kMost = D + 2;  // including the entering point
 
   void start(const WorkingPoints<D>& points, Ball<D>& out);
   std::size_t look(const WorkingPoints<D>& points);
@@ -56,7 +56,7 @@ class EnclosingBall {
   [[nodiscard]] bool balance(Eigen::Matrix<double, D + 1, 1>& target) const;
   [[nodiscard]] Eigen::Matrix<double, D + 1, 1> dependence() const;
 
-  int count_ = 0;  ///< Number of contacts; the one that enters is the last.
+  int count_ = 0;  ///< Number of contacts; the entering one is the last.
   std::array<std::size_t, kMost> rows_{};
   std::array<Point, kMost> points_;
   std::array<double, kMost> multipliers_{};

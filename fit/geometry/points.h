@@ -12,8 +12,7 @@ namespace rondure::fit {
 using PlanePoints = std::span<const Eigen::Vector2d>;
 using SpacePoints = std::span<const Eigen::Vector3d>;
 
-/// Makes the checks with which every fitter begins: at least one point, every coordinate finite and
-/// at most 1e7 mm.
+/// Checks common to all fitters: at least one point, every coordinate finite and at most 1e7 mm.
 /// @return kNoPoints, kNotFinite (row), kOutOfRange (row).
 [[nodiscard]] core::Result<void> check_points(PlanePoints points_mm);
 [[nodiscard]] core::Result<void> check_points(SpacePoints points_mm);

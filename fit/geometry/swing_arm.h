@@ -21,7 +21,7 @@ struct SwingArm {
 
   /// Lc: distance between pivot and pin centre [mm].
   [[nodiscard]] double center_distance_mm() const { return wheel_radius_mm + pin_radius_mm; }
-  /// Whether the arm swings at all.
+  /// Whether the arm swings.
   [[nodiscard]] bool swings() const { return crank_radius_mm > 0.0; }
 
   [[nodiscard]] double beta_rad(double alpha_rad) const;

@@ -216,7 +216,7 @@ std::optional<LsCylinder> from_sample(SpacePoints points_mm,
   if (!settled) return std::nullopt;
   StretchExtremes extremes(points_mm.size());
   double lever = 0.0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // from the origin
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // relative to the origin
   const auto sums_at = [&](const CylinderModel& at, bool matrix) {
     extremes = StretchExtremes(points_mm.size());
     const auto sums = cylinder_sums(points_mm, origin, at.frame, at.radius, {matrix, &extremes});

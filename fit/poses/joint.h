@@ -23,8 +23,8 @@ struct PoseTouch {
 
 /// The touches of one pose, and the pose according to the kinematics.
 struct JointPose {
-  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  ///< Body to machine, nominal or
-                                                           ///< calibrated.
+  /// Body to machine, nominal or calibrated.
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   /// Prior standard uncertainties of its six errors, machine frame: shift along x, y, z of the
   /// point `pivot_W_mm` [mm] and turn about x, y, z [rad]. 0: known exactly.
   std::array<double, 6> prior = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -48,13 +48,14 @@ struct PoseErrorFound {
   /// True pose relative to that of the kinematics: shift x, y, z [mm], turn about x, y, z [rad].
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();  ///< Standard uncertainty.
-  Eigen::Matrix<double, 6, 1> prior_u = Eigen::Matrix<double, 6, 1>::Zero();  ///< By kinematics.
+  /// Standard uncertainty by kinematics alone.
+  Eigen::Matrix<double, 6, 1> prior_u = Eigen::Matrix<double, 6, 1>::Zero();
   /// The errors that the touches hardly determine (u above 0.7 of the prior), so that their values
   /// are those of the kinematics. Always the shift along and the turn about the axis.
   std::array<bool, 6> from_kinematics = {};
 };
 
-/// Part and poses, solved together.
+/// Part and poses, from the joint solution.
 struct PoseJoint {
   std::vector<Eigen::Vector3d> naive_B_mm;  ///< Tip centres by the kinematics alone, pose by pose.
   std::vector<Eigen::Vector3d> joint_B_mm;  ///< The same with the pose errors removed.

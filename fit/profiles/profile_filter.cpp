@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPointsPerUndulation = 7.0;
 
-// Of the robust filter.
+// Limit for the robust filter.
 constexpr int kIterationLimit = 3000;
 /// After this many iterations only half of each step is taken, then a quarter, then an eighth. With
 /// strong undulations next to the cut-off, full steps would overshoot without end. The share of the

@@ -12,7 +12,7 @@ namespace rondure::fit {
 
 /// Filters of closed profiles.
 enum class ProfileFilter {
-  kNone,            ///< The profile as it is.
+  kNone,            ///< The unfiltered profile.
   kGaussian,        ///< ISO 16610-21: 50 % at the cut-off, no phase.
   kTwoRc,           ///< Two RC stages (ISO 4291): 75 % at the cut-off, with phase shift.
   kRobustGaussian,  ///< ISO 16610-31, order 0: outliers do not shift the mean line.

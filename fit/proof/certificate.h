@@ -11,9 +11,9 @@ namespace rondure::fit {
 /// The extent to which a minimum zone, or a one-sided reference, is proven to be optimal.
 struct Certificate {
   enum class Kind {
-    kNone,    ///< Nothing is proven; `reason` says why.
-    kLocal,   ///< A strict local minimum: multipliers >= 0, no point outside, growth in all
-              ///< directions.
+    kNone,  ///< Nothing is proven; `reason` says why.
+    /// A strict local minimum: multipliers >= 0, no point outside, growth in all directions.
+    kLocal,
     kGlobal,  ///< No better zone exists within `scope`.
   };
   Kind kind = Kind::kNone;

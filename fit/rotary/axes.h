@@ -14,10 +14,10 @@
 
 namespace rondure::fit {
 
-/// A ball as the machine measured it.
+/// A measured ball.
 struct BallCentre {
-  std::string ball;                                     ///< Its name, the same at all poses.
-  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< In the frame of the machine.
+  std::string ball;  ///< Name of the ball, the same at all poses.
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< Centre in the frame of the machine.
   Eigen::Vector3d u_mm =
       Eigen::Vector3d::Constant(1e-3);  ///< Standard uncertainty of x, y, z; > 0.
 };
@@ -65,15 +65,16 @@ struct RotaryStation {
   bool undetermined = false;
   bool flagged = false;              ///< The global test fails and no single ball explains it.
   std::vector<std::string> removed;  ///< Balls left out as outliers.
-  RotaryErrors errors;               ///< With the noise of reference and station.
+  RotaryErrors errors;               ///< Including the noise of reference and station.
   Matrix6 measured_covariance = Matrix6::Zero();  ///< Noise of the station alone.
   double chi2 = 0.0;  ///< v^T W v of the balls used, with the uncertainties as stated.
   int dof = 0;        ///< 3n - 6.
   double chi2_limit = 0.0;
   double condition = 0.0;                     ///< setup_condition() of the balls used.
   std::vector<std::string> balls;             ///< Balls used.
-  std::vector<Eigen::Vector3d> residuals_mm;  ///< Measured minus adjusted, of the balls used.
-  std::vector<Eigen::Vector3d> redundancy;    ///< Per coordinate; near 0: errors are not detected.
+  std::vector<Eigen::Vector3d> residuals_mm;  ///< Measured minus adjusted, for the balls used.
+  /// For each coordinate; near 0: errors are not detected.
+  std::vector<Eigen::Vector3d> redundancy;
 };
 
 /// Results for one axis.
@@ -81,7 +82,7 @@ struct RotaryStudy {
   double reference_rad = 0.0;
   std::vector<BallCentre> reference;    ///< Averaged.
   double drift_mm = 0.0;                ///< Greatest shift of a ball between two references.
-  std::vector<RotaryStation> stations;  ///< As measured.
+  std::vector<RotaryStation> stations;  ///< Results at the stations, in the order of measurement.
   double s0 = 1.0;  ///< A-posteriori factor of all stations; covariances hold max(1, s0)^2.
   int dof = 0;      ///< Degrees of freedom of s0.
   RotaryTable table;

@@ -25,7 +25,7 @@ struct Spread {
   Vector3d centroid = Vector3d::Zero();
   double squares = 0.0;                     ///< Sum of |q|^2.
   Matrix3d products = Matrix3d::Zero();     ///< Sum of q q^T.
-  Vector3d eigenvalues = Vector3d::Zero();  ///< Of the products, ascending.
+  Vector3d eigenvalues = Vector3d::Zero();  ///< Eigenvalues of the products, ascending.
 };
 
 Spread spread_of(SpacePoints p) {
@@ -71,7 +71,7 @@ std::pair<std::size_t, std::size_t> farthest(SpacePoints p) {
   return out;
 }
 
-/// Distance from the line through the balls that a further ball beside their centroid needs for a
+/// Distance from the line through the balls at which a further ball beside their centroid gives a
 /// good condition, rounded up to two digits.
 double distance_that_cures(SpacePoints p, const Vector3d& along) {
   std::vector<Vector3d> with(p.begin(), p.end());

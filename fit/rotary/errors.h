@@ -19,14 +19,14 @@ struct RotaryAxis {
   }
 };
 
-/// The six errors of a rotary axis at one angle. A body that should only have turned by the angle
-/// has also been shifted by t and turned by w about the origin of the axis:
-///   p_actual = exp([w]x) R(angle) p0 + t,    p relative to the origin of the axis.
+/// The six errors of a rotary axis at one angle. In addition to the nominal rotation, the body is
+/// shifted by t and rotated by w about the origin of the axis:
+/// p_actual = exp([w]x) R(angle) p0 + t,    p relative to the origin of the axis.
 struct RotaryErrors {
-  Eigen::Vector3d t_mm = Eigen::Vector3d::Zero();   ///< Along x, y, z (EX, EY, EZ) [mm].
-  Eigen::Vector3d w_rad = Eigen::Vector3d::Zero();  ///< About x, y, z (EA, EB, EC) [rad].
-  Matrix6 covariance = Matrix6::Zero();  ///< Of (t; w): mm^2, mm rad, rad^2; standard uncertainty.
-  bool bridged = false;                  ///< Interpolated across a station without a solution.
+  Eigen::Vector3d t_mm = Eigen::Vector3d::Zero();   ///< Errors along x, y, z (EX, EY, EZ) [mm].
+  Eigen::Vector3d w_rad = Eigen::Vector3d::Zero();  ///< Errors about x, y, z (EA, EB, EC) [rad].
+  Matrix6 covariance = Matrix6::Zero();             ///< Covariance of (t; w): mm^2, mm rad, rad^2.
+  bool bridged = false;  ///< Interpolated across a station without a solution.
 
   [[nodiscard]] Vector6 values() const {
     Vector6 out;

@@ -123,7 +123,7 @@ void RotaryModel::make_least_squares() {
     rows.row(i) = b.transpose();
   }
   for (Eigen::Index error = 0; error < 6; ++error) {
-    Eigen::VectorXd root(n);  // of the weights
+    Eigen::VectorXd root(n);  // square roots of the weights
     for (Eigen::Index i = 0; i < n; ++i) {
       const double variance = table_.rows[static_cast<std::size_t>(i)].covariance(error, error);
       root(i) = variance > 0.0 ? 1.0 / std::sqrt(variance) : 1.0;

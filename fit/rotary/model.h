@@ -13,7 +13,7 @@ namespace rondure::fit {
 struct RotaryTableRow {
   double angle_rad = 0.0;
   Vector6 errors = Vector6::Zero();      ///< (t; w) [mm, rad].
-  Matrix6 covariance = Matrix6::Zero();  ///< Of the measurement at this station alone.
+  Matrix6 covariance = Matrix6::Zero();  ///< Covariance of the measurement at this station alone.
   Vector6 hysteresis = Vector6::Zero();  ///< (forward - backward) / 2; zero for one direction.
   bool both_directions = false;
 };
@@ -32,7 +32,8 @@ struct RotaryTable {
   bool full_circle = false;
   RotaryCurve curve = RotaryCurve::kSpline;
   std::vector<RotaryTableRow> rows;  ///< Angles strictly ascending, on a circle within one turn.
-  std::vector<double> missing_rad;   ///< Stations without a solution, across which is interpolated.
+  /// Stations without a solution; the curve is interpolated across them.
+  std::vector<double> missing_rad;
   /// Covariance from the noise of the reference pose, at the reference angle; it turns with the
   /// body and is common to all stations.
   Matrix6 reference_covariance = Matrix6::Zero();
@@ -71,9 +72,11 @@ class RotaryModel {
   void make_least_squares();
 
   RotaryTable table_;
-  std::vector<PeriodicSpline> circle_;  ///< Through 1 at one row and 0 at the others, one a row;
-  std::vector<core::OpenSpline> arc_;   ///< one of the two is empty.
-  std::vector<Eigen::MatrixXd> fit_;    ///< Least squares: coefficients from values, one an error.
+  /// For a full circle: 1 at one row and 0 at the others, one spline per row.
+  std::vector<PeriodicSpline> circle_;
+  std::vector<core::OpenSpline> arc_;  ///< The same for an arc; one of the two is empty.
+  /// Least squares: coefficients from values, one matrix per error.
+  std::vector<Eigen::MatrixXd> fit_;
 };
 
 }  // namespace rondure::fit

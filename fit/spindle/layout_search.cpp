@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kGrid_deg = 0.25;
 constexpr double kFinest_deg = 0.001;
-constexpr double kNeighbour_deg = 2.0;  ///< Layouts nearer than this are in the same valley.
-constexpr std::size_t kRefined = 4;     ///< Candidates refined per layout to be returned.
+/// Layouts closer together than this are in the same valley.
+constexpr double kNeighbour_deg = 2.0;
+constexpr std::size_t kRefined = 4;  ///< Candidates refined per layout to be returned.
 
 /// Angles of P2 and P3 from P1.
 struct Place {
@@ -115,7 +116,7 @@ Candidate refined_candidate(Candidate at, const LayoutSearch& search) {
   return at;
 }
 
-/// The best of each valley, at most `count`.
+/// The best layout of each valley, at most `count`.
 std::vector<Candidate> distinct(const std::vector<Candidate>& sorted, std::size_t count) {
   std::vector<Candidate> out;
   for (const Candidate& candidate : sorted) {

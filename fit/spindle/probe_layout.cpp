@@ -11,7 +11,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr double kLeastSine = 1e-3;
-constexpr double kAlikeGains = 1e-9;  ///< Relative; equal gains differ by rounding.
+constexpr double kAlikeGains = 1e-9;  ///< Relative; smaller differences of gains are rounding.
 
 /// The angle of a number of samples, with 1024 per turn.
 double of_1024(int samples) { return samples * core::kTwoPi / 1024.0; }

@@ -46,7 +46,7 @@ struct ThreeProbeOptions {
 struct RecoveredHarmonic {
   int order = 2;
   bool recovered = false;     ///< false: 0 in the profile; its motion-like share is in the motion.
-  double amplitude_mm = 0.0;  ///< In r = sum A cos(k theta - phase).
+  double amplitude_mm = 0.0;  ///< A in r = sum A cos(k theta - phase).
   std::optional<double> phase_rad;  ///< Absent below three standard uncertainties.
   double transfer = 0.0;            ///< |G|.
   double gain = 0.0;                ///< Noise gain g.
@@ -76,12 +76,13 @@ struct ThreeProbeResult {
       {};                         ///< One per revolution, without eccentricity and probe zeros.
   CentreMotion mean_motion = {};  ///< Their mean: the synchronous part.
   CentreMotion mean_motion_before = {};  ///< Mean before removal of eccentricity and zeros.
-  double eccentricity_mm = 0.0;          ///< |c| of c e^{j alpha}, includes motion of that shape.
+  double eccentricity_mm = 0.0;          ///< |c| of c e^{j alpha}; includes motion of that shape.
   double eccentricity_rad = 0.0;         ///< Its direction on the part: a cos + b sin, atan2(b, a).
 
-  double noise_mm = 0.0;          ///< s: stated or estimated.
-  bool noise_estimated = false;   ///< Estimated from the scatter of the revolutions; for a single
-                                  ///< one, from the weighted sum above the highest harmonic.
+  double noise_mm = 0.0;  ///< s: stated or estimated.
+  /// Estimated from the scatter of the revolutions; for a single one, from the weighted sum above
+  /// the highest harmonic.
+  bool noise_estimated = false;
   double profile_sigma_mm = 0.0;  ///< rms standard uncertainty of r.
   /// Content of the weighted sum at k = 1, where it must vanish, over the weight norm. Above its
   /// limit (3 standard uncertainties), angles, gains or theta are wrong. A value below the limit

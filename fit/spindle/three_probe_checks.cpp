@@ -21,8 +21,9 @@ namespace {
 using core::Code;
 
 constexpr double kSwingTolerance_rad = 0.05 * core::kDegree;
-constexpr double kGross = 8.0;          ///< Standard deviations of a reading from its neighbours.
-constexpr double kGrossFloor = 1e-5;    ///< Share of the range of a probe.
+/// Deviation of a reading from its neighbours, in standard deviations.
+constexpr double kGross = 8.0;
+constexpr double kGrossFloor = 1e-5;    ///< Fraction of the range of a probe.
 constexpr std::size_t kGrossReach = 4;  ///< Rows affected by one gross reading.
 constexpr double kSamePlace = 2.5;      ///< Rows within which two probes see the same edge.
 constexpr std::size_t kNamedReadings = 5;
@@ -81,7 +82,7 @@ struct LoneReading {
   std::size_t probe = 0;
   std::size_t row = 0;
   double score = 0.0;   ///< Distance from the prediction, relative to unit white noise.
-  double off_mm = 0.0;  ///< From the cubic through its four nearest neighbours.
+  double off_mm = 0.0;  ///< Distance from the cubic through its four nearest neighbours.
 };
 
 LoneReading against_neighbours(std::span<const double> h, std::span<const double> theta,
@@ -223,8 +224,8 @@ std::optional<double> estimated_noise_mm(const ProbeSamples& samples, const Spec
   for (auto k = static_cast<std::size_t>(highest) + 1; static_cast<double>(k) < end; ++k)
     power.push_back(std::norm(sum[k] / kept(samples, k)));
   if (power.empty()) return std::nullopt;
-  // The median, so that chatter in some of them is not taken for noise; of chi square with two
-  // degrees it is ln 2 of the mean.
+  // The median keeps chatter in some of the harmonics from being taken for noise; for chi square
+  // with two degrees of freedom it is ln 2 times the mean.
   return noise_of(core::upper_median(std::move(power)) / std::numbers::ln2, samples, layout);
 }
 

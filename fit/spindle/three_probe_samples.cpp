@@ -14,7 +14,7 @@ namespace {
 using core::Code;
 using core::kTwoPi;
 
-constexpr double kUniform = 1e-6;      ///< Share of a step: closer to uniform is not interpolated.
+constexpr double kUniform = 1e-6;  ///< Fraction of a step: closer to uniform is not interpolated.
 constexpr double kMissingSteps = 1.5;  ///< Most samples missing at the end of a revolution.
 /// Limit for all revolutions together; the separation needs some 100 bytes per sample.
 constexpr double kMostProbeSamples = 1e7;

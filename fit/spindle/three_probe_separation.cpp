@@ -18,9 +18,10 @@ using core::Code;
 constexpr double kSecondOrderFrom_mm = 0.010;
 constexpr int kSecondOrderPasses = 5;
 constexpr double kSecondOrderDone_mm = 1e-9;
-constexpr double kSecondOrderSettled = 0.01;  ///< Change of the last pass over the correction.
-constexpr double kPhaseFrom = 3.0;            ///< Standard uncertainties of an amplitude.
-constexpr double kBelowProbes = 1e-5;         ///< Share of the readings; no probe is that linear.
+/// Change in the last pass relative to the correction.
+constexpr double kSecondOrderSettled = 0.01;
+constexpr double kPhaseFrom = 3.0;     ///< In standard uncertainties of an amplitude.
+constexpr double kBelowProbes = 1e-5;  ///< Fraction of the readings; no probe is that linear.
 
 core::Result<void> check_options(const ThreeProbeOptions& options) {
   const auto refuse = [](std::string what) {

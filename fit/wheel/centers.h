@@ -41,7 +41,7 @@ struct FourPointCenter {
 
 /// Choice of the quadruples of points to use.
 enum class QuadrupleChoice {
-  kAll,     ///< Every subset in its best pairing; 5000 drawn ones when there are more.
+  kAll,     ///< Every subset in its best pairing; 5000 random ones when there are more.
   kBest,    ///< The `count` best conditioned of kAll.
   kRandom,  ///< As published: `count` random subsets in a random pairing, without a kappa limit.
 };
@@ -54,7 +54,7 @@ struct QuadrupleOptions {
   std::size_t count = 6;                         ///< Number for kBest and kRandom, 6 to 5000.
   std::uint64_t seed = 1;                        ///< Seed of the random subsets.
   double least_chord_mm = 1e-3;                  ///< A shorter chord has no direction, > 0.
-  double least_chord_per_radius = 0.05;          ///< The same as a share of the radius, 0 to 1.
+  double least_chord_per_radius = 0.05;          ///< The same as a fraction of the radius, 0 to 1.
   double least_angle_rad = 5.0 * core::kDegree;  ///< Chords closer to parallel are refused.
   /// Largest kappa accepted; none: max(5, twice the best), and no limit for kRandom.
   std::optional<double> kappa_limit;

@@ -30,7 +30,7 @@ struct WheelPathTask {
   std::optional<double> touch_off_mm;  ///< x0; none: 0, or the nearest end of the path.
 };
 
-/// Evaluation to be made from the points of a wheel.
+/// Evaluation to make from the points of a wheel.
 struct WheelTask {
   WheelOptions wheel;
   std::optional<WheelPathTask> path;

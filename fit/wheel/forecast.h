@@ -40,8 +40,8 @@ struct ForecastInput {
   double radius_mm = 0.0;                   ///< Radius of the path, taken as true.
   double radius_uncertainty_mm = 0.0;       ///< Its standard uncertainty.
   std::optional<double> nominal_radius_mm;  ///< Radius that an uncompensated path would use.
-  double repeatability_mm = 0.0;            ///< Of the machine: the limit of any compensation.
-  double touch_off_mm = 0.0;                ///< x0
+  double repeatability_mm = 0.0;  ///< Repeatability of the machine: the limit of any compensation.
+  double touch_off_mm = 0.0;      ///< x0
 };
 
 /// Residual form without and with compensation.

@@ -21,16 +21,16 @@ struct OutlierOptions {
 /// A point that was left out.
 struct DroppedPoint {
   std::size_t row = 0;
-  double deviation_mm = 0.0;  ///< From the median radius about the median centre.
+  double deviation_mm = 0.0;  ///< Deviation from the median radius about the median centre.
 };
 
 /// Points that are not on the surface of the wheel.
 struct Outliers {
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< Component-wise median of the centres.
-  std::vector<double> deviations_mm;                    ///< Of all points, from the median radius.
-  double scale_mm = 0.0;                                ///< 1.4826 median |deviation|.
-  std::vector<DroppedPoint> dropped;                    ///< By row.
-  std::vector<core::Error> warnings;                    ///< kOutliers, kLocalForm.
+  std::vector<double> deviations_mm;  ///< Deviations of all points from the median radius.
+  double scale_mm = 0.0;              ///< 1.4826 median |deviation|.
+  std::vector<DroppedPoint> dropped;  ///< In the order of rows.
+  std::vector<core::Error> warnings;  ///< kOutliers, kLocalForm.
 };
 
 /// Finds isolated points far from the circle. Flagged points with at most two others between them

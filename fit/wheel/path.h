@@ -13,10 +13,10 @@ namespace rondure::fit {
 
 /// Range, spacing and limits of wheel_path(). A value outside its range gives Code::kBadOption.
 struct WheelPathOptions {
-  double from_mm = 0.0;           ///< First contact, x [mm].
-  double to_mm = 0.0;             ///< Last contact, > from_mm.
-  double step_mm = 0.1;           ///< Largest step of x, > 0; at most 1e6 steps.
-  std::optional<double> cusp_mm;  ///< In place of the step: highest cusp between passes, > 0.
+  double from_mm = 0.0;                   ///< First contact, x [mm].
+  double to_mm = 0.0;                     ///< Last contact, > from_mm.
+  double step_mm = 0.1;                   ///< Largest step of x, > 0; at most 1e6 steps.
+  std::optional<double> cusp_mm;          ///< Replaces the step: highest cusp between passes, > 0.
   std::optional<double> surface_from_mm;  ///< Range of the surface that must not be cut into;
   std::optional<double> surface_to_mm;    ///< none: the range of contacts.
   double load_limit = 0.98;               ///< Largest R k_s, 0 to 1.
@@ -51,14 +51,14 @@ struct WheelLoad {
 /// The path of the wheel centre.
 struct WheelPath {
   double radius_mm = 0.0;
-  std::vector<WheelPathRow> rows;  ///< By x.
+  std::vector<WheelPathRow> rows;  ///< In the order of x.
   bool lowest_point = false;       ///< Selects the result of machine_z_mm().
   WheelLoad load;
   double step_mm = 0.0;               ///< Step of x.
   double cusp_mm = 0.0;               ///< Highest cusp between passes, s^2/8 (1/R - k_s).
   std::vector<core::Error> warnings;  ///< kLowMargin.
 
-  /// z for the controller: that of the centre, or of the lowest point [mm].
+  /// z for the controller: of the centre, or of the lowest point [mm].
   [[nodiscard]] double machine_z_mm(const WheelPathRow& row) const;
 };
 
@@ -71,7 +71,7 @@ struct WheelPath {
 [[nodiscard]] core::Result<WheelLoad> wheel_load(const WheelSurface& surface, double radius_mm,
                                                  const WheelPathOptions& options);
 
-/// Way of the centre of a wheel that grinds z = f(x): xc = x - R f'/q, zc = f + R/q.
+/// Path of the centre of a wheel that grinds z = f(x): xc = x - R f'/q, zc = f + R/q.
 ///
 /// @return The whole path; or kBadOption (range, step, radius not above 0), kSurface, kGouge
 ///         (radius too large for a concave radius of curvature, or the wheel inside the surface

@@ -12,8 +12,8 @@ namespace rondure::fit {
 
 /// Points about a centre, in the order of their angles.
 struct AngularOrder {
-  std::vector<std::size_t> rows;   ///< By angle, from the far side of the largest gap.
-  std::vector<double> angles_rad;  ///< Of those rows, rising, over less than one turn.
+  std::vector<std::size_t> rows;  ///< In the order of angles, from the far side of the largest gap.
+  std::vector<double> angles_rad;  ///< Angles of `rows`, ascending, over less than one turn.
   double largest_gap_rad = 0.0;
 
   /// The arc of the circle that holds points [rad].

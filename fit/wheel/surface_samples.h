@@ -14,7 +14,7 @@ namespace rondure::fit {
 /// nearest to a point. Results are refined on the surface itself between neighbouring samples.
 class SurfaceSamples {
  public:
-  /// The result of a search: place and value there.
+  /// Result of a search: place and value there.
   struct Place {
     double x_mm = 0.0;
     double value = 0.0;

@@ -19,7 +19,7 @@
 
 namespace rondure::fit {
 
-/// How the edge points of a wheel were taken, which determines what they represent.
+/// How the edge points of a wheel were measured, which determines what they represent.
 enum class WheelMode {
   kIndexed,   ///< Wheel at known angles: points of its body; the centre is that of its profile.
   kEnvelope,  ///< Wheel at speed, long exposure: points of the circle it sweeps about its axis.
@@ -40,7 +40,7 @@ enum class WheelMean {
 struct WheelOptions {
   WheelMode mode = WheelMode::kIndexed;
   WheelMean mean = WheelMean::kLeastSquares;
-  QuadrupleOptions quadruples;  ///< With kLeastSquares only beside the centre, as an indicator.
+  QuadrupleOptions quadruples;  ///< With kLeastSquares only an additional indicator.
   bool robust = false;          ///< Drop isolated outliers first.
   OutlierOptions outliers;
   std::optional<Eigen::Vector2d> axis_mm;   ///< Spindle axis, from calibration or kEnvelope [mm].
@@ -67,7 +67,7 @@ struct WheelMeasurement {
   WheelMean mean = WheelMean::kLeastSquares;
   std::size_t points = 0;  ///< Number given, including those dropped.
   std::vector<DroppedPoint> dropped;
-  double outlier_scale_mm = 0.0;                        ///< Scale of the robust variant, else 0.
+  double outlier_scale_mm = 0.0;  ///< Scale of the robust variant, otherwise 0.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< S
   double radius_mm = 0.0;                               ///< R, mean distance of the points from S.
   double center_uncertainty_mm = 0.0;  ///< u(S), both coordinates: s_r factors.center sqrt(tau).
@@ -75,25 +75,25 @@ struct WheelMeasurement {
   double spread_mm = 0.0;              ///< s_r, standard deviation of the distances, n - 3.
   double deviation_mm = 0.0;           ///< PV of the distances: roundness about S, not run-out.
   std::vector<double> deviations_mm;   ///< Distance from S minus R, for every given point.
-  AngularOrder order;                  ///< Of the points used, about S; rows of the given points.
-  CircleFactors factors;               ///< Of the centre and radius reported.
-  double correlation = 1.0;            ///< tau
-  WheelCenters centers;                ///< Rows of the given points.
-  /// Mean of their centres: plain with kAsPublished, else weighted.
+  AngularOrder order;        ///< Order of the points used about S; rows of the given points.
+  CircleFactors factors;     ///< Factors of the reported centre and radius.
+  double correlation = 1.0;  ///< tau
+  WheelCenters centers;      ///< With rows of the given points.
+  /// Mean of the quadruple centres: plain with kAsPublished, otherwise weighted.
   Eigen::Vector2d quadruple_center_mm = Eigen::Vector2d::Zero();
   double center_scatter_mm = 0.0;     ///< s_c about that mean; an indicator only.
   double expected_scatter_mm = 0.0;   ///< s_r rms(kappa): expected from noise alone.
-  double farthest_center_mm = 0.0;    ///< Of a quadruple centre from their mean.
+  double farthest_center_mm = 0.0;    ///< Greatest distance of a quadruple centre from their mean.
   LsCircle check;                     ///< Geometric least squares of the same points.
   std::optional<MinZoneCircle> zone;  ///< Minimum-zone roundness.
   std::optional<WheelRunout> runout;  ///< kIndexed with an axis; absent otherwise.
   core::Phrase runout_absent;         ///< Why there is none; empty when there is.
   std::vector<core::Error> warnings;
 
-  /// Whether points are close enough all round to show run-out and roundness: no gap above 60 deg.
-  /// A wider gap can hide more than 7 % of the run-out by an eccentricity.
+  /// Whether the points are close enough all round to show run-out and roundness: no gap above 60
+  /// deg. A wider gap can hide more than 7 % of the run-out caused by an eccentricity.
   [[nodiscard]] bool sees_whole_turn() const;
-  /// The radius that cuts: the farthest from the axis (kIndexed with axis; nothing if that is only
+  /// The radius that cuts: the farthest from the axis (kIndexed with an axis; none if that is only
   /// a bound), or R itself (kEnvelope).
   [[nodiscard]] std::optional<double> effective_radius_mm() const;
 };

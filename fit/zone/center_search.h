@@ -15,8 +15,9 @@ namespace rondure::fit {
 /// A point that becomes a contact when the centre moves far enough along a direction.
 struct ContactCandidate {
   std::size_t index = 0;
-  bool inner = false;    ///< It becomes as near as the inner contact, else as far as the outer one.
-  double step_mm = 0.0;  ///< Exact move after which it does, > 0.
+  /// It becomes as near as the inner contact; otherwise as far as the outer one.
+  bool inner = false;
+  double step_mm = 0.0;  ///< Exact length of the move that makes it a contact, > 0.
 };
 
 /// Returns all candidates of a move from `center_mm` along the unit vector `direction`, in order of
@@ -33,7 +34,7 @@ struct ContactCandidate {
 
 inline constexpr int kCenterMoveLimit = 100;  ///< Most moves of one search.
 
-/// One move of a centre search, for the log and for tests.
+/// One move of a centre search.
 struct CenterMove {
   Eigen::Vector2d from_mm = Eigen::Vector2d::Zero();
   double width_mm = 0.0;           ///< Width of the zone before the move [mm].

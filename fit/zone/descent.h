@@ -101,8 +101,8 @@ class ZoneDescent {
   double round_off_ = 0.0;
   bool vertex_ = false;    ///< The last place is fixed by as many contacts as unknowns.
   bool polished_ = false;  ///< Newton's method converged on the contacts of the last place.
-  bool coarse_ = false;    ///< Stop near the minimum, as is enough for a sample.
-  bool warm_ = false;      ///< The programme has a basis to start from.
+  bool coarse_ = false;    ///< Stop near the minimum, which is enough for a sample.
+  bool warm_ = false;      ///< The linear program has a starting basis.
   WorkingPoints<D> working_;
   ZoneRows<K> rows_;
   ZoneRows<K> trial_rows_;   ///< Rows at the place to which a step leads.

@@ -20,7 +20,7 @@ constexpr std::size_t kCylinderSample = 240;
 /// With this many points or more one start is enough, whatever the arc (performance: small sets).
 constexpr std::size_t kOneStart = 24;
 constexpr std::size_t kSmall = 64;  // up to this number of points, more starts cost little
-constexpr int kStarts = 8;          // around the axis, for each tilt
+constexpr int kStarts = 8;          // starts around the axis, for each tilt
 constexpr double kFullGap = 120.0 * core::kDegree;
 
 /// Returns all points, or a sample of `most` of them, which is kept in `memory`.

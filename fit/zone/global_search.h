@@ -17,9 +17,10 @@ namespace rondure::fit {
 
 /// Limits of a global search. They are counts, never times: same input, same result.
 struct GlobalSearchOptions {
-  int max_boxes = 20000;       ///< Boxes bounded before the search gives up; >= 1.
-  double tolerance_mm = 1e-9;  ///< Boxes are closed this far below the zone, or 4e-12 of the
-                               ///< coordinate range if that is more; it adds to the gap.
+  int max_boxes = 20000;  ///< Boxes bounded before the search gives up; >= 1.
+  /// Boxes are closed this far below the zone, or 4e-12 of the coordinate range if that is more; it
+  /// adds to the gap.
+  double tolerance_mm = 1e-9;
 };
 
 /// Extent of the proof of a minimum-zone or maximum inscribed circle.

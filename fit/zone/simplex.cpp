@@ -178,8 +178,8 @@ ZoneStep<K> ZoneSimplex<K>::attempt(int pivot_limit, int swift) {
   return out;
 }
 
-/// Whether multipliers and prices solved the equations of the basis before worn() refined them, and
-/// no multiplier is negative.
+/// Whether multipliers and prices solved the equations of the basis before their refinement, and no
+/// multiplier is negative.
 template <int K>
 bool ZoneSimplex<K>::solves_basis() const {
   return value_flaw_ <= kSound && price_flaw_ <= kSound * (1.0 + box_) &&

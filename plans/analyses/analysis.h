@@ -21,17 +21,18 @@ namespace rondure::plans {
 /// One file that an analysis reads.
 struct SeriesFile {
   std::string series = "data";  ///< Name of the series in the journal.
-  std::string file;             ///< As the plan names it.
-  std::string where;            ///< JSON pointer of that name, below the feature.
+  std::string file;             ///< Name in the plan.
+  std::string where;            ///< JSON pointer of that name, relative to the feature.
   std::vector<record::WantedColumn> wanted;
   std::vector<record::ColumnName> names;
 };
 
-/// The data that the probes of an analysis, or their simulation, recorded.
+/// Data recorded by the probes of an analysis, or simulated.
 struct AnalysisData {
   std::vector<record::Series> series;  ///< With the index of the feature.
   std::vector<record::TruthValue> truths;
-  std::string sha256;  ///< Of the file; of several, of the lines "sha256 name"; empty: simulated.
+  /// SHA-256 of the file; for several, of the lines "sha256 name"; empty: simulated.
+  std::string sha256;
 };
 
 /// The part that one type of analysis adds to the shared code.
@@ -42,22 +43,22 @@ struct AnalysisKind {
   bool (*is_simulated)(const SimulationPlan& simulation);
   std::vector<record::Setting> (*settings)(const FeaturePlan& feature);
   std::vector<SeriesFile> (*files)(const FeaturePlan& feature);
-  /// Checks relations between keys; called only when the section and its keys are sound.
+  /// Checks relations between keys; called only when the section and its keys are valid.
   void (*check)(const FeaturePlan& feature, const std::string& where, Findings& findings);
-  /// @param seed  Of all noise. The data depend only on plan and seed.
+  /// @param seed  Seed of all noise. The data depend only on plan and seed.
   core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed);
   /// For an analysis of touches: checks its cell. Null for an analysis of series; when it is set,
   /// is_simulated and simulate are null.
   void (*check_cell)(const Plan& plan, std::size_t index, Findings& findings) = nullptr;
 };
 
-/// Whether a plan simulates the data of an analysis: `section` is such as &SimulationPlan::spindle.
+/// Whether a plan simulates the data of an analysis; `section` is e.g. &SimulationPlan::spindle.
 template <auto section>
 [[nodiscard]] bool simulates(const SimulationPlan& simulation) {
   return (simulation.*section).has_value();
 }
 
-/// The file in the source of a feature, as the only one of an analysis; empty without a source.
+/// The file in the source of a feature, as the only file of an analysis; empty without a source.
 [[nodiscard]] std::vector<SeriesFile> source_file(const FeaturePlan& feature,
                                                   std::span<const record::WantedColumn> wanted);
 
@@ -74,12 +75,12 @@ template <auto section>
 [[nodiscard]] bool measures_by_touch(const FeaturePlan& feature);
 
 /// The data of feature `index`, an analysis of series: from its files, or simulated.
-/// @return  Errors of files and tables name their place.
+/// @return  The data; errors of files and tables name their place.
 [[nodiscard]] core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index,
                                                        std::uint64_t seed);
 
-/// Checks a feature of an analysis: it has its own section and no other, its characteristics belong
-/// to its type, its data can be read or simulated.
+/// Checks an analysed feature: it has its own section and no other, its characteristics belong to
+/// its type, its data can be read or simulated.
 void check_analysis(const Plan& plan, std::size_t index, Findings& findings);
 
 /// The kinds, one file each.

@@ -28,7 +28,7 @@ constexpr std::size_t kPathSamples = 2048;
 struct GroundWorld {
   const SimulatedContourPlan& hidden;
   double c_scale = 1.0;
-  std::vector<HarmonicPlan> own;  ///< Non-following, of this part only.
+  std::vector<HarmonicPlan> own;  ///< Non-following harmonics of this part only.
 
   [[nodiscard]] double c_error_deg(double alpha) const {
     double sum = 0.0;
@@ -78,7 +78,7 @@ record::Series axes_of(const GroundWorld& world, const ContourTask& asked, std::
   return out;
 }
 
-/// The pin as the envelope of all wheel positions, less its nominal radius [um].
+/// The pin as the envelope of all wheel positions, minus its nominal radius [um].
 core::Result<std::vector<double>> ground_um(const GroundWorld& world,
                                             const fit::CrankGeometry& geometry,
                                             std::size_t points) {

@@ -2,18 +2,17 @@
 
 #include "plans/plan.h"
 
-// What the features of a plan need.
+// Requirements of the features of a plan.
 
 namespace rondure::plans {
 
-/// Whether a feature is a surface that is touched by a machine: neither points from a file nor an
-/// analysis.
+/// Whether a feature is a surface touched by a machine: neither points from a file nor an analysis.
 [[nodiscard]] bool is_touched(const FeaturePlan& feature);
 /// Whether anything of a plan is simulated.
 [[nodiscard]] bool simulates_anything(const Plan& plan);
-/// Whether the series of a feature are simulated, which is possible with a real machine, too.
+/// Whether the series of a feature are simulated, which is also possible with a real machine.
 [[nodiscard]] bool simulates_analysis(const Plan& plan);
-/// Whether a feature needs the machine: a surface that is touched, or balls.
+/// Whether a feature needs the machine: a touched surface, or balls.
 [[nodiscard]] bool needs_machine(const FeaturePlan& feature);
 /// Whether a plan needs a machine.
 [[nodiscard]] bool touches_anything(const Plan& plan);

@@ -26,7 +26,7 @@ constexpr std::array kSpindleForms = {
 constexpr std::array<record::WantedColumn, 5> kProbeColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
 constexpr std::uint64_t kProbeStream = 0x5b1d1eU;
-constexpr double kDriftCycles = 0.37;  ///< Per turn, so that it never repeats with the work.
+constexpr double kDriftCycles = 0.37;  ///< Cycles per turn, so that it never repeats with the work.
 
 fit::SwingArm arm_of(const SpindleTask& plan) {
   return {plan.crank_radius_mm, plan.wheel_radius_mm, plan.pin_radius_mm};
@@ -106,7 +106,7 @@ void check_spindle(const FeaturePlan& feature, const std::string& where, Finding
   }
 }
 
-/// The simulated profile and motion in front of the probes.
+/// The simulated profile and motion at the probes.
 struct ProbedWorld {
   const SimulatedSpindlePlan& hidden;
   fit::SwingArm arm;
@@ -127,8 +127,7 @@ struct ProbedWorld {
            hidden.eccentricity_um * std::cos(theta - hidden.eccentricity_deg * kDegree);
   }
   /// The noise-free reading of probe i: the exact distance along its line for a part of known
-  /// radius, else to first order.
-  /// radius, else to first order.
+  /// radius, otherwise to first order.
   [[nodiscard]] double reading_um(std::size_t i, double alpha) const {
     const double beta = arm.beta_rad(alpha);
     const double direction = places_rad[i] + beta;
@@ -168,7 +167,7 @@ record::Series readings(const ProbedWorld& world, int feature, std::uint64_t see
   return out;
 }
 
-/// Adds the profile over the part and the motion over the work, each at equal angles.
+/// Adds the true profile over the part and the true motion over the work, each at equal angles.
 void add_truth(const ProbedWorld& world, int feature, const SpindleTask& plan, AnalysisData& out) {
   record::Series truth;
   truth.feature = feature;

@@ -24,7 +24,7 @@ constexpr std::array kWheelForms = {record::Form::kRadius, record::Form::kRunOut
                                     record::Form::kRoundness};
 constexpr std::array<record::WantedColumn, 2> kEdgeColumns = {{{"x"}, {"z"}}};
 constexpr std::uint64_t kEdgeStream = 0x3e1eeU;
-constexpr int kBodyPoints = 3600;  ///< Of the noise-free body for the stated truth.
+constexpr int kBodyPoints = 3600;  ///< Points of the noise-free body for the stated truth.
 
 /// Checks keys that belong together, and keys without effect.
 struct Checker {
@@ -136,7 +136,7 @@ struct SimulatedWheel {
   static Eigen::Vector2d direction(double deg) {
     return {std::cos(deg * kDegree), std::sin(deg * kDegree)};
   }
-  /// A point of the edge relative to its centre; `noise_um` along the radius.
+  /// A point of the edge relative to its centre; `noise_um` acts along the radius.
   [[nodiscard]] Eigen::Vector2d edge(double deg, double noise_um) const {
     double r = hidden.radius_mm + noise_um * kMicrometre;
     for (const WheelLobePlan& lobe : hidden.lobes) {

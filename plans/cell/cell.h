@@ -20,7 +20,7 @@
 
 namespace rondure::plans {
 
-/// Fixture, machine and part together: a plan is executed on a cell. The runner uses nothing else;
+/// Fixture, machine and part together, on which a plan is executed. The runner uses nothing else;
 /// open_cell() selects the drivers.
 class Cell {
  public:
@@ -32,7 +32,8 @@ class Cell {
   [[nodiscard]] virtual cmm::Machine& machine() = 0;
   /// Whether the part exists in software only, in this program or in a simulated server.
   [[nodiscard]] virtual bool is_simulated() const = 0;
-  /// Nominal axes on the located base, with the known errors: all that the program may assume.
+  /// Nominal axes on the located base, with the calibrated errors: all the knowledge the program
+  /// may use.
   [[nodiscard]] const fixture::Kinematics& kinematics() const { return kinematics_; }
   /// Sets the located base of the fixture.
   void set_base(const Eigen::Isometry3d& X_WF) { kinematics_.X_WF = X_WF; }
@@ -43,30 +44,30 @@ class Cell {
   /// Nominal part frame in the body frame: X_BP.
   [[nodiscard]] const Eigen::Isometry3d& nominal_part() const { return X_BP_; }
 
-  /// From now on this feature of the clamped part is measured.
+  /// Selects the feature of the clamped part that is measured from now on.
   virtual void mount(const FeaturePlan& feature) = 0;
   /// Turns the fixture; the part follows.
   [[nodiscard]] virtual core::Result<core::Pose> home_fixture() = 0;
   [[nodiscard]] virtual core::Result<core::Pose> turn_to(const core::Pose& commanded) = 0;
 
-  // A resumed run goes through its journal once more, without moving anything. A cell whose state
-  // depends on the past updates it here: a simulation then has the pose, the clock and the hidden
-  // truth of the interrupted run.
+  // A resumed run replays its journal without moving anything. A cell whose state depends on the
+  // past updates it here: a simulation then has the pose, the clock and the hidden truth of the
+  // interrupted run.
 
-  /// The homing of the fixture.
+  /// Replays the homing of the fixture.
   [[nodiscard]] virtual core::Result<core::Pose> replay_home() = 0;
-  /// A turn of the fixture; kPoseRange for one that was refused.
+  /// Replays a turn of the fixture; kPoseRange for one that was refused.
   [[nodiscard]] virtual core::Result<core::Pose> replay_turn(const core::Pose& commanded) = 0;
-  /// A touch; kNoTouch or kCollision when the part cannot have given it. Also called once after the
-  /// checks: the clock goes on as if there had been no interruption.
+  /// Replays a touch; kNoTouch or kCollision when the part cannot have given it. Also called once
+  /// after the checks, so that the clock continues as if there had been no interruption.
   [[nodiscard]] virtual core::Result<void> replay_touch(const cmm::TouchCommand& command,
                                                         const cmm::TouchReading& reading) = 0;
-  /// A scan, by its last reading; otherwise like replay_touch().
+  /// Replays a scan, by its last reading; otherwise like replay_touch().
   [[nodiscard]] virtual core::Result<void> replay_scan(const cmm::ScanCircleCommand&,
                                                        const cmm::TouchReading& /*last*/) {
     return {};
   }
-  /// Homes machine and fixture and turns the part to the pose of the last recalled turn. Returns
+  /// Homes machine and fixture and turns the part to the pose of the last replayed turn. Returns
   /// the pose that the fixture reads there.
   [[nodiscard]] virtual core::Result<core::Pose> home_again() = 0;
 
@@ -87,7 +88,7 @@ class Cell {
   }
 
  protected:
-  /// @param plan  Has `fixture`.
+  /// @param plan  Must have `fixture`.
   explicit Cell(const Plan& plan);
 
  private:
@@ -95,11 +96,11 @@ class Cell {
   Eigen::Isometry3d X_BP_ = Eigen::Isometry3d::Identity();
 };
 
-/// Settings of a cell that are not in its plan.
+/// Settings of a cell that are not part of its plan.
 struct CellOptions {
-  std::uint64_t seed = 1;               ///< Of all simulated noise; replaces the seed of the plan.
-  bool resumed = false;                 ///< The simulated faults have happened already.
-  std::filesystem::path wire_log = {};  ///< Log of all lines from and to a machine; "": none.
+  std::uint64_t seed = 1;  ///< Seed of all simulated noise; replaces the seed of the plan.
+  bool resumed = false;    ///< The simulated faults have already occurred.
+  std::filesystem::path wire_log = {};        ///< Log of all lines from and to a machine; "": none.
   std::function<bool()> stop_requested = {};  ///< Polled during motions; true stops at once.
   fixture::SetByHand set_by_hand = {};        ///< For a fixture "manual" with a real machine.
 };

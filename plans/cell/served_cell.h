@@ -16,8 +16,8 @@ namespace rondure::plans {
 /// which AlignPart turns.
 class ServedCell final : public cmm::ipp::Backend {
  public:
-  /// @param plan  Has `machine`, `fixture`, `probe` and `simulation`, and a feature to touch; the
-  ///              first of them is mounted.
+  /// @param plan  Must have `machine`, `fixture`, `probe` and `simulation`, and a feature to touch;
+  ///     the first of these is mounted.
   ServedCell(const Plan& plan, std::uint64_t seed);
 
   [[nodiscard]] cmm::Machine& machine() override { return cell_.machine(); }

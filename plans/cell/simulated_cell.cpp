@@ -64,7 +64,7 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
 }
 
 /// True seat of the simulated part: shifted and tilted about the part origin, then moved up to the
-/// middle of the surface, the origin of its own frame.
+/// middle of the surface, which is the origin of its own frame.
 Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
                             const FeaturePlan& feature) {
   const double toward = part.tilt_toward_deg * core::kDegree;

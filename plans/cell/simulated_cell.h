@@ -20,8 +20,8 @@ namespace rondure::plans {
 class SimulatedCell final : public Cell {
  public:
   /// Opens the simulated cell of a plan that has `machine`, `fixture`, `probe` and `simulation`.
-  /// @param seed     Of all noise; replaces the seed of the plan.
-  /// @param resumed  The simulated faults have happened already.
+  /// @param seed     Seed of all noise; replaces the seed of the plan.
+  /// @param resumed  The simulated faults have already occurred.
   /// @param driven   A real fixture; nullptr: a simulated one.
   SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
                 std::unique_ptr<fixture::Fixture> driven = nullptr);
@@ -50,8 +50,8 @@ class SimulatedCell final : public Cell {
   }
   [[nodiscard]] core::Result<core::Pose> home_again() override;
 
-  /// Gives the next turn of the fixture the noise of this number, counted from its homing, number
-  /// 0.
+  /// Sets the number of the next turn of the fixture, counted from its homing as number 0; the turn
+  /// then has the noise of that number.
   void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
 
   [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
@@ -81,12 +81,14 @@ class SimulatedCell final : public Cell {
   std::optional<cmm::PartSurface> surface_;
   std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
   std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
-  std::vector<cmm::ReferenceSphere> ring_spheres_;   ///< Those that show its pose, body frame.
+  /// Spheres that show the pose of the ring, body frame.
+  std::vector<cmm::ReferenceSphere> ring_spheres_;
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, during the interruption.
-  std::uint64_t turns_ = 0;                             ///< Of the fixture since its homing.
-  core::Pose last_turn_;                                ///< As commanded.
+  /// Shift of the part during the interruption.
+  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();
+  std::uint64_t turns_ = 0;  ///< Turns of the fixture since its homing.
+  core::Pose last_turn_;     ///< As commanded.
 };
 
 }  // namespace rondure::plans

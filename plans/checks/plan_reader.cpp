@@ -57,12 +57,12 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
       return problem.where.starts_with("/reports/formats/");
     });
   }
-  // Reach can be judged only once every number is sound.
+  // Reach can be judged only when every number is valid.
   if (problems.empty()) {
     if (touches_anything(plan)) {
       if (auto free = check_room(plan); !free) problems.push_back(free.error());
     }
-    // An obstacle of the whole part would be reported again at every feature.
+    // An obstacle of the whole part would be reported again for every feature.
     const bool room = problems.empty();
     for (std::size_t i = 0; room && i < plan.features.size(); ++i) {
       if (measures_by_touch(plan.features[i])) {

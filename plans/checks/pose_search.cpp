@@ -31,7 +31,7 @@ void check_fineness(double step_deg, double resolution_deg, const std::string& w
                   plain(step_deg), plain(resolution_deg)));
 }
 
-/// Checks the requirements of a cloud from several poses, and its present limitations.
+/// Checks the requirements of a cloud from several poses, and the current limitations of merging.
 void check_merged(const Plan& plan, const FeaturePlan& feature, const std::string& feature_where,
                   Findings& findings) {
   const std::string where = feature_where + "/pose_search";

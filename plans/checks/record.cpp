@@ -28,7 +28,7 @@ using record::Shape;
 using record::Strategy;
 using record::Touch;
 
-/// The fault in words; nothing for a sound record.
+/// The fault in words; none for a valid record.
 using Fault = std::optional<std::string>;
 
 /// Permitted values of a setting.
@@ -282,7 +282,7 @@ Fault check_run_settings(std::span<const record::Setting> settings, bool strict)
 /// Columns that the evaluation of a series reads, with the name of the series.
 struct WantedSeries {
   Shape shape;
-  std::string_view name;  ///< For a contour without the number of the part.
+  std::string_view name;  ///< For a contour, without the number of the part.
   std::array<std::string_view, 4> columns;
 };
 constexpr std::array<WantedSeries, 5> kWantedSeries = {
@@ -360,7 +360,7 @@ Fault check_series(const RunRecord& record, int index) {
 Fault check_feature(const RunRecord& record, int index, bool strict) {
   const record::Feature& feature = record.features[static_cast<std::size_t>(index)];
   constexpr int kMostLayers = 10'000;
-  constexpr int kMostPoints = 100'000;  // times the layers it does not overflow an int
+  constexpr int kMostPoints = 100'000;  // this times the number of layers does not overflow an int
   if (feature.layers < 0 || feature.layers > kMostLayers || feature.points_per_layer < 0 ||
       feature.points_per_layer > kMostPoints) {
     return fmt::format("{} layers of {} points are outside 0..{} and 0..{}", feature.layers,
@@ -424,7 +424,7 @@ Fault check_touch(const Touch& touch, const RunRecord& record,
   if (touch.pose != -1 && pose == owner_of_pose.end()) {
     return fmt::format("pose {} is not there", touch.pose);
   }
-  constexpr double kUnit = 1e-6;  // in doubles a direction is a unit vector to some 1e-16
+  constexpr double kUnit = 1e-6;  // a direction in doubles is a unit vector to some 1e-16
   const double length = touch.approach.norm();
   const bool of_file = pose != owner_of_pose.end() &&
                        record.features[static_cast<std::size_t>(pose->second.feature)].strategy ==

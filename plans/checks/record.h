@@ -5,12 +5,12 @@
 
 namespace rondure::plans {
 
-/// Checks that a record holds what its evaluation needs, as a run leaves it: settings that the
-/// table of the plan knows, each within its limits; the series and columns of every analysis, and
-/// no others; touches of known poses, in whole numbers that fit the feature, with unit directions.
-/// Call it before an evaluation: digests may match even so, if somebody has recomputed them, and
-/// another program's journal may contain anything. In a run of another version, settings unknown to
-/// this version are ignored.
+/// Checks that a record has the contents that its evaluation needs, in the form in which a run
+/// writes them: settings known to the table of the plan, each within its limits; the series and
+/// columns of every analysis, and no others; touches of known poses, in whole numbers that fit the
+/// feature, with unit directions. Call it before an evaluation: digests also match if somebody has
+/// recomputed them, and another program's journal may contain anything. In a run of another
+/// version, settings unknown to this version are ignored.
 /// @return kJournal with the first violation and its place.
 [[nodiscard]] core::Result<void> check_record(const record::RunRecord& record);
 

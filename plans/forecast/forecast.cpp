@@ -23,9 +23,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSettle_s = 0.2;  // after each touch, as the simulated machine does
+constexpr double kSettle_s = 0.2;  // after each touch, as on the simulated machine
 
-/// Follows the tip and adds up touches, lengths and times.
+/// Follows the tip and sums touches, lengths and times.
 class Tally {
  public:
   Tally(const MachinePlan& machine, Forecast& out)
@@ -196,7 +196,7 @@ class NominalSession final : public PoseSession {
     return feature_.sampling.method == record::SamplingMethod::kScan;
   }
 
-  /// The places where the tip goes down to the surface: every target, or the start of each scanned
+  /// The places where the tip descends to the surface: every target, or the start of each scanned
   /// layer.
   [[nodiscard]] std::vector<Target> stops_of(const std::vector<Target>& targets) const {
     if (!scans()) return targets;
@@ -290,7 +290,8 @@ class NominalSession final : public PoseSession {
   fixture::SimulatedFixture fixture_;
   FeaturePlanner planner_;
   PathGeometry geometry_;
-  std::vector<Target> reachable_;  ///< In the present one of several poses; otherwise empty.
+  /// Those reachable in the current one of several poses; otherwise empty.
+  std::vector<Target> reachable_;
   core::Pose reached_;
 };
 

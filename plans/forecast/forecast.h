@@ -17,8 +17,8 @@ namespace rondure::plans {
 /// A touch of a cloud, or a point of a scan.
 struct ForecastTouch {
   Target target;
-  Eigen::Vector3d tip_W_mm = {0.0, 0.0, 0.0};  ///< At the expected contact.
-  double time_s = 0.0;                         ///< From the first move of its stage.
+  Eigen::Vector3d tip_W_mm = {0.0, 0.0, 0.0};  ///< Tip at the expected contact.
+  double time_s = 0.0;                         ///< Time from the first move of its stage.
 };
 
 /// One stage of a run: the touches of the reference sphere, of the spheres on the base of the
@@ -27,17 +27,18 @@ struct ForecastStage {
   enum class Kind { kQualification, kBase, kRing, kLocation, kCloud };
   Kind kind = Kind::kCloud;
   int feature = -1;          ///< Index; -1 for spheres.
-  core::Pose pose;           ///< As the fixture would read it.
+  core::Pose pose;           ///< Pose as the fixture would read it.
   bool final_cloud = false;  ///< Its touches would be evaluated.
   int times = 1;             ///< Number of times that the cloud is touched.
-  int touches = 0;           ///< Per time.
-  /// Of all times: moves, and the strokes of the touches in both directions.
+  int touches = 0;           ///< Touches per time.
+  /// Path length over all times: moves, and the strokes of the touches in both directions.
   double path_mm = 0.0;
-  double time_s = 0.0;  ///< Of all times.
+  double time_s = 0.0;  ///< Total over all times.
   Polyline moves_W;     ///< Ends of the moves of the first time, in order.
   Polyline contacts_W;  ///< Tip centres at the expected contacts, in the order of touching.
-  std::vector<ForecastTouch> measured;  ///< Of a cloud, the first time, in the order of touching.
-  Placement placement;                  ///< Of a cloud.
+  /// For a cloud: touches of the first time, in the order of touching.
+  std::vector<ForecastTouch> measured;
+  Placement placement;  ///< For a cloud.
 };
 
 /// Forecast of a run whose part, fixture and probe are as stated in the plan.
@@ -49,11 +50,11 @@ struct Forecast {
   double time_s = 0.0;  ///< By the machine clock, without turns of the fixture.
 };
 
-/// Goes through a plan as a run does, with the same pose search and the same planner, on a part
-/// without form error at its nominal place. Nothing moves, nothing is written. A real part is
-/// displaced: `guided` then needs one or two more poses, each with one more cloud.
+/// Simulates the steps of a run, with the same pose search and the same planner, on a part without
+/// form error at its nominal place. Nothing moves, nothing is written. A real part is displaced:
+/// `guided` then needs one or two more poses, each with one more cloud.
 /// @return  kUnreachable or kSampling with the pointer of the feature; a forecast without stages
-///          for a plan whose points all come from files.
+///     for a plan whose points all come from files.
 [[nodiscard]] core::Result<Forecast> forecast(const Plan& plan);
 
 }  // namespace rondure::plans

@@ -21,13 +21,13 @@ using Eigen::Vector3d;
 constexpr double kPanel_px = 460.0;
 constexpr double kMargin_px = 30.0;
 constexpr double kHead_px = 64.0;
-constexpr int kCorners = 72;  // of a drawn circle
+constexpr int kCorners = 72;  // corners of a drawn circle
 
 /// One view: the two machine axes shown, and its place.
 struct View {
   int right = 0;
   int up = 2;
-  Vector2d low = Vector2d::Zero();  ///< Of the drawn window [mm].
+  Vector2d low = Vector2d::Zero();  ///< Lower end of the drawn window [mm].
   double px_per_mm = 1.0;
   Vector2d origin_px = Vector2d::Zero();  ///< Lower left corner of the window.
 
@@ -44,7 +44,7 @@ struct DrawnShape {
   bool framed = true;  ///< Whether it affects the size of the window.
 };
 
-/// Degrees to two digits, without the sign of a rounded zero.
+/// Degrees to two digits; drops the sign of a rounded zero.
 double hundredths(double angle_rad) {
   return std::round(100.0 * angle_rad / core::kDegree) / 100.0 + 0.0;
 }

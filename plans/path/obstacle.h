@@ -8,11 +8,11 @@
 
 namespace rondure::plans {
 
-/// A simple solid: a rectangle of the (r, z) half plane turned about z (cylinder, ring, disc), or a
-/// ball about the origin.
+/// A simple solid: a rectangle of the (r, z) half plane rotated about z (cylinder, ring, disc), or
+/// a ball about the origin.
 struct Revolved {
-  double inner_mm = 0.0;  ///< 0: no hole.
-  double outer_mm = 0.0;  ///< Radius, also of a ball.
+  double inner_mm = 0.0;  ///< Radius of the hole; 0: none.
+  double outer_mm = 0.0;  ///< Outer radius, also of a ball.
   double from_mm = 0.0;   ///< Lower end; not for a ball.
   double to_mm = 0.0;
   bool ball = false;

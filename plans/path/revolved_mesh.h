@@ -8,8 +8,8 @@
 namespace rondure::plans {
 
 /// A closed surface of revolution about z, made of plane triangles, with an exact intersection test
-/// for segments and triangles. The answer is that of exact arithmetic on the given corners; round
-/// walls are approximated by facets. If the library fails, the answer is "meets".
+/// for segments and triangles. The answer is exact for the given corners; round walls are
+/// approximated by facets. If the library fails, the answer is "meets".
 class RevolvedMesh {
  public:
   /// @param profile_rz  Corners (r, z) of the outline in the half plane r >= 0 [mm], in order: from

@@ -13,7 +13,7 @@ namespace rondure::plans {
 /// as in the plan).
 struct Target {
   int layer = 0;  ///< 0 is the lowest.
-  int point = 0;  ///< Within the layer.
+  int point = 0;  ///< Index within the layer.
   double theta_rad = 0.0;
   double z_mm = 0.0;
 
@@ -23,7 +23,7 @@ struct Target {
 /// The targets of a feature, layer by layer from below, by angle within a layer:
 ///   z_j = from + margin + j (to - from - 2 margin) / (m - 1)
 ///   theta_ji = start + 360 deg (i / k + stagger j / (m k)).
-/// A single layer, as for a circle, lies in the middle.
+/// A single layer, as for a circle, is in the middle.
 /// @return  kSampling when the layers or points cannot be placed.
 /// Source: methods, cylindricity section 4.
 [[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);
@@ -35,14 +35,14 @@ struct Target {
 /// crossing is 2/3 of that of a touch in every direction. The layers keep a distance from both ends
 /// of the margin plus the largest deviation of the surface from nominal, so that a crooked part is
 /// touched on its side and not on its rim.
-/// @return  As sampling_targets().
+/// @return  As for sampling_targets().
 [[nodiscard]] core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                                  double uncertainty_mm);
 
 /// Directions for touching a reference sphere: unit vectors from its centre, all in the upper half
 /// space, the pole first, then rings from above down to the equator, spread evenly over the
-/// hemisphere. Fewer than 9 points are the pole and the equator.
-/// @param points  5..100, else kSampling.
+/// hemisphere. Fewer than 9 points are the pole and points on the equator.
+/// @param points  5..100, otherwise kSampling.
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points);
 
 }  // namespace rondure::plans

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWide_mm = 1e5;      // radius of a disc without a way around it
-constexpr double kDeep_mm = 1e4;      // thickness of a body without a way below it
+constexpr double kWide_mm = 1e5;      // radius of a disc that cannot be bypassed
+constexpr double kDeep_mm = 1e4;      // thickness of a body that cannot be passed below
 constexpr double kHolder_mm = 300.0;  // length of the holder above the stylus
 
 Tool tool_of(const Plan& plan) {

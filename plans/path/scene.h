@@ -20,9 +20,10 @@ enum class Limb { kBall, kShaft, kHolder };
 /// Distance that the tool keeps on a move.
 enum class Phase {
   kTravel,  ///< The clearance, from all obstacles.
-  kNear,    ///< Beside the surface to be touched: from the part only the approach, if that is less.
-  kTouch,  ///< From the pre-touch point to the contact: the ball meets the surface, the shaft keeps
-           ///< kTouchGap_mm from the part.
+  kNear,    ///< Beside the surface to be touched: from the part, only the approach if that is less.
+  /// From the pre-touch point to the contact: the ball meets the surface, the shaft keeps
+  /// kTouchGap_mm from the part.
+  kTouch,
 };
 
 inline constexpr double kTouchGap_mm = 0.25;
@@ -38,8 +39,9 @@ struct Way {
 
 /// Positions of part and clamping ring, machine frame.
 struct Placement {
-  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  ///< The part, as best known.
-  Eigen::Isometry3d X_WN = Eigen::Isometry3d::Identity();  ///< Its nominal seat, where the ring is.
+  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  ///< Best estimate of the part.
+  /// Nominal seat of the part, at the ring.
+  Eigen::Isometry3d X_WN = Eigen::Isometry3d::Identity();
 };
 
 /// A place where the tool would come too close to an obstacle.
@@ -47,7 +49,7 @@ struct Hit {
   Body body = Body::kFeature;
   Limb limb = Limb::kBall;
   double room_mm = 0.0;                                ///< Distance to keep.
-  Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which it occurs.
+  Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which the hit occurs.
 };
 
 /// "the shaft of the stylus would come nearer than 5.3 mm to the clamping ring on the way to
@@ -82,7 +84,8 @@ class Scene {
   struct Solid {
     Body body = Body::kFeature;
     Frame frame = Frame::kMachine;
-    Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();  ///< Of its own frame, axes parallel.
+    /// Origin of its own frame, axes parallel to the machine.
+    Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();
     Revolved shape;
     std::vector<Obstacle> grown = {};  ///< Solids with the clearances requested so far.
   };

@@ -36,7 +36,7 @@ double travel_radius(const PathGeometry& g) {
 }
 
 int arc_steps(double angle_rad) {
-  // A small slack, so that 45 deg are three steps of 15 deg and not four.
+  // A small slack makes 45 deg three steps of 15 deg instead of four.
   return std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kArcStep_rad - 1e-9)));
 }
 

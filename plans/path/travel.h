@@ -11,13 +11,13 @@ namespace rondure::plans {
 
 /// Parameters of the path of the tip around a part. Part frame, heights as in the plan.
 struct PathGeometry {
-  double radius_mm = 0.0;  ///< Nominal.
+  double radius_mm = 0.0;  ///< Nominal radius.
   double from_mm = 0.0;    ///< Lower end of the part.
   double to_mm = 0.0;      ///< Upper end of the part.
   bool inside = false;     ///< true: a bore, open above.
   double tip_radius_mm = 2.0;
-  double approach_mm = 3.0;   ///< From the pre-touch point to the expected contact.
-  double clearance_mm = 5.0;  ///< Kept from all obstacles while travelling.
+  double approach_mm = 3.0;   ///< Distance from the pre-touch point to the expected contact.
+  double clearance_mm = 5.0;  ///< Distance from all obstacles while travelling.
   double stand_off_mm = 0.0;  ///< Added to the radius of the path around a shaft.
 
   friend bool operator==(const PathGeometry&, const PathGeometry&) = default;
@@ -39,22 +39,23 @@ using Polyline = std::vector<Eigen::Vector3d>;
 /// Tip centre where the search begins.
 [[nodiscard]] Eigen::Vector3d pre_touch(const PathGeometry& geometry, const Target& target);
 
-/// From above the upper end of the part to a pre-touch point. The first corner lies tip radius +
+/// Path from above the upper end of the part to a pre-touch point. The first corner is tip radius +
 /// clearance beyond the end plane: a motion between it and the sky, straight along machine z, does
 /// not meet a part that is tilted by 90 deg or less.
 [[nodiscard]] Polyline entry_path(const PathGeometry& geometry, const Target& target);
 
-/// Between two pre-touch points, both included. Outside: out to the travel radius, along the axis,
-/// around (the shorter direction) and in again; on the path around, no point is closer to the axis
-/// than radius + tip radius + max(approach, clearance). Inside: the straight line.
+/// Path between two pre-touch points, both included. Outside: out to the travel radius, along the
+/// axis, around (the shorter direction) and in again; on the path around, no point is closer to the
+/// axis than radius + tip radius + max(approach, clearance). Inside: the straight line.
 [[nodiscard]] Polyline path_between(const PathGeometry& geometry, const Target& from,
                                     const Target& to);
 
 /// The reverse of entry_path().
 [[nodiscard]] Polyline exit_path(const PathGeometry& geometry, const Target& target);
 
-/// Around a reference sphere between two directions of qualification_directions(): from pre-touch
-/// point to pre-touch point, both included, never closer to the sphere than these. Machine frame.
+/// Path around a reference sphere between two directions of qualification_directions(): from
+/// pre-touch point to pre-touch point, both included, never closer to the sphere than these.
+/// Machine frame.
 [[nodiscard]] Polyline path_around_sphere(const Eigen::Vector3d& center_W_mm, double radius_mm,
                                           const PathGeometry& geometry, const Eigen::Vector3d& from,
                                           const Eigen::Vector3d& to);

@@ -12,14 +12,14 @@
 namespace rondure::plans {
 namespace {
 
-/// Touches that are repeated before an interrupted run goes on, where the cloud has so many: one
-/// shows a shift along its own direction only.
+/// Number of touches that are repeated before an interrupted run is resumed, if the cloud has so
+/// many: one touch shows a shift along its own direction only.
 constexpr std::size_t kChecks = 3;
 
-constexpr double kStill_mm = 1e-6;  // a shorter move is none
+constexpr double kStill_mm = 1e-6;  // a shorter move is not made
 
-/// A pose of the journal that is taken again must read as before: part and targets follow the
-/// recorded reading.
+/// Checks that a replayed pose of the journal has the same reading as before: part and targets
+/// follow the recorded reading.
 core::Result<void> check_reading(const record::PoseVisit& known, const core::Pose& reads,
                                  double resolution_rad) {
   constexpr double kRoundOff_rad = 1e-9;
@@ -122,7 +122,7 @@ core::Result<void> RunContext::come_back() {
   doing = "repeating the last touches";
   const auto reads = cell->home_again();
   if (!reads) return core::fail(reads.error());
-  // A pose that was measured stands in the repeated touches themselves.
+  // The repeated touches themselves check a pose that was measured.
   const bool has_encoders = !plan.fixture->reached_pose;
   if (const record::PoseVisit* known = recorded.pose(last_steps.back().row.pose);
       known != nullptr && has_encoders) {
@@ -257,7 +257,7 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
     const std::string what = "turn the fixture to " + in_degrees(commanded);
     if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
   }
-  const auto steps =  // before anybody turns it
+  const auto steps =  // planned before anybody turns the fixture
       reached_pose_steps(plan, cell->kinematics(), cell->nominal_part(), feature, commanded);
   if (!steps) return core::fail(steps.error());
   auto reached = replaying() ? cell->replay_turn(commanded) : cell->turn_to(commanded);

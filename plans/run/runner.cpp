@@ -24,7 +24,7 @@
 namespace rondure::plans {
 namespace {
 
-/// Touches a strategy commonly needs, for the time left.
+/// Usual number of touches of a strategy, for the time left.
 std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   if (!is_touched(feature)) return 0;
   const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
@@ -42,7 +42,7 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   }
 }
 
-/// Where every feature's targets are, checked in its start pose before anything moves.
+/// Targets of every feature, checked in its start pose before anything moves.
 core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
   std::vector<std::vector<Target>> out(plan.features.size());
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
@@ -54,11 +54,11 @@ core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
   return out;
 }
 
-/// What is known of a feature without a machine, read once: what is hashed is what is evaluated.
+/// Data of a feature that need no machine, read once: the hashed data are the evaluated data.
 struct FeatureData {
   std::string sha256;
-  record::PointTable points;  ///< Of a points file.
-  AnalysisData series;        ///< Of an analysis.
+  record::PointTable points;  ///< For a points file.
+  AnalysisData series;        ///< For an analysis.
 };
 
 core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
@@ -88,7 +88,7 @@ core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t
   return out;
 }
 
-/// Puts the rows of a points file into the journal, as one cloud without a pose search.
+/// Writes the rows of a points file into the journal, as one cloud without a pose search.
 core::Result<void> take_points(RunContext& context, int index, const record::PointTable& table) {
   const int pose = context.next_pose++;
   if (context.recorded.pose(pose) == nullptr) {
@@ -106,11 +106,11 @@ core::Result<void> take_points(RunContext& context, int index, const record::Poi
     row.tip_mm = p;
     rows.push_back(row);
   }
-  if (known) return {};  // one transaction: all of them or none
+  if (known) return {};  // one transaction: all are there or none
   return context.journal.add(rows);
 }
 
-/// Puts the series of an analysis into the journal: all of them or none.
+/// Writes the series of an analysis into the journal: all of them or none.
 core::Result<void> take_series(RunContext& context, int index, const AnalysisData& data) {
   if (context.recorded.knows_series(index)) return {};
   return context.journal.add(data.series, data.truths);
@@ -143,7 +143,7 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
 
 /// References machine and fixture and qualifies the probe.
 core::Result<void> prepare(RunContext& context) {
-  // The part is in the ring from the start: whatever moves must keep clear of it.
+  // The part is in the ring from the start: every motion must keep clear of it.
   const auto first =
       std::find_if(context.plan.features.begin(), context.plan.features.end(), needs_machine);
   context.cell->mount(*first);
@@ -160,7 +160,7 @@ core::Result<void> prepare(RunContext& context) {
   return {};
 }
 
-/// The plan as its machine is driven: slower while each move is confirmed.
+/// The plan with the speeds of this run: slower while each move is confirmed.
 Plan driven(const Plan& plan, const RunOptions& options) {
   Plan out = plan;
   if (options.single_step && out.machine) {
@@ -170,21 +170,21 @@ Plan driven(const Plan& plan, const RunOptions& options) {
   return out;
 }
 
-/// The record says that a run was made in single steps.
+/// Records that a run was made in single steps.
 core::Result<void> note_single_steps(RunContext& context) {
   if (!context.options.single_step || context.recorded.touch(0) != nullptr) return {};
   return context.journal.add(record::Decision{
       -1, 0.0, {core::MessageCode::kSingleSteps, {context.plan.machine->step_speed_mm_s}}});
 }
 
-/// Whoever watches sees what is on record, and from then on each row.
+/// Gives observers the rows on record, and from then on each new row.
 void follow(const RunOptions& options, record::RunRecord on_record, record::Journal& journal) {
   if (!options.followed_by) return;
   options.followed_by->begin(std::move(on_record));
   journal.follow(options.followed_by);
 }
 
-/// What is known before the first touch.
+/// Data known before the first touch.
 struct Preparation {
   std::vector<std::vector<Target>> targets;
   std::vector<FeatureData> data;
@@ -192,7 +192,7 @@ struct Preparation {
   std::optional<UsedCalibration> calibration;
 };
 
-/// @param run_utc  When the run began.
+/// @param run_utc  Start of the run.
 core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options,
                                        std::string_view run_utc) {
   auto targets = plan_targets(plan);
@@ -213,7 +213,7 @@ core::Result<std::unique_ptr<Cell>> cell_of(const Plan& plan, const RunOptions& 
                    {seed, resumed, options.wire_log, options.stop_requested, options.set_by_hand});
 }
 
-/// Goes through the plan and writes how the run ended.
+/// Executes the plan and writes how the run ended.
 void execute(const Plan& plan, const RunOptions& options, const Preparation& known, Cell* cell,
              record::RunRecord recorded, Run& run) {
   RunContext context{plan, options, cell, run.journal};
@@ -246,11 +246,11 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   }
 }
 
-/// All that differs from the run on record: plan, options, and the files beside the plan.
+/// All differences from the run on record: plan, options, and the files of the plan.
 std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& plan,
                                      const RunOptions& options, const Preparation& known) {
   auto changes = changes_since(run, plan, options);
-  // A damaged journal may hold fewer features than its plan; who reads it on says so.
+  // A damaged journal may hold fewer features than its plan; its later readers report that.
   for (std::size_t i = 0; i < std::min(plan.features.size(), run.features.size()); ++i) {
     if (changes.empty() && known.data[i].sha256 != run.features[i].points_sha256) {
       changes.push_back(points_changed(i, run.features[i], known.data[i].sha256));
@@ -323,7 +323,7 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options, record::H
   const auto refuse = [](const core::Error& error) {
     return tl::unexpected(std::vector<core::Error>{error});
   };
-  record::RunRecord recorded = held.read.record;  // the rest of `held` goes into the journal
+  record::RunRecord recorded = held.read.record;  // the rest of `held` moves into the journal
   RunOptions same = options;
   if (!same.seed) same.seed = recorded.header.seed;
   const auto known = prepare_plan(plan, same, recorded.header.started_utc);
@@ -335,7 +335,7 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options, record::H
   auto journal = record::Journal::reopen(options.directory, std::move(held));
   if (!journal) return refuse(journal.error());
   Run run{std::move(*journal), std::nullopt};
-  record::RunRecord open = recorded;  // reopening took its ending out
+  record::RunRecord open = recorded;  // reopening removed its ending
   open.ending.clear();
   open.failure.reset();
   follow(options, std::move(open), run.journal);

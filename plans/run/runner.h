@@ -10,7 +10,7 @@
 
 namespace rondure::plans {
 
-/// A run that has begun: its journal, and why it ended early, if it did.
+/// A run that was started: its journal, and why it ended early, if it did.
 struct Run {
   record::Journal journal;
   std::optional<core::Error> failure;
@@ -24,13 +24,13 @@ struct Run {
 /// writes each touch into the journal before the next command goes to the machine.
 ///
 /// @return An error when nothing has moved and nothing was written (unreachable target in the start
-///         pose, directory in use); otherwise the run, whose journal says how it ended. After a
-///         fault the tip was retracted, unless the machine itself had stopped on a collision.
+///     pose, directory in use); otherwise the run, whose journal states how it ended. After a fault
+///     the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
 
 /// Differences between a recorded run, interrupted or finished, and a run of this plan with these
 /// options: one kMeaning each, as for resume_plan(); or the error of a file that cannot be read for
-/// the comparison. Empty: it is that run.
+/// the comparison. Empty if they are the same run.
 [[nodiscard]] std::vector<core::Error> differences_from_run(const record::RunRecord& run,
                                                             const Plan& plan,
                                                             const RunOptions& options);
@@ -45,16 +45,16 @@ using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 /// uninterrupted run, except for these checks and the decision that states the interruption.
 ///
 /// With `relocate` a touch on the part that differs by more than the limit does not end the run:
-/// the part is located again in that pose and the present cloud, with its repeats, is measured
+/// the part is located again in that pose, and the current cloud, with its repeats, is measured
 /// anew; the touches of the earlier placement stay in the journal and enter no result. A run that
-/// was between two clouds ends all the same: its decisions hold for the earlier placement.
+/// was between two clouds still ends: its decisions hold for the earlier placement.
 ///
-/// @param options  An absent `seed`, `serial` or `operator_name` is that of the recorded run.
+/// @param options  An absent `seed`, `serial` or `operator_name` is taken from the recorded run.
 /// @param held  The journal of that directory, read once.
 /// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and
-///          the new value), of the points files, version, seed, serial number or operator; kJournal
-///          for a run that is sealed; the errors of Journal::reopen(). Then nothing has moved and
-///          the journal is unchanged.
+///     the new value), of the points files, version, seed, serial number or operator; kJournal for
+///     a sealed run; the errors of Journal::reopen(). In these cases nothing has moved and the
+///     journal is unchanged.
 [[nodiscard]] RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options,
                                         record::HeldJournal held);
 

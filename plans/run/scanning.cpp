@@ -40,7 +40,7 @@ std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
 /// Largest distance at which a recorded point of a scan counts as its start.
 constexpr double kAtStart_mm = 0.01;
 
-/// From the pre-touch point at the start of a scan to that at an angle, around the surface.
+/// Path from the pre-touch point at the start of a scan to the one at an angle, around the surface.
 Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
   constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius closer
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kPiece_rad)));
@@ -90,7 +90,7 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
   TouchStep first;
   first.scan = step.command;
   first.scan_end = reading_of(known.back());
-  // A real machine may begin a scan beside its start: the touch is at the nearest recorded point.
+  // A real machine may begin a scan off its start: the touch is at the nearest recorded point.
   const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
   const auto off_start = [&](const record::Touch& row) {
     return std::abs(cmm::scan_angle(command, row.tip_mm));
@@ -118,7 +118,7 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::measure_cloud() {
 }
 
 std::vector<Target> FeatureSession::reach_targets() const {
-  constexpr int kAround = 24;  // every 15 deg: the shaft of the stylus is wider than that
+  constexpr int kAround = 24;  // every 15 deg: the shaft of the stylus is wider than this spacing
   if (feature_.sampling.method != record::SamplingMethod::kScan) return targets_;
   const int step = std::max(1, feature_.sampling.points_per_layer / kAround);
   std::vector<Target> out;
@@ -146,7 +146,7 @@ ScanStep FeatureSession::scan_of(TouchStep first, const Target& start, int point
 
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
     const std::vector<Target>& targets) {
-  std::vector<Target> starts;  // the tip ends a full revolution at its start
+  std::vector<Target> starts;  // after a full revolution the tip ends at its start
   for (const Target& target : targets) {
     if (starts.empty() || target.layer != starts.back().layer) starts.push_back(target);
   }

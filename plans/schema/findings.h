@@ -10,13 +10,13 @@
 
 namespace rondure::plans {
 
-/// All problems of a plan, and the keys that it gives. Problems of structure come first, in the
-/// order of the document, then those of meaning, in the order of their detection.
+/// All problems of a plan, and the pointers of the values that it gives. Problems of structure come
+/// first, in the order of the document, then those of meaning, in the order of their detection.
 class Findings {
  public:
-  /// A problem of structure; `order` is that of the value (JsonValue::order).
+  /// Adds a problem of structure; `order` is that of the value (JsonValue::order).
   void structure(std::size_t order, core::Error problem);
-  /// A problem of meaning.
+  /// Adds a problem of meaning.
   void meaning(core::Code code, std::string where, std::string what);
 
   /// Notes that the plan gives the value at this pointer.

@@ -66,10 +66,10 @@ class Builder final : public nlohmann::json_sax<json> {
   }
 
   JsonValue root;
-  std::size_t error_position = 0;  ///< Characters read when the parser stopped.
+  std::size_t error_position = 0;  ///< Number of characters read when the parser stopped.
   std::string error_token;
   int error_id = 0;   ///< 0: no error.
-  std::string limit;  ///< The limit of ours that ended the parsing.
+  std::string limit;  ///< The limit of this reader that ended the parsing.
 
   [[nodiscard]] std::size_t depth() const { return open_.size(); }
 
@@ -180,8 +180,8 @@ std::string complaint(std::string_view text, std::size_t index, const Builder& b
       in_quotes(word));
 }
 
-// The place of the error: the parser is already past a whole text or number when it finds it
-// misplaced.
+// The position of the error: when the parser finds a whole text or number misplaced, it is already
+// past it.
 std::size_t error_index(std::string_view text, const Builder& builder) {
   const std::size_t end = builder.error_position;
   const std::string& token = builder.error_token;

@@ -20,8 +20,8 @@ struct JsonValue {
   double number = 0.0;
   std::string text;
   std::vector<JsonValue> items;
-  std::vector<JsonMember> members;  ///< In the order of the text, repeated keys too.
-  std::size_t order = 0;            ///< Counts the values of the document from its start.
+  std::vector<JsonMember> members;  ///< In the order of the text, including repeated keys.
+  std::size_t order = 0;  ///< Number of the value, counted from the start of the document.
 
   /// The first member of that key, or nullptr.
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
@@ -44,13 +44,13 @@ inline constexpr std::size_t kMaxValues = 100'000;
 ///          beyond double), not an object, or beyond the limits above.
 [[nodiscard]] core::Result<JsonValue> parse_json(std::string_view text, std::string_view name);
 
-/// A value as shown in messages: `the text "abc"`, `the number 4.5`, `an array of 3 values`.
+/// A value in the wording of messages: `the text "abc"`, `the number 4.5`, `an array of 3 values`.
 [[nodiscard]] std::string found(const JsonValue& value);
 
 /// Text in quotes, shortened, control characters escaped: safe for one line of a message.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// A number as shown in messages: the shortest digits that read back, "100000" and not "1e+05".
+/// A number in the form of messages: the shortest digits that read back, "100000" and not "1e+05".
 [[nodiscard]] std::string plain(double value);
 
 /// The pointer to a member of an object or to an item of an array (RFC 6901: "~" and "/" escaped).

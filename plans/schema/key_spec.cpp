@@ -10,8 +10,8 @@ struct Suffix {
   std::string_view unit;
 };
 
-// Longest first: "_um_m" ends in "_m". The units of hidden errors come first, then those of the
-// plan; after "_um" come units that no plan uses but that people write.
+// Longest first, because "_um_m" ends in "_m". The units of hidden errors come first, then those of
+// the plan; after "_um" follow units that no plan uses but that people write.
 constexpr std::array kSuffixes = {
     Suffix{"_urad_m2", "urad/m^2"},
     Suffix{"_um_m2", "um/m^2"},

@@ -4,8 +4,8 @@
 #include "plans/rotary_plan.h"
 #include "plans/schema/key_spec.h"
 
-// The part of plan_table.h for features of the type "rotary_axes", the simulated errors that they
-// find, and the calibration that other runs use.
+// The part of plan_table.h for features of the type "rotary_axes", for the simulated errors that
+// they determine, and for the calibration that other runs use.
 
 namespace rondure::plans {
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Integer limits of integers are printed without ".0".
+// Prints limits of integers without ".0".
 ordered_json limit(double value, bool whole) {
   return whole ? ordered_json(static_cast<std::int64_t>(value)) : ordered_json(value);
 }
@@ -68,7 +68,7 @@ class SchemaWriter {
   }
   void number(std::string_view key, double value, const NumberSpec& spec) {
     add(key, number_schema(spec, false), spec.meaning, spec.required);
-    if (value >= spec.at_least) property(key)["default"] = value;  // else there is no default
+    if (value >= spec.at_least) property(key)["default"] = value;  // otherwise there is no default
   }
   void number(std::string_view key, const std::optional<double>&, const NumberSpec& spec) {
     add(key, number_schema(spec, false), spec.meaning, spec.required);

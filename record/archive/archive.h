@@ -15,12 +15,12 @@ namespace rondure::record {
 
 struct ArchiveSession;
 
-/// Version of the archive's tables; goes up with every change (docs/archive.md).
+/// Version of the archive's tables; increases with every change (docs/archive.md).
 inline constexpr int kArchiveVersion = 1;
 
-/// The data of a run that all its results share.
+/// Data of a run that all its results share.
 struct ArchiveHead {
-  std::string journal_sha256;  ///< Of the bytes of the sealed journal.db: the key of a run.
+  std::string journal_sha256;  ///< SHA-256 of the sealed journal.db: the key of a run.
   std::string run_id;
   std::string started_utc;  ///< "2026-11-21T02:33:02Z".
   std::string part_id;
@@ -48,7 +48,7 @@ struct ArchiveResult {
   std::optional<double> upper_limit;  ///< In `unit`; empty when not toleranced.
   std::string unit = "mm";
   std::string verdict;  ///< "conforms", "does not conform", "undecided", "void", "not toleranced".
-  std::string certificate;  ///< Of the reference: "global", "local", "none".
+  std::string certificate;  ///< Certificate of the reference: "global", "local", "none".
 };
 
 /// A finished run to be archived.
@@ -95,14 +95,13 @@ class Archive {
   Archive& operator=(Archive&&) noexcept;
   ~Archive();
 
-  /// Adds a run with all its results, in one transaction. A run that is there already (same
-  /// journal_sha256) stays as it is.
+  /// Adds a run with all its results, in one transaction. A run that the archive already holds
+  /// (same journal_sha256) is left unchanged.
   /// @return Whether the run was new. kBadOption for a time that is not UTC.
   [[nodiscard]] core::Result<bool> push(const ArchiveRun& run);
 
   /// The newest results that pass the filter, newest first, at most `count`.
-  /// @param before  Returns only results older than this one: the next page after an earlier
-  ///                answer.
+  /// @param before  Returns only results older than this one: the next page after an earlier call.
   [[nodiscard]] core::Result<std::vector<ArchivedResult>> newest(
       const ArchiveFilter& filter, std::size_t count, const ArchivedResult* before = nullptr);
 

@@ -19,7 +19,7 @@ class RetryPolicy {
     return passed.count() > options_.give_up_after_s ||
            (options_.stop_requested && options_.stop_requested());
   }
-  /// Waits before attempt `number` (from 0); false when no further one is due.
+  /// Waits before attempt `number` (from 0); false when no more attempts are allowed.
   [[nodiscard]] bool allows(int number) const {
     if (number == 0) return true;
     if (number >= options_.attempts || ended()) return false;
@@ -43,7 +43,7 @@ class Receiver {
     core::Result<bool> pushed = false;
     for (int attempt = 0; retries_.allows(attempt); ++attempt) {
       pushed = push_once(run);
-      // Only a fault that may pass by itself is worth another attempt.
+      // Only a fault that may be temporary is worth another attempt.
       if (pushed || pushed.error().code != core::Code::kArchive) return pushed;
       archive_.reset();
     }
@@ -119,7 +119,7 @@ Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_f
     } else {
       delivery.failure = pushed.error();
       if (pushed.error().code == core::Code::kBadOption)
-        return delivery;  // the run can go into no archive
+        return delivery;  // no archive accepts this run
       left = run;
     }
   }

@@ -13,7 +13,7 @@ namespace rondure::record {
 inline constexpr const char* kArchiveName = "archive.db";
 inline constexpr const char* kArchiveQueueName = "archive-queue.db";
 
-/// Where results are archived.
+/// Location of the archive.
 struct ArchivePlace {
   enum class Kind {
     kNone,    ///< "none": nothing is archived.
@@ -25,7 +25,7 @@ struct ArchivePlace {
   std::string shown;    ///< The same without password, for messages.
   std::string key;      ///< Independent of the working directory: absolute path, or `shown`.
 
-  /// Whether the URL holds a password. It belongs in ~/.pgpass, not in a plan.
+  /// Whether the URL contains a password, which belongs in ~/.pgpass, not in a plan.
   [[nodiscard]] bool has_password() const { return address != shown; }
 };
 

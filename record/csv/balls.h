@@ -20,7 +20,7 @@ struct BallRow {
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d u_um = Eigen::Vector3d::Zero();  ///< Standard uncertainty of x, y, z.
   int direction = 0;     ///< +1, -1: approached forward or backward; 0: not stated.
-  std::size_t line = 0;  ///< In the file, from 1.
+  std::size_t line = 0;  ///< Line in the file, from 1.
 };
 
 /// Reads ball centres for the calibration of rotary axes: a header line with the columns

@@ -19,9 +19,9 @@ struct PointTable {
 /// Reads points from CSV text: a header line naming the columns (`x,y` or `x,y,z`, any order, mm),
 /// then one row per point. Spaces around a field, blank lines, lines that begin with `#` and a
 /// UTF-8 byte order mark are skipped; lines end with LF or CRLF. Anything else is an error with
-/// `where` "name:line", the text found and what is expected: kSyntax for another header, a missing
-/// or extra field or text that is not a number, kNotFinite for NaN, infinity or a number beyond
-/// double's range, kNoPoints for a table without rows. One pass, about as fast as std::from_chars.
+/// `where` "name:line", the text found and the text expected: kSyntax for another header, a missing
+/// or extra field or text that is not a number, kNotFinite for NaN, infinity or a number beyond the
+/// range of double, kNoPoints for a table without rows. One pass, about as fast as std::from_chars.
 ///
 /// @param name  The file's name for `where`.
 [[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text,

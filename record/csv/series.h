@@ -21,16 +21,17 @@ struct ColumnName {
   std::string in_file;
 };
 
-/// Reads a table of numbers: a header line with the names of the columns, in any order, then a row
-/// a line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_points_csv().
+/// Reads a table of numbers: a header line with the names of the columns, in any order, then one
+/// row per line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_points_csv().
 ///
 /// Without `names` every column must be a wanted one. With `names` a column is found under its name
 /// in the file, and other columns are skipped.
 ///
 /// @param name  The file's name for `where` ("name:line").
 /// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column
-///          with another unit than the wanted one of that name, kSyntax, kNotFinite, kNoPoints as
-///          parse_points_csv(), kBadOption for a name in `names` that is not wanted. O(bytes).
+///     whose unit differs from that of the wanted column with the same name; kSyntax, kNotFinite,
+///     kNoPoints as parse_points_csv(); kBadOption for a name in `names` that is not wanted.
+///     O(bytes).
 [[nodiscard]] core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,
                                                     std::span<const WantedColumn> wanted,
                                                     std::span<const ColumnName> names = {});

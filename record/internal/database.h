@@ -8,7 +8,7 @@
 
 #include "core/result.h"
 
-// Private to the room: the small part of SQLite that the journal needs, over SOCI.
+// Private to the room: the few SQLite functions that the journal needs, through SOCI.
 
 namespace rondure::record {
 
@@ -20,8 +20,8 @@ namespace rondure::record {
 [[nodiscard]] sqlite_api::sqlite3* handle_of(soci::session& session);
 
 /// Stops SQLite from running anything stored in the file itself (triggers, views, functions in its
-/// schema), and makes it report damaged cells as they are read. For every file that somebody else
-/// may have written. @throws  soci::soci_error.
+/// schema), and makes it report damaged cells when they are read. Call it for every file that may
+/// come from elsewhere. @throws  soci::soci_error.
 void distrust(soci::session& sql);
 
 /// The cause of a failed SOCI or SQLite call and the remedy, in words: "the disk is full; free

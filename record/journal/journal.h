@@ -29,7 +29,7 @@ class Journal {
  public:
   /// Creates `directory` and the journal in it. An existing directory must be empty. On an error
   /// nothing that was created remains.
-  /// @param settings  Of the whole run.
+  /// @param settings  Settings of the whole run.
   /// @return  kFile also when the directory is not empty or another process is at work in it.
   [[nodiscard]] static core::Result<Journal> create(const std::filesystem::path& directory,
                                                     const Header& header, const Artefact& artefact,
@@ -50,19 +50,19 @@ class Journal {
   Journal& operator=(Journal&&) noexcept;
   ~Journal();
 
-  /// From now on touches, poses, decisions and the ending are added to `copy` too, each after it is
-  /// on disk. The caller first gives it the rows already written (GrowingRecord::begin()).
+  /// From now on also adds touches, poses, decisions and the ending to `copy`, each after it is on
+  /// disk. The caller first gives `copy` the rows already written (GrowingRecord::begin()).
   void follow(std::shared_ptr<GrowingRecord> copy);
 
   [[nodiscard]] core::Result<void> add(const Touch& touch);
-  /// Many touches in one transaction: rows of a points file.
+  /// Adds many touches in one transaction: the rows of a points file.
   [[nodiscard]] core::Result<void> add(std::span<const Touch> touches);
   [[nodiscard]] core::Result<void> add(const PoseVisit& pose);
   [[nodiscard]] core::Result<void> add(const Decision& decision);
   [[nodiscard]] core::Result<void> add(const SimulationTruth& truth);
-  /// The series of one feature with the numbers of its hidden truth, in one transaction. kJournal
-  /// also for an invalid series: a value that is not finite, or values that do not fill the
-  /// columns.
+  /// Adds the series of one feature with the numbers of its hidden truth, in one transaction.
+  /// kJournal also for an invalid series: a value that is not finite, or values that do not fill
+  /// the columns.
   [[nodiscard]] core::Result<void> add(std::span<const Series> series,
                                        std::span<const TruthValue> truths);
   /// Marks the pose whose cloud is evaluated.
@@ -70,13 +70,13 @@ class Journal {
   /// Writes how the run ended; call once, or once again after reopen().
   [[nodiscard]] core::Result<void> end(const std::string& ending, const core::Error* failure);
   /// Stores the numbers of the evaluation and a digest of every table, moves the write-ahead log
-  /// into the file, closes it and writes its SHA-256 to SHA256SUMS beside it. Afterwards nothing
-  /// can be added. When a step fails, a second call continues with that step.
+  /// into the file, closes it and writes its SHA-256 to SHA256SUMS in the same directory. Nothing
+  /// can be added afterwards. When a step fails, a second call continues with that step.
   [[nodiscard]] core::Result<void> seal(std::span<const StoredResult> results);
   /// Completes seal() for a run that died after its commit: moves the log into the file and lists
   /// the digest. Does nothing when the digest is listed already.
-  /// @pre  The caller holds the lock of the directory and has read the journal: with faults_of() it
-  ///       must not get a new digest, and a foreign log must not be moved into it.
+  /// @pre  The caller holds the lock of the directory and has read the journal: a journal with
+  ///     faults_of() must not get a new digest, and a foreign log must not be moved into it.
   /// @return  Errors of seal() and of read_checksums().
   [[nodiscard]] static core::Result<void> finish_seal(const std::filesystem::path& directory);
 
@@ -97,9 +97,9 @@ struct BrokenTable {
 struct ReadJournal {
   RunRecord record;
   std::vector<BrokenTable> broken;  ///< Empty for an intact journal, sealed or not.
-  int version = 0;                  ///< Of its tables; 1 has no chain.
+  int version = 0;                  ///< Version of its tables; version 1 has no chain.
   bool listed = false;              ///< SHA256SUMS names it: its run closed it.
-  bool as_listed = true;            ///< Its bytes have the digest there, where it is listed.
+  bool as_listed = true;            ///< Its bytes have the digest in SHA256SUMS, if listed there.
   /// Logs beside a closed journal that would change it, by name. They were not read.
   std::vector<std::string> beside;
 };
@@ -124,11 +124,11 @@ struct HeldJournal {
 /// the digest in SHA256SUMS, logs beside it. Empty for an intact one.
 [[nodiscard]] std::vector<std::string> faults_of(const ReadJournal& journal);
 
-/// Whether nothing of a run has reached a directory yet: it is absent, empty, or holds a journal
-/// without tables, whose making was interrupted. Such a remainder is removed, so that the run can
-/// begin there.
-/// @return  false for everything else; kFile when another process is at work in the directory, or
-///          it cannot be looked at.
+/// Whether no data of a run have been written to a directory yet: it is absent, empty, or holds a
+/// journal without tables, whose creation was interrupted. Removes such a leftover, so that the run
+/// can start there.
+/// @return  false in every other case; kFile when another process is at work in the directory, or
+///     when it cannot be read.
 [[nodiscard]] core::Result<bool> clear_unstarted_run(const std::filesystem::path& directory);
 
 }  // namespace rondure::record

@@ -40,7 +40,7 @@ std::string json_of(const core::Argument& argument) {
   return std::isfinite(number) ? core::shortest(number) : "null";
 }
 
-/// The whole of a text as a number, finite or not.
+/// The whole text as a number, finite or not.
 std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -135,7 +135,7 @@ constexpr std::array<std::pair<MessageCode, std::string_view>, 13> kOldSentences
 }};
 
 /// The message of a sentence with this form. Only the last argument may contain the fixed text that
-/// follows an argument.
+/// follows it.
 std::optional<Message> read_with(MessageCode code, std::string_view form,
                                  std::string_view sentence) {
   Message out{code, {}};

@@ -21,7 +21,7 @@ namespace rondure::record {
                                                         std::string_view arguments);
 
 /// The sentence that journals before version 6 hold instead of code and arguments. Its wording
-/// never changes; reports take theirs from reports/words/internal/messages.h.
+/// never changes; the wording of reports is in reports/words/internal/messages.h.
 [[nodiscard]] std::string old_sentence(const core::Message& message);
 
 /// The message of such a sentence, with its numbers as rounded there; kSentence with the sentence

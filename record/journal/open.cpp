@@ -183,7 +183,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
-  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside the link's target
+  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log in the folder of the link's target
     return core::fail(
         core::Code::kFile,
         fmt::format("{} is a link; a run goes on only where its journal stands", file.string()),
@@ -197,9 +197,10 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
     impl = std::make_unique<Impl>(std::move(held.lock), file, *connection);
     impl->version = found.version;
     int timeout_ms = 0;
-    impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
+    // do not wait: a run holds the lock for hours
+    impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);
     enable_wal(impl->sql);
-    require_schema(impl->sql, found.version);  // of the file itself, now that it is ours alone
+    require_schema(impl->sql, found.version);  // checked on the file itself, under our lock
     impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,

@@ -73,7 +73,7 @@ std::pair<std::int64_t, bool> readable_rows(soci::session& sql, std::string_view
   }
 }
 
-/// Row counts from when the journal was closed, as far as the seal can be read.
+/// Row counts at the time the journal was closed, as far as the seal can be read.
 std::map<std::string, std::int64_t> sealed_rows(soci::session& sql) {
   std::map<std::string, std::int64_t> rows;
   try {
@@ -83,7 +83,7 @@ std::map<std::string, std::int64_t> sealed_rows(soci::session& sql) {
                            soci::into(table), soci::into(count));
     all.execute();
     while (all.fetch()) rows[table] = count;
-  } catch (const std::exception&) {  // the rows read before the damage count
+  } catch (const std::exception&) {  // keep the rows read before the damage
   }
   return rows;
 }
@@ -99,7 +99,7 @@ std::string loss_of(soci::session& sql, std::string_view table,
   return to_the_end ? std::string() : fmt::format("{}: only {} rows can be read", table, rows);
 }
 
-/// Version of the tables; the present one when the header does not state it.
+/// Version of the tables; the current one when the header does not state it.
 std::int64_t version_of(soci::session& sql) {
   long long version = 0;
   sql << "pragma user_version", soci::into(version);
@@ -227,7 +227,7 @@ bool has_digest(const fs::path& file, const std::string& sha256) {
   return bytes && sha256_hex(*bytes) == sha256;
 }
 
-/// The journal without its logs, if it is whole and sealed so.
+/// The journal without its logs, if it is whole and sealed.
 std::optional<ReadJournal> closed_journal(const fs::path& file) {
   if (in_copy(file, Logs::kWithout, is_sealed).value_or(std::nullopt) != true) return std::nullopt;
   auto alone = read_copy(file, Logs::kWithout);
@@ -236,7 +236,7 @@ std::optional<ReadJournal> closed_journal(const fs::path& file) {
 }
 
 /// Whether the logs change anything: a run that died while closing its journal may leave a log
-/// whose rows are in the file already.
+/// whose rows are already in the file.
 bool logs_change(const fs::path& file, std::int64_t version) {
   const auto contents = [&](soci::session& sql) {
     std::string digests = digest_of(sql, "sqlite_schema").sha256;
@@ -247,8 +247,8 @@ bool logs_change(const fs::path& file, std::int64_t version) {
   return !alone || in_copy(file, Logs::kWith, contents).value_or(std::nullopt) != alone;
 }
 
-/// Whether a file begins as SQLite begins a log, or is one that a killed program had only begun: it
-/// is empty, or zeros stand where the beginning is written last.
+/// Whether a file begins like a log of SQLite, or is one that a killed program had only started: it
+/// is empty, or its header, which is written last, is still zeros.
 bool begins_as_log(const fs::path& file) {
   constexpr std::array<std::string_view, 3> kBeginnings = {"\x37\x7f\x06\x82", "\x37\x7f\x06\x83",
                                                            "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"};

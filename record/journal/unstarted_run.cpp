@@ -34,7 +34,7 @@ core::Result<bool> is_unstarted(const fs::path& journal) {
   if (!alone->value_or(true)) return false;
   const auto whole = in_copy(journal, Logs::kWith, holds_no_table);
   if (!whole) return core::fail(whole.error());
-  return whole->value_or(false);  // a damaged one is left to the reader of journals
+  return whole->value_or(false);  // the reader of journals reports a damaged one
 }
 
 constexpr std::array kSuffixes = {"-shm", "-wal", "-journal", ""};  ///< Files of one journal.

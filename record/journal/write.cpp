@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes the digest of the closed journal into the list beside it.
+/// Writes the digest of the closed journal into the list in its directory.
 core::Result<void> list_digest(const fs::path& file) {
   const auto bytes = read_file(file);
   if (!bytes) return core::fail(bytes.error());

@@ -8,9 +8,9 @@
 
 namespace rondure::record {
 
-// The specification of a key of a task or a plan, besides its name, its place and its default.
-// Plain data: the same specification reads a value from a plan, writes its schema, describes it in
-// docs/plan.md and checks it in a journal.
+// The specification of a key of a task or a plan, besides its name, its place and its default. It
+// is plain data: the same specification reads a value from a plan, writes its schema, describes it
+// in docs/plan.md and checks it in a journal.
 
 /// A number, or each number of an array. The lower limit itself is allowed unless `above` is set.
 struct NumberSpec {
@@ -38,7 +38,7 @@ struct NumberSpec {
   return {.at_least = least, .at_most = most, .above = true, .meaning = meaning};
 }
 
-/// The same key, which a plan must give.
+/// The same specification for a key that a plan must have.
 [[nodiscard]] inline NumberSpec required(NumberSpec spec) {
   spec.required = true;
   return spec;
@@ -47,8 +47,8 @@ struct NumberSpec {
 /// A text, or each text of an array. With `one_of`, only these; otherwise any of limited length.
 struct TextSpec {
   std::vector<std::string_view> one_of = {};
-  std::string_view former = {};   ///< One that an earlier version still took,
-  std::string_view instead = {};  ///< and what to do in its place.
+  std::string_view former = {};   ///< A word that only earlier versions accepted,
+  std::string_view instead = {};  ///< and its replacement, for the message.
   bool required = false;
   bool empty_allowed = true;
   std::string_view meaning;
@@ -65,7 +65,7 @@ template <Worded Enum>
 /// An object, or an array of objects.
 struct GroupSpec {
   bool required = false;
-  bool empty_allowed = true;  ///< For an array.
+  bool empty_allowed = true;  ///< Whether an array may be empty.
   std::string_view meaning;
 };
 

@@ -15,14 +15,14 @@
 #include "record/run_record.h"
 #include "record/tasks/key_spec.h"
 
-// From a task to the settings of a journal and back. The function describe(visitor, task) beside
-// each task names its keys once; settings_of_task() and task_of() visit it.
+// Conversion of a task to the settings of a journal and back. The function describe(visitor, task)
+// of each task lists its keys once; settings_of_task() and task_of() visit them.
 
 namespace rondure::record {
 
-/// Visitor that converts a task into settings, so that it can be evaluated without its plan. Every
-/// key is written, also with its default; a key without value and default is absent. Keys of nested
-/// objects carry their path ("mask/from").
+/// Visitor that converts a task into settings, so that the run can be evaluated without its plan.
+/// Every key is written, even with its default; a key without value and default is absent. Keys of
+/// nested objects include their path ("mask/from").
 class SettingList {
  public:
   explicit SettingList(std::string path = {}) : path_(std::move(path)) {}
@@ -86,11 +86,10 @@ class SettingList {
   std::vector<Setting> settings_;
 };
 
-/// Visitor that fills a task from settings, the reverse of SettingList. A key that the settings do
-/// not have, as in a journal of an earlier version, leaves the default of the task; an object is
-/// there when one of its keys is, and then must have all keys that a plan must give. An item of a
-/// list begins where its first key stands again, so that key must be a single value which
-/// SettingList always writes.
+/// Visitor that fills a task from settings, the reverse of SettingList. A key that is missing from
+/// the settings, as in a journal of an earlier version, keeps the default of the task; an object
+/// exists when one of its keys does. A new item of a list begins where its first key occurs again,
+/// so that key must be a single value that SettingList always writes.
 class SettingReader {
  public:
   /// @param settings  Not copied; must outlive the reader.
@@ -157,7 +156,7 @@ class SettingReader {
     const Setting* const setting = number_at(key, spec.required);
     if (setting == nullptr) return;
     const double given = *setting->number;
-    // Also keeps what does not fit into the type out of the conversion.
+    // Also prevents conversion of a number that does not fit into the type.
     const bool fits = given == std::floor(given) && given >= spec.at_least && given <= spec.at_most;
     if (!fits && given != static_cast<double>(value)) {
       return refuse(setting->name, "is no whole number within its limits");
@@ -192,7 +191,7 @@ class SettingReader {
     take_item();
   }
 
-  /// The first setting that does not say what its task asks for; nothing when all do.
+  /// The first setting that does not meet the specification of its task; none when all do.
   [[nodiscard]] const std::optional<std::string>& fault() const { return fault_; }
 
  private:
@@ -252,9 +251,8 @@ template <class Task>
   return list.take();
 }
 
-/// The task of which settings_of_task() wrote these settings, with the same bits; other settings
-/// are passed over. kMeaning names a setting with an unknown word, a text in place of a number, or
-/// a missing key of an object.
+/// The task from which settings_of_task() wrote these settings, with the same bits; other settings
+/// are ignored. kMeaning names a setting with an unknown word, or a text in place of a number.
 template <class Task>
 [[nodiscard]] core::Result<Task> task_of(std::span<const Setting> settings,
                                          const std::string& path = {}) {

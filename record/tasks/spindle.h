@@ -9,8 +9,8 @@
 
 namespace rondure::record {
 
-/// How a feature of the type "spindle" is evaluated, as plan and journal spell it: form of a part
-/// and motion of its axis, from three probes. A member initialiser is the default of its key.
+/// Settings of the evaluation of a feature of the type "spindle" in plan and journal: form of a
+/// part and motion of its axis, from three probes. A member initialiser is the default of its key.
 struct SpindleTask {
   enum class Layout { kAngles, kPublishedA, kPublishedB, kReference };
   enum class Recovery { kThreshold, kRegularised };
@@ -20,21 +20,21 @@ struct SpindleTask {
 
   Layout layout = Layout::kAngles;
   std::optional<double> p1_to_p2_deg;
-  std::optional<double> p2_to_p3_deg;  ///< One of these two.
+  std::optional<double> p2_to_p3_deg;  ///< This one or `p1_to_p3_deg`.
   std::optional<double> p1_to_p3_deg;
-  double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; else the arm follows a crank pin.
+  double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; otherwise the arm follows a crank pin.
   double wheel_radius_mm = 0.0;
   double pin_radius_mm = 0.0;
   int samples = 1024;
   int highest_order = 50;
   double greatest_gain = 100.0;
   Recovery recovery = Recovery::kThreshold;
-  double expected_amplitude_um = 0.1;    ///< Of a harmonic, for kRegularised.
+  double expected_amplitude_um = 0.1;    ///< Amplitude of a harmonic, for kRegularised.
   std::optional<double> probe_noise_um;  ///< None: estimated from the readings.
   Switch resampling = Switch::kOn;
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
-  Filter filter = Filter::kGaussian;  ///< Of the profile.
+  Filter filter = Filter::kGaussian;  ///< Filter of the profile.
   double cutoff_upr = 50.0;
 };
 

@@ -27,7 +27,7 @@ struct GroundSurfaceTask {
   double from_mm = 0.0;
   double to_mm = 0.0;
   double step_mm = 0.1;
-  std::optional<double> cusp_um;  ///< Given instead of the step.
+  std::optional<double> cusp_um;  ///< Replaces the step.
   Radius radius = Radius::kMean;
   double wheel_arc_from_deg = -90.0;
   double wheel_arc_to_deg = 90.0;
@@ -46,17 +46,17 @@ constexpr auto words_of(GroundSurfaceTask::Radius) {
   return std::to_array<Word<Radius>>({{Radius::kMean, "mean"}, {Radius::kEffective, "effective"}});
 }
 
-/// How a feature of the type "wheel" is evaluated, as plan and journal spell it: a grinding wheel,
-/// from points of its edge. A member initialiser is the default of its key.
+/// Settings of the evaluation of a feature of the type "wheel" in plan and journal: a grinding
+/// wheel, from points of its edge. A member initialiser is the default of its key.
 struct WheelTask {
   enum class Mode { kIndexed, kEnvelope };
   enum class Center { kLeastSquares, kAsPublished, kWeighted };
   enum class Quadruples { kAll, kBest, kRandom };
   enum class ShortArc { kRefused, kAllowed };
 
-  Mode mode = Mode::kIndexed;  ///< A plan must state it.
+  Mode mode = Mode::kIndexed;  ///< Required in a plan.
   std::optional<double> nominal_radius_mm;
-  std::optional<double> axis_x_mm;  ///< Both or none.
+  std::optional<double> axis_x_mm;  ///< Both coordinates or none.
   std::optional<double> axis_z_mm;
   Center center = Center::kLeastSquares;
   Quadruples quadruples = Quadruples::kAll;

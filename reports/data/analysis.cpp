@@ -10,7 +10,7 @@ namespace {
 
 Json found_json(const evaluation::ContourResult& facts) {
   auto out = contour_document(facts.study, facts.options, facts.names);
-  out.erase("warnings");  // they stand beside, as of every feature
+  out.erase("warnings");  // written beside the analysis, as for every feature
   auto curves = Json::array();
   const auto um_of = [](double value) { return value / core::kMicrometre; };
   for (const fit::ContourPartResult& part : facts.study.parts) {
@@ -28,8 +28,8 @@ Json found_json(const evaluation::WheelResult& found) {
 }
 Json found_json(const evaluation::RotaryResult& found) { return rotary_json(found); }
 
-/// Everything under the name of the shape. Curves (one number a sample) stand under the key
-/// "curves", which the stored results leave out.
+/// The result under the name of its shape. Curves (one number per sample) are written under the key
+/// "curves", which the stored results omit.
 Json found_json(const evaluation::AnalysisResult& result) {
   return std::visit([](const auto& found) { return found_json(found); }, result.found);
 }

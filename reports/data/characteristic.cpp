@@ -59,7 +59,7 @@ Json uncertainty_json(const evaluation::CharacteristicResult& result) {
           {"influences", list_json(u.declaration, influence_json)}};
 }
 
-/// The compared value, the limits of the rule and risks; null where it decided nothing.
+/// The compared value, the limits of the rule and the risks; null where the rule decided nothing.
 Json decision_json(const evaluation::CharacteristicResult& result) {
   if (!result.outcome) return nullptr;
   const evaluation::RuleOutcome& o = *result.outcome;

@@ -78,7 +78,7 @@ Json part_json(const fit::ContourPartResult& part, const std::string& name) {
   return out;
 }
 
-/// @param scale  From the unit of the curves to that of the keys.
+/// @param scale  Factor from the unit of the curves to that of the keys.
 Json repeatability_json(const std::optional<fit::Repeatability>& found, double scale,
                         const std::string& unit, const fit::StabilityLimits& limits) {
   if (!found) return nullptr;

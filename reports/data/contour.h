@@ -10,9 +10,9 @@
 
 namespace rondure::reports {
 
-/// A study of crank pins as JSON, keys in their published order (docs/contour.md): of `fit contour`
-/// and of a contour feature in report.json.
-/// @param names  One a part.
+/// A study of crank pins as JSON, keys in their published order (docs/contour.md): output of `fit
+/// contour`, and a contour feature in report.json.
+/// @param names  One per part.
 [[nodiscard]] nlohmann::ordered_json contour_document(const fit::ContourStudy& study,
                                                       const fit::ContourStudyOptions& options,
                                                       std::span<const std::string> names);

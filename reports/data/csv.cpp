@@ -19,7 +19,7 @@ namespace {
 
 using core::printable;
 
-/// Control characters are U+FFFD. Not for numbers.
+/// Replaces control characters by U+FFFD. Not for numbers.
 std::string text_field(std::string_view text) { return csv_field(clean(text)); }
 
 std::string um_field(const std::optional<double>& length_mm) {

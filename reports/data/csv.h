@@ -10,7 +10,7 @@ namespace rondure::reports {
 /// touches.csv: one row for each touch, as journalled.
 [[nodiscard]] std::string write_touches_csv(const record::RunRecord& record);
 
-/// series.csv: one line for each number: feature, series, row, column, value; no hidden truth.
+/// series.csv: one line for each number: feature, series, row, column, value; without hidden truth.
 [[nodiscard]] std::string write_series_csv(const record::RunRecord& record);
 
 /// results.csv: one row for each characteristic: value, tolerance, verdict, operator.

@@ -19,13 +19,14 @@ using core::printable;
 
 using record::Form;
 
-/// Text of the record in a comment. DMIS is ASCII, a `$` may continue a line: both become "?".
+/// Text of the record for a comment. DMIS is ASCII, and a `$` may continue a line: other bytes and
+/// `$` become "?".
 std::string remark(std::string_view text) {
-  constexpr std::size_t kLongest = 200;  // a name; not a document
+  constexpr std::size_t kLongest = 200;  // of a name; longer texts are cut
   std::string out;
   for (const char c : printable(text)) {
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xC0U) == 0x80U) continue;  // the rest of a character that has its mark already
+    if ((byte & 0xC0U) == 0x80U) continue;  // rest of a character with a mark
     out += byte >= 0x20 && byte < 0x7F && c != '$' ? c : '?';
   }
   return out.size() <= kLongest ? out : out.substr(0, kLongest - 3) + "...";
@@ -57,13 +58,13 @@ std::optional<std::string> actual_feature(const evaluation::FeatureResult& featu
                      vector_text(axis.direction), decimal(2.0 * ls->radius_mm));
 }
 
-/// The tolerance of a characteristic that DMIS has a word for.
+/// The DMIS word for the tolerance of a characteristic, where there is one.
 const char* tolerance_word(const record::Characteristic& asked) {
   if (asked.form == Form::kCylindricity) return "CYLCTY";
   return asked.form == Form::kRoundness ? "CIRLTY" : nullptr;
 }
 
-/// The block of one characteristic: a tolerance and what was found, or why there is none.
+/// The block of one characteristic: its tolerance, and its result or the reason why there is none.
 std::string characteristic_block(const evaluation::CharacteristicResult& result,
                                  const std::string& feature, const std::string& label) {
   const record::Characteristic& asked = result.characteristic;

@@ -225,7 +225,7 @@ Json point_json(const evaluation::CloudPoint& point) {
   return json;
 }
 
-/// Three of the six numbers of a pose, with a factor that brings them to the unit of the key.
+/// Three of the six numbers of a pose, with a factor that converts them to the unit of the key.
 Json three_json(const Eigen::Matrix<double, 6, 1>& values, int first, double factor) {
   return {factor * values(first), factor * values(first + 1), factor * values(first + 2)};
 }
@@ -333,7 +333,7 @@ Json event_json(const record::Decision& decision) {
   Json json = {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
                {"time_s", decision.time_s},
                {"text", english_sentence(decision)}};
-  if (!decision.sentence.empty()) return json;  // as the run was reported when it was measured
+  if (!decision.sentence.empty()) return json;  // as the program that measured reported it
   const core::Message& message = decision.message;
   Json arguments = Json::object();
   const auto kinds = core::arguments_of(message.code);
@@ -362,7 +362,8 @@ bool any_interval(const evaluation::Evaluation& evaluation) {
 }  // namespace
 
 std::string write_json(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
-  // Names come from plans and command lines: bytes that are not UTF-8 are replaced, not refused.
+  // Names come from plans and command lines: bytes that are not UTF-8 are replaced instead of
+  // refused.
   return report_document(record, evaluation)
              .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          "\n";

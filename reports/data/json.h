@@ -15,7 +15,7 @@ namespace rondure::reports {
                                      const evaluation::Evaluation& evaluation);
 
 /// report.json as a document, keys in their published order (docs/report.md). "/probe" and
-/// "/features" depend on the evaluation alone; a number that is not finite stands as null.
+/// "/features" depend on the evaluation alone; a number that is not finite is written as null.
 [[nodiscard]] nlohmann::ordered_json report_document(const record::RunRecord& record,
                                                      const evaluation::Evaluation& evaluation);
 

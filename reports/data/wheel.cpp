@@ -138,7 +138,7 @@ Json warnings(const fit::WheelEvaluation& e) {
   return out;
 }
 
-/// Six decimals without "-0.000000".
+/// Six decimals, never "-0.000000".
 std::string word(char letter, double value) {
   std::string digits = fmt::format("{:.6f}", value);
   if (digits == "-0.000000") digits.erase(0, 1);

@@ -10,25 +10,25 @@
 namespace rondure::reports {
 
 /// A wheel evaluation with its settings and limits: the JSON of `rondure fit wheel` and of
-/// report.json (docs/wheel.md). A number that is not finite stands as null. Deviations, path and
-/// residual form stand under "curves", a list a column.
+/// report.json (docs/wheel.md). A number that is not finite is written as null. Deviations, path
+/// and residual form are under "curves", one list per column.
 [[nodiscard]] nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
                                                 const fit::WheelTask& task);
 
-/// The path as a table: x_mm, f_mm, slope, xc_mm, zc_mm, phi_deg, R_ks, clearance_um; zc is what
-/// the controller needs (centre or lowest point). Numbers are the shortest that read back to the
-/// same double.
+/// The path as a table: x_mm, f_mm, slope, xc_mm, zc_mm, phi_deg, R_ks, clearance_um; zc is the
+/// height that the controller needs (centre or lowest point). Numbers have the shortest form that
+/// reads back to the same double.
 [[nodiscard]] std::string wheel_path_csv(const fit::WheelPath& path);
 
-/// How a controller is to follow a path.
+/// Settings for the G-code of a path.
 struct GcodeOptions {
-  double feed_mm_min = 100.0;  ///< Along the path, > 0.
-  double retract_mm = 5.0;     ///< Above the highest place of the path, >= 0.
+  double feed_mm_min = 100.0;  ///< Feed along the path, > 0.
+  double retract_mm = 5.0;     ///< Height above the highest place of the path, >= 0.
 };
 
 /// The path as G-code (ISO 6983): plane XZ (G18), mm (G21), absolute (G90), feed in mm/min (G94), X
-/// as radius; from above to the first place, along the path in straight moves, up again. Six
-/// decimals.
+/// as radius. The moves go from above to the first place, along the path in straight lines, and up
+/// again. Six decimals.
 [[nodiscard]] std::string wheel_gcode(const fit::WheelPath& path, const GcodeOptions& options = {});
 
 }  // namespace rondure::reports

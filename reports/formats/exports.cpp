@@ -26,7 +26,7 @@ using record::Format;
 constexpr const char* kSeriesFile = "series.csv";
 constexpr const char* kCalibrationFile = "fixture-calibration.json";
 
-/// The calibration of the fixture. Where it failed: a text that no run takes for one.
+/// The calibration of the fixture; after a failed calibration, a text that no run accepts.
 std::string calibration_of(const evaluation::Evaluation& evaluation) {
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     if (!feature.analysis) continue;
@@ -47,8 +47,8 @@ std::string enumerated(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Before it is written: a QIF file whose references dangle would be refused somewhere else, weeks
-/// later.
+/// Checks a QIF file before it is written: dangling references would make another program refuse it
+/// weeks later.
 core::Result<void> look_through(const Export& what, const std::string& bytes) {
   if (what.format != Format::kQif) return {};
   const auto faults = check_qif(bytes);
@@ -57,7 +57,7 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
                     fmt::format("{} would not be sound: {}", what.file, faults.front()), what.file);
 }
 
-/// Writes one export whole, when it is sound; gives its digest.
+/// Writes one export whole, if it is valid; returns its digest.
 core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& path,
                                          const record::Header& header, std::string bytes,
                                          Paper paper) {
@@ -169,7 +169,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     written.push_back(directory / e.file);
     sums.push_back(std::move(*sum));
   }
-  // Also of those written before one failed: a list with an old digest would call them changed.
+  // Also lists those written before one failed: an old digest would mark them as changed.
   const auto listed = record::update_checksums(directory, sums);
   if (!done) return core::fail(done.error());
   if (!listed) return core::fail(listed.error());

@@ -14,7 +14,7 @@
 
 namespace rondure::reports {
 
-/// One file that is derived from a record.
+/// One file that is written from a record.
 struct Export {
   record::Format format = record::Format::kHtml;
   std::string file;  ///< Name in the run directory: report.html, touches.csv, ...
@@ -29,18 +29,18 @@ struct Export {
 /// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
-/// The bytes of one export as it would be written now; of report.pdf the page that it is printed
-/// from. What people read is in `language`; what programs read is English.
-/// @param earlier  As earlier.json of the run directory holds them.
+/// The bytes of one export as this program would write it; for report.pdf, the page that it is
+/// printed from. Files for people are in `language`; files for programs are English.
+/// @param earlier  Earlier results from earlier.json of the run directory.
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
                                  const evaluation::Evaluation& evaluation,
                                  Language language = Language::kEnglish,
                                  const EarlierResults& earlier = {});
 
-/// The language that a file of a run was written in, as the file itself states it.
+/// The language of a run's file, as the file itself states it.
 [[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
 
-/// Whether a run directory holds these exports with the bytes that they would have now, and a
+/// Whether a run directory holds these exports with the bytes that this program would write, and a
 /// report.pdf that was printed from such a page on that paper.
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
                                        const std::vector<std::string>& formats,
@@ -51,9 +51,9 @@ struct Export {
 
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
-/// @return The files written; kBadOption for an unknown format, kInternal when report.qif would
-/// break check_qif(), kFile with the system's reason or when report.pdf cannot be printed, which is
-/// tried last, kSyntax for a SHA256SUMS that is none.
+/// @return The files written; kBadOption for an unknown format; kInternal when report.qif would
+///     fail check_qif(); kFile with the system's reason, or when report.pdf cannot be printed,
+///     which is tried last; kSyntax for an invalid SHA256SUMS.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
     const record::RunRecord& record, const evaluation::Evaluation& evaluation,

@@ -43,7 +43,7 @@ CertificateKind certificate_of(record::Reference reference, const Zone& mz, cons
   return CertificateKind::kNone;
 }
 
-/// The certificate of a result; of sections the weakest.
+/// The certificate of a result; for sections, the weakest.
 CertificateKind certificate_of(const evaluation::FeatureResult& feature,
                                const record::Characteristic& asked) {
   if (asked.form == record::Form::kCylindricity) {

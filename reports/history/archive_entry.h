@@ -7,8 +7,8 @@
 
 namespace rondure::reports {
 
-/// A finished run as the archive keeps it: one result for each characteristic. Texts are made
-/// well-formed UTF-8 without NUL, which no database would refuse.
+/// A finished run for the archive: one result for each characteristic. Texts are made well-formed
+/// UTF-8 without NUL, which every database accepts.
 ///
 /// @param journal_sha256  SHA-256 of the sealed journal.
 [[nodiscard]] record::ArchiveRun archive_entry(const record::RunRecord& record,

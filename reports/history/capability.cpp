@@ -17,7 +17,7 @@ namespace {
 using core::Code;
 
 constexpr double kLeastP = 0.05;
-constexpr double kRangeToSigma = 1.128;  ///< d2 of ranges of two.
+constexpr double kRangeToSigma = 1.128;  ///< d2 for ranges of two values.
 constexpr double kUpperShare = 0.99865;
 constexpr std::uint64_t kSeed = 22514;
 constexpr std::size_t kDraws = 4000;
@@ -66,8 +66,8 @@ double sample_percentile(const std::vector<double>& sorted, double share) {
 }
 
 /// Lower confidence bound of the index of a log-normal model: the 5 % point of its generalised
-/// pivotal quantity. Mean and standard deviation are drawn as the sample leaves them open, sd / sd*
-/// from chi square and the mean from sd* / sqrt(n). Fixed seed, same bits.
+/// pivotal quantity. Standard deviation and mean are drawn from their uncertainty in the sample: sd
+/// / sd* from chi square, the mean from sd* / sqrt(n). Fixed seed, same bits.
 double lower_bound(double limit_mm, const Moments& ln, double n) {
   core::KeyedNoise noise(kSeed, {});
   const double freedom = n - 1.0;

@@ -7,18 +7,18 @@
 #include "core/result.h"
 
 // Statistics of a sequence of form deviations. They are positive, skewed and bounded by zero, so
-// that nothing here takes them for normal: all is done on their logarithms. docs/archive.md has
-// the formulas and the reasons.
+// they are not treated as normal: all statistics use their logarithms. docs/archive.md has the
+// formulas and the reasons.
 
 namespace rondure::reports {
 
-/// Fewer results give no control limits; below the second number they are provisional.
+/// With fewer results there are no control limits; below the second number they are provisional.
 inline constexpr std::size_t kLeastForLimits = 10;
 inline constexpr std::size_t kEnoughForLimits = 25;
-/// Fewer results give no capability index; below the second number it is a rough estimate.
+/// With fewer results there is no capability index; below the second number it is a rough estimate.
 inline constexpr std::size_t kLeastForIndex = 25;
 inline constexpr std::size_t kEnoughForIndex = 50;
-/// From here on the 99.865 % point can be read from the sample itself.
+/// From this number on the sample itself gives the 99.865 % point.
 inline constexpr std::size_t kEnoughForSample = 1000;
 
 /// Limits of a chart of individual values.
@@ -28,15 +28,15 @@ struct ControlLimits {
   double upper_mm = 0.0;
 };
 
-/// Control limits of individuals and moving ranges (I-MR chart), computed on ln x and taken back:
-/// exp(mean +- 3 MR / 1.128), MR the mean of |ln x_i - ln x_(i-1)|.
+/// Control limits of individuals and moving ranges (I-MR chart), computed for ln x and transformed
+/// back: exp(mean +- 3 MR / 1.128), MR the mean of |ln x_i - ln x_(i-1)|.
 ///
 /// @param values_mm  In the order of time, > 0.
 /// @return  kTooFewPoints below kLeastForLimits, kOutOfRange for a value that is not positive,
-///          kRank when all values are alike. O(n). Source: ISO 7870-2:2013, individuals chart.
+///     kRank when all values are equal. O(n). Source: ISO 7870-2:2013, individuals chart.
 [[nodiscard]] core::Result<ControlLimits> control_limits(std::span<const double> values_mm);
 
-/// One-sided index of how much of the room below an upper limit the values take.
+/// One-sided index of how far the values stay below an upper limit, relative to their spread.
 struct Capability {
   enum class Method {
     kLogNormal,  ///< Percentiles of the log-normal distribution fitted to the values.
@@ -44,27 +44,27 @@ struct Capability {
   };
   Method method = Method::kLogNormal;
   double index = 0.0;                 ///< (U - x50) / (x99.865 - x50).
-  std::optional<double> lower_bound;  ///< One-sided 95 % confidence; of the log-normal model only.
+  std::optional<double> lower_bound;  ///< One-sided 95 % confidence; for the log-normal model only.
   double median_mm = 0.0;             ///< x50
   double upper_point_mm = 0.0;        ///< x99.865
-  double fit_p = 0.0;                 ///< Of the Anderson-Darling test of ln x.
+  double fit_p = 0.0;                 ///< p of the Anderson-Darling test of ln x.
 };
 
 /// The index PpkU by the percentile method (ISO 22514-2). It is CpkU when the process is shown to
-/// be in statistical control; who calls knows that. The log-normal model is used when the
-/// Anderson-Darling test does not refuse it (p >= 0.05); otherwise the sample's own percentiles,
+/// be in statistical control, which the caller decides. The log-normal model is used when the
+/// Anderson-Darling test does not reject it (p >= 0.05); otherwise the sample's own percentiles,
 /// from kEnoughForSample values on.
 ///
 /// The lower bound is a generalised confidence limit (S. Weerahandi, J. Am. Stat. Assoc. 88, 1993).
 ///
 /// @return  kTooFewPoints below kLeastForIndex, kOutOfRange for a value that is not positive, kRank
-///          when all values are alike, kNotConverged when the model does not fit and the values
-///          are too few for percentiles of their own. O(n log n).
+///     when all values are equal, kNotConverged when the model does not fit and there are too few
+///     values for their own percentiles. O(n log n).
 [[nodiscard]] core::Result<Capability> upper_capability(std::span<const double> values_mm,
                                                         double limit_mm);
 
 /// p of the Anderson-Darling test that the values come from a normal distribution whose mean and
-/// standard deviation are estimated from them. n >= 8 values, not all alike.
+/// standard deviation are estimated from them. n >= 8 values, not all equal.
 /// Source: R. B. D'Agostino, M. A. Stephens, Goodness-of-Fit Techniques, 1986, table 4.9.
 [[nodiscard]] double anderson_darling_p(std::span<const double> values);
 

@@ -9,14 +9,14 @@
 namespace rondure::reports {
 namespace {
 
-/// Lengths leave the program in um; what is in another unit stays in it.
+/// Lengths leave the program in um; values in other units stay unchanged.
 std::optional<double> outside(const std::optional<double>& value, const std::string& unit) {
   if (!value || !std::isfinite(*value)) return std::nullopt;
   return unit == "mm" ? *value / core::kMicrometre : *value;
 }
 std::string outside_unit(const std::string& unit) { return unit == "mm" ? "um" : unit; }
 
-/// The fields of a result: of the JSON and, in this order, of the CSV file.
+/// The fields of a result, for the JSON and, in this order, for the CSV file.
 Json result_json(const record::ArchivedResult& r) {
   return {{"run_id", r.head.run_id},
           {"started_utc", r.head.started_utc},

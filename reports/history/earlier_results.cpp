@@ -19,7 +19,7 @@ using record::ArchivedResult;
 using record::ArchiveHead;
 using record::ArchiveResult;
 
-/// Texts of a head and of a result with their keys, for both directions.
+/// Texts of a head and of a result with their keys, for reading and writing.
 constexpr std::array<std::pair<const char*, std::string ArchiveHead::*>, 13> kHeadTexts = {
     {{"journal_sha256", &ArchiveHead::journal_sha256},
      {"run_id", &ArchiveHead::run_id},

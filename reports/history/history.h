@@ -10,16 +10,16 @@
 namespace rondure::reports {
 
 /// Results as a table of 80 columns, oldest first.
-/// @param newest_first  As Archive::newest() gives them.
+/// @param newest_first  In the order of Archive::newest().
 [[nodiscard]] std::string history_table(std::span<const record::ArchivedResult> newest_first);
 
-/// The run chart for a terminal of 80 columns; `coloured` marks what is beyond a limit.
+/// The run chart for a terminal of 80 columns; `coloured` marks results beyond a limit.
 [[nodiscard]] std::string history_chart(const RunChart& chart, bool coloured);
 
-/// The run chart as a file of its own.
+/// The run chart as a complete SVG file.
 [[nodiscard]] std::string history_svg(const RunChart& chart);
 
-/// The run chart as a drawing of the page, and the sentences that belong below it.
+/// The run chart as a drawing of the page, and the sentences below it.
 [[nodiscard]] std::string history_drawing(const RunChart& chart);
 [[nodiscard]] std::vector<core::Phrase> history_sentences(const RunChart& chart);
 
@@ -29,7 +29,7 @@ namespace rondure::reports {
 
 /// Results and chart as JSON; docs/archive.md has the keys.
 /// @param archive  Its place, without a password.
-/// @param more     There are older results that pass the filter.
+/// @param more     Whether older results pass the filter.
 [[nodiscard]] std::string history_json(const std::string& archive,
                                        std::span<const record::ArchivedResult> newest_first,
                                        bool more, const RunChart& chart);

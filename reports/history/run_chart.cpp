@@ -25,7 +25,7 @@ bool has_value(const ArchivedResult& r) {
   return r.result.value && r.result.verdict != name_of(evaluation::Verdict::kVoid);
 }
 
-/// Values of both may stand in one chart.
+/// Whether values of both may be in one chart.
 bool comparable(const ArchivedResult& a, const ArchivedResult& b) {
   return a.head.part_id == b.head.part_id && a.head.simulated == b.head.simulated &&
          a.result.feature == b.result.feature &&
@@ -101,7 +101,7 @@ void note_mixtures(RunChart& chart) {
   });
 }
 
-/// Repeated measurements of one part say how well it is measured, not what the process makes.
+/// Repeated measurements of one part show how well it is measured, not the spread of the process.
 bool is_one_part(const RunChart& chart) {
   const std::string& serial = chart.results.front().head.serial;
   return !serial.empty() && std::all_of(chart.results.begin(), chart.results.end(),

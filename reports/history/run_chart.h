@@ -11,30 +11,30 @@
 
 namespace rondure::reports {
 
-/// The results of one characteristic in the order of time, with what they allow to be said. Only
-/// results that mean the same are in one chart: same part, feature, characteristic, parameter,
-/// reference, filter, sampling and unit, all real or all simulated.
+/// The results of one characteristic in the order of time, with their statistics. One chart only
+/// has comparable results: same part, feature, characteristic, parameter, reference, filter,
+/// sampling and unit, all real or all simulated.
 struct RunChart {
   std::vector<record::ArchivedResult> results;  ///< Oldest first; each has a value and is not void.
   std::optional<double> upper_limit_mm;         ///< The tolerance of the newest result.
   std::optional<ControlLimits> limits;
   std::vector<std::size_t> beyond;  ///< Results beyond a control limit.
-  std::size_t allowed_beyond = 0;   ///< As many are expected of a stable process: 0.27 %.
+  std::size_t allowed_beyond = 0;   ///< Number expected beyond in a stable process: 0.27 %.
   std::optional<Capability> capability;
   std::string index_name;  ///< "CpkU" in statistical control, otherwise "PpkU".
   /// Sentences on results left out, missing statistics and mixed conditions.
   std::vector<core::Phrase> notes;
 };
 
-/// Makes the chart of the newest result's characteristic; empty when there is none with a value.
-/// @param newest_first  As Archive::newest() gives them.
+/// Makes the chart of the newest result's characteristic; empty when no result has a value.
+/// @param newest_first  In the order of Archive::newest().
 [[nodiscard]] RunChart run_chart_of(std::span<const record::ArchivedResult> newest_first);
 
 /// Range of the value axis of a drawing.
 struct ChartRange {
   double low_mm = 0.0;
   double high_mm = 1.0;
-  /// A tolerance far above would press the results into one line; then it is only named.
+  /// A tolerance far above would press the results into one line; it is then only stated.
   bool limit_shown = false;
 };
 [[nodiscard]] ChartRange range_of(const RunChart& chart);

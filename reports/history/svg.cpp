@@ -24,10 +24,10 @@ constexpr double kRunLeft = 66.0;
 constexpr double kRunRight = 738.0;
 constexpr double kRunTop = 64.0;
 constexpr double kRunBottom = 344.0;
-constexpr double kText = 412.0;  ///< Where the sentences begin.
+constexpr double kText = 412.0;  ///< Left edge of the sentences.
 constexpr double kLine = 18.0;
-constexpr std::size_t kSentenceLetters = 112;  ///< Of a line of sentences.
-constexpr std::size_t kIndexLetters = 84;      ///< Of a line of the index, in bold letters.
+constexpr std::size_t kSentenceLetters = 112;  ///< Letters in a line of sentences.
+constexpr std::size_t kIndexLetters = 84;      ///< Letters in a line of the index, which is bold.
 
 /// Colours of Okabe and Ito, darkened; every mark also differs in shape, every line in its dashes.
 constexpr std::string_view kRunStyle =
@@ -64,7 +64,7 @@ void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
                day(chart.results.back())));
 }
 
-/// A line across the plot with its name on the right; names keep a distance from each other.
+/// A line across the plot with its name on the right; names are kept apart from each other.
 struct Level {
   double value_mm;
   std::string_view css_class;

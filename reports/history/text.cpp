@@ -32,7 +32,7 @@ std::string um_or_dash(const std::optional<double>& value_mm) {
   return value_mm ? um(*value_mm) : std::string("-");
 }
 
-/// "2026-11-21 02:33" of "2026-11-21T02:33:02Z".
+/// "2026-11-21 02:33" from "2026-11-21T02:33:02Z".
 std::string minute_of(const std::string& utc) {
   std::string out = utc.substr(0, 16);
   if (out.size() > 10) out[10] = ' ';
@@ -70,7 +70,7 @@ class TextCanvas {
   std::array<std::string, kRows> labels_;
 };
 
-/// Marks beyond a limit in red.
+/// Colours marks beyond a limit red.
 std::string painted(const std::string& row) {
   std::string out;
   for (const char c : row) {

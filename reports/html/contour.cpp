@@ -23,7 +23,7 @@ using core::deg;
 using core::fixed;
 using core::um;
 
-/// Lines of the parts: black, orange, blue, dotted, dashed; then from the front again.
+/// Lines of the parts: black, orange, blue, dotted, dashed; then repeated.
 constexpr std::array<std::string_view, 5> kLines = {"profile", "zone-outer", "zone-inner", "guide",
                                                     "mean"};
 
@@ -61,7 +61,7 @@ std::string side_by_side(const evaluation::ContourResult& facts, std::string_vie
 constexpr const char* kBetaTitle = translatable("angle β on the pin / °");
 constexpr const char* kAlphaTitle = translatable("C position α / °");
 
-/// The hidden rest of a simulated part, its harmonics 0 and 1 left in.
+/// The hidden remainder of a simulated part, including its harmonics 0 and 1.
 void add_truth(const record::RunRecord& record, int feature, std::size_t part,
                std::vector<Curve>& curves) {
   const auto* const truth = record.truth_series_of(feature, fmt::format("truth {}", part + 1));
@@ -117,7 +117,7 @@ std::string comparison_plots(const evaluation::ContourResult& facts) {
   return html + "</div>";
 }
 
-/// Amplitudes of the mean contour, or of the only one, with the lines of the masks.
+/// Amplitudes of the mean contour, or of the only one, with the masks as lines.
 std::string harmonic_plot(const evaluation::ContourResult& facts,
                           const std::vector<record::Characteristic>& asked) {
   const bool several = facts.study.total.has_value();

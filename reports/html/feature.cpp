@@ -22,7 +22,7 @@ using core::signed_um;
 using core::tiny_um;
 using core::um;
 
-/// Nothing for a reference that does not exist: a warning says why.
+/// Empty for a reference that does not exist: a warning gives the reason.
 std::string one_sided_entry(const evaluation::FeatureResult& feature, record::Reference reference) {
   const auto found = one_sided_of(feature, reference);
   if (!found) return {};
@@ -183,7 +183,7 @@ std::string truth_text(const record::SimulationTruth* truth,
   return text;
 }
 
-/// Hidden truth of an analysis: the numbers that made its simulated series.
+/// Hidden truth of an analysis: the numbers from which its series were simulated.
 std::string truth_text(const record::RunRecord& record, std::size_t index) {
   std::string text;
   for (const record::TruthValue& truth : record.truth_values) {
@@ -203,7 +203,7 @@ std::string key_numbers(const evaluation::FeatureResult& feature,
   return html + "</dl>";
 }
 
-/// Section of a feature whose shape is an analysis.
+/// Section of an analysed feature.
 std::string analysis_section(const record::RunRecord& record, std::size_t index,
                              const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;

@@ -44,7 +44,8 @@ std::string verdict_mark(evaluation::Verdict verdict, int size_px) {
 
 namespace {
 
-/// ISO 1101 where there is a symbol; a wave for what is no geometrical tolerance.
+/// The ISO 1101 symbol where there is one; a wave for characteristics that are no geometrical
+/// tolerance.
 std::string_view symbol_lines(record::Form form) {
   switch (form) {
     case record::Form::kCylindricity:

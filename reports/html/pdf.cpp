@@ -26,8 +26,8 @@ std::string page_mark(std::string_view html) {
   return fmt::format("{}{}", kDigestMark, record::sha256_hex(std::string(html)));
 }
 
-/// The statement of a document about its page: the last such text, since a name may hold one. Up to
-/// version 0.2 it stood in the document information and ended with a parenthesis.
+/// The statement of a document about its page: the last such text, since a name may contain one. Up
+/// to version 0.2 it was in the document information and ended with a parenthesis.
 std::string_view print_statement(std::string_view pdf) {
   const std::size_t at = pdf.rfind(kDigestMark);
   if (at == std::string_view::npos) return {};
@@ -35,7 +35,7 @@ std::string_view print_statement(std::string_view pdf) {
   return rest.substr(0, rest.find_first_of(")\n"));
 }
 
-/// A folder of our own, removed at the end with the profile that Chromium makes in it.
+/// A private folder, removed at the end with the profile that Chromium creates in it.
 class PrintFolder {
  public:
   PrintFolder() {
@@ -46,7 +46,7 @@ class PrintFolder {
   }
   ~PrintFolder() {
     std::error_code problem;
-    // A process that was just killed may still put a file into a folder that is being emptied.
+    // A process that was just killed may still write a file into a folder that is being emptied.
     for (int i = 0; i < 5; ++i) {
       fs::remove_all(path_, problem);
       if (!problem) return;
@@ -56,7 +56,7 @@ class PrintFolder {
   PrintFolder(const PrintFolder&) = delete;
   PrintFolder& operator=(const PrintFolder&) = delete;
 
-  /// Empty when none can be made (errno).
+  /// Empty when the folder cannot be created (errno).
   [[nodiscard]] const fs::path& path() const { return path_; }
   [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
 
@@ -64,7 +64,8 @@ class PrintFolder {
   fs::path path_;
 };
 
-/// A text as a string of CSS within <style>: nothing in it can end either.
+/// A text as a string of CSS within <style>: none of its characters can end the string or the
+/// element.
 std::string css_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -74,7 +75,7 @@ std::string css_string(std::string_view text) {
   return out + "\"";
 }
 
-/// Style of the sheets: paper, and part, revision and run above each.
+/// Style of the sheets: paper, and part, revision and run at their head.
 std::string sheet_style(const record::Header& header, Paper paper) {
   const auto field = [](std::string_view place, std::string_view name, std::string_view value) {
     constexpr std::size_t kMost = 44;  // columns: a little more than a third of a line
@@ -101,8 +102,8 @@ std::string file_url(const fs::path& file) {
   return out;
 }
 
-/// Chromium needs no desktop. Its home is the folder, which is removed afterwards; fonts that the
-/// user installed are found nevertheless.
+/// Environment for Chromium, which needs no desktop. Its home is the folder, which is removed
+/// afterwards; fonts installed by the user are still found.
 std::vector<std::string> print_environment(const PrintFolder& folder) {
   const std::string place = folder.path().string();
   std::vector<std::string> out = {"HOME=" + place, "TMPDIR=" + place, "LANG=C.UTF-8", "TZ=UTC",
@@ -120,7 +121,7 @@ std::vector<std::string> print_environment(const PrintFolder& folder) {
 std::vector<std::string> print_arguments(const PrintFolder& folder) {
   std::vector<std::string> out = {"--headless",
                                   "--disable-gpu",
-                                  "--log-level=3",  // fatal ones only: others speak of the desktop
+                                  "--log-level=3",  // fatal only: others concern the desktop
                                   "--no-pdf-header-footer",
                                   "--export-tagged-pdf",
                                   "--generate-pdf-document-outline",
@@ -134,7 +135,7 @@ std::vector<std::string> print_arguments(const PrintFolder& folder) {
                                   "--host-resolver-rules=MAP * ~NOTFOUND",
                                   "--user-data-dir=" + (folder / "profile").string(),
                                   "--print-to-pdf=" + (folder / "report.pdf").string()};
-  // Chromium refuses its sandbox to root. The page loads nothing and runs no script but ours.
+  // Chromium refuses to run its sandbox as root. The page loads nothing and runs only our script.
   if (::geteuid() == 0) out.emplace_back("--no-sandbox");
   out.push_back(file_url(folder / "report.html"));
   return out;
@@ -179,7 +180,7 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
       bytes->find("%%EOF", end) == std::string::npos) {
     return not_printed(fmt::format("{} ended without a whole document", browser->string()));
   }
-  // A comment where no offset of the document is counted across it.
+  // Placed where a comment moves no offset that the document states.
   bytes->insert(end,
                 fmt::format("% {}{}{}{}{}\n", page_mark(html), kPaperMark, record::name_of(paper),
                             kPageLanguageMark, tag_of(language_of_page(html))));

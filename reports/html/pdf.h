@@ -16,17 +16,19 @@ namespace rondure::reports {
 
 using record::Paper;
 
-/// The Chromium of this machine, which prints report.pdf; kFile, naming the package to install,
-/// when none is on PATH.
+/// The Chromium on this machine, which prints report.pdf; kFile, naming the package to install,
+/// when there is none on PATH.
 [[nodiscard]] core::Result<std::filesystem::path> find_browser();
 
-/// How long Chromium may take; a report takes some seconds.
+/// Time limit for Chromium; a report takes a few seconds.
 inline constexpr std::chrono::milliseconds kPrintTime = std::chrono::minutes(2);
 
-/// report.pdf: the page printed by a headless Chromium in its own print style, on that paper; above
-/// each page part, revision and run. It states the digest of the page that it was printed from.
-/// @param html  As write_html() makes it.
-/// @return  The bytes, which differ from call to call; kFile when there is no Chromium, when it
+/// report.pdf: the page printed by a headless Chromium in its own print style on that paper, with
+/// part, revision and run at the head of each sheet. It states the digest of the page that it was
+/// printed from.
+/// @param html  The page from write_html().
+/// @return  The bytes, which differ from call to call; kFile when there is no Chromium, or when it
+///     fails, is killed or takes longer than `time_limit`.
 ///          fails, is killed or takes longer than `time_limit`.
 [[nodiscard]] core::Result<std::string> print_pdf(
     const record::Header& header, std::string_view html, Paper paper,

@@ -27,7 +27,7 @@ constexpr double kSideMargin = 20.0;  ///< Free space beside 0 and 360 deg.
 constexpr double kMapTop = 14.0;
 constexpr std::size_t kMostDiscs = 1200;  ///< More points than this are averaged in cells.
 constexpr int kMapCellColumns = 120;
-constexpr int kMapCellRows = 48;  ///< Where layers are unknown, or more than these.
+constexpr int kMapCellRows = 48;  ///< Used where layers are unknown, or more than this.
 
 struct MapView {
   Scale x;
@@ -35,7 +35,7 @@ struct MapView {
   double half_zone_mm = 1.0;
   double bottom = 0.0;
   double disc = 4.0;    ///< Radius of a disc.
-  bool labels = false;  ///< Discs are wide enough for their value.
+  bool labels = false;  ///< Discs are wide enough to show their value.
   bool cells = false;   ///< Too many points for discs: means of cells are drawn.
   bool rows_are_layers = false;
   double row = 4.0;  ///< Height of a cell.
@@ -64,8 +64,8 @@ std::size_t most_points_of_a_layer(const evaluation::FeatureResult& feature) {
   return most;
 }
 
-/// Distance of neighbouring discs on a map of the given height: exact for points in layers, a share
-/// of the mean distance where layers are unknown.
+/// Distance of neighbouring discs on a map of the given height: exact for points in layers, a
+/// fraction of the mean distance where layers are unknown.
 double disc_pitch(const evaluation::FeatureResult& feature, double plot, double layer_pitch) {
   constexpr double kPlotWidth = kMapRight - kMapLeft - 2.0 * kSideMargin;
   if (feature.layers.empty()) {
@@ -97,7 +97,7 @@ MapView view_of(const evaluation::FeatureResult& feature, const evaluation::Zone
   view.cells = feature.cloud.size() > kMostDiscs;
   view.rows_are_layers = feature.layers.size() >= 2 && feature.layers.size() <= kMapCellRows;
   view.row = view.rows_are_layers ? std::clamp(0.9 * layer_pitch, 2.0, 40.0) : plot / kMapCellRows;
-  const double label = feature.merged ? 8.0 : 0.0;  // the number of the pose
+  const double label = feature.merged ? 8.0 : 0.0;  // space for the number of the pose
   const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0 + label;
   view.bottom = kMapTop + plot + 2.0 * margin;
   view.x = {0.0, 360.0, kMapLeft + kSideMargin, kMapRight - kSideMargin};
@@ -105,7 +105,7 @@ MapView view_of(const evaluation::FeatureResult& feature, const evaluation::Zone
   return view;
 }
 
-/// Where the frame of a drawing over the angle ends; it begins at kMapLeft.
+/// Frame of a drawing over the angle, given by its end; it begins at kMapLeft.
 struct MapFrame {
   double right = kMapRight;
   double top = kMapTop;

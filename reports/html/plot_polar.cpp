@@ -55,7 +55,7 @@ void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
   svg.circle(kSectionCentre, kSectionCentre, kSectionMean, "mean");
 }
 
-/// The profile as a line that is straight in angle and deviation, not across the plot.
+/// The profile as a line that is straight in angle and deviation, not in the plane of the plot.
 std::string profile_path(const evaluation::Section& section, const PolarView& view) {
   constexpr double kStep = 4.0 * core::kDegree;
   const std::vector<evaluation::SectionPoint>& points = section.profile;

@@ -18,19 +18,18 @@ namespace {
 using core::fixed;
 using core::um;
 
-// The drawing is complete as it stands. The script finds what it needs to draw another view
-// in data attributes: "p" is a place (angle, radius, height), "ring" a closed line (height, radii),
-// "body" and "cap" a radius, "h" a height. The n-th ring of the near group goes with the n-th of
-// the far group.
+// The drawing is complete as written. For other views the script reads data attributes: "p" is a
+// place (angle, radius, height), "ring" a closed line (height, radii), "body" and "cap" a radius,
+// "h" a height. The n-th ring of the near group belongs to the n-th of the far group.
 
 constexpr double kSolidWidth = 680.0;
 constexpr double kSolidHeight = 420.0;
-constexpr double kX = 270.0;  ///< Centre.
+constexpr double kX = 270.0;  ///< x of the centre.
 constexpr double kY = 208.0;
 constexpr double kLabels = 14.0;  ///< Distance of the labels of angles.
 constexpr std::size_t kCircleSteps = 60;
 
-/// Both halves of a closed line: the one turned to the reader, and the other.
+/// Both halves of a closed line: the one that faces the reader, and the other.
 struct Halves {
   std::string near;
   std::string far;
@@ -101,7 +100,7 @@ std::string point_marks(const SolidPoint& point, const evaluation::CloudPoint& m
                      place, x, y, disc, diverging_colour(measured.deviation_mm / half_zone_mm));
 }
 
-/// Markup of the drawing by depth: far things are drawn first.
+/// Markup of the drawing by depth: far objects are drawn first.
 struct Layers {
   std::string far;
   std::string near;
@@ -185,7 +184,7 @@ std::string drawing(const SolidScene& scene, const evaluation::FeatureResult& fe
   return svg.str();
 }
 
-/// Buttons and the view in words; the script shows them.
+/// Buttons and the view in words; the script makes them visible.
 std::string tools(const SolidScene& scene) {
   const SolidCamera camera;
   const auto button = [](std::string_view turn, std::string_view name, std::string_view sign) {

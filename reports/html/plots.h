@@ -16,23 +16,24 @@ namespace rondure::reports {
 [[nodiscard]] std::string verdict_mark(evaluation::Verdict verdict, int size_px);
 /// ISO 1101 symbol of cylindricity or roundness.
 [[nodiscard]] std::string form_symbol(record::Form form);
-/// Value with its interval against limit and guard bands. The characteristic has a value.
+/// The value with its interval, relative to limit and guard bands. The characteristic must have a
+/// value.
 [[nodiscard]] std::string tolerance_bar(const evaluation::CharacteristicResult& result,
                                         double tolerance_mm);
-/// Ranked bars of a budget.
+/// Ranked bars of an uncertainty budget.
 [[nodiscard]] std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget);
 
 /// Polar plots of the layers, all at one magnification.
 [[nodiscard]] std::string polar_plots(const evaluation::FeatureResult& feature,
                                       const evaluation::Zone& zone);
-/// The lateral surface unrolled; for a single section its profile.
+/// The unrolled lateral surface; for a single section its profile.
 [[nodiscard]] std::string deviation_map(const evaluation::FeatureResult& feature,
                                         const evaluation::Zone& zone);
-/// The cylinder with its zone and its points in three dimensions: complete as it stands, turned by
-/// the script of the page (html/internal/script.h). Empty for a single section.
+/// The cylinder with its zone and its points in three dimensions: complete without the script of
+/// the page (html/internal/script.h), which turns it. Empty for a single section.
 [[nodiscard]] std::string solid_view(const evaluation::FeatureResult& feature,
                                      const evaluation::Zone& zone);
-/// f against the visit, and where the poses lie.
+/// f over the visits, and the positions of the poses.
 [[nodiscard]] std::string pose_plots(const evaluation::FeatureResult& feature,
                                      const std::optional<evaluation::Zone>& zone);
 

@@ -106,7 +106,7 @@ std::string search_plot(const evaluation::FeatureResult& feature,
   return svg.str();
 }
 
-/// A range with some air around it, never empty [deg].
+/// A range with a margin, never empty [deg].
 Scale angle_scale(double low, double high, double from, double to) {
   const double air = std::max(0.08 * (high - low), 0.05);
   return {low - air, high + air, from, to};
@@ -195,7 +195,7 @@ std::set<std::size_t> rows_shown(const std::vector<evaluation::PoseValue>& poses
   return rows;
 }
 
-/// "+1.234 ± 0.100", or a dash where the kinematics are all that is known.
+/// "+1.234 ± 0.100", or a dash where only the kinematics give the value.
 std::string cell(double value, double u, bool from_kinematics) {
   if (from_kinematics) return trf("(kinematics, u {})", fixed(u, 2));
   return fmt::format("{}{} ± {}", value < 0.0 ? "" : "+", fixed(value, 2), fixed(u, 2));

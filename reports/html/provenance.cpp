@@ -34,7 +34,7 @@ std::string words_or_dash(const std::string& text) {
   return text.empty() ? "–" : worded(core::Phrase(text));
 }
 
-/// A sentence that a journal holds stays as it is in English.
+/// A sentence stored in a journal stays in English.
 std::string decision_html(const record::Decision& decision) {
   const std::string english = english_sentence(decision);
   return in_sentence(language() == Language::kEnglish ? english : in_words(decision.message),

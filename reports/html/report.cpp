@@ -17,7 +17,7 @@ namespace {
 
 using core::printable;
 
-/// A part of the page that the contents point to.
+/// A part of the page that has an entry in the contents.
 struct PagePart {
   std::string id;
   std::string name;  ///< HTML.
@@ -46,7 +46,7 @@ std::string base64_of_sha256(std::string_view hex) {
   return out;
 }
 
-/// Nothing is loaded, and no script runs but the one whose digest stands here.
+/// Content-Security-Policy: nothing is loaded, and only the script with this digest runs.
 std::string policy() {
   return fmt::format(
       R"(<meta http-equiv="Content-Security-Policy" content="default-src 'none'; )"
@@ -75,7 +75,7 @@ std::string top_of(const std::vector<PagePart>& parts) {
       tr("Skip to the result"), tr("Contents"), links, tr("Dark colours"));
 }
 
-/// The parts of the page in their order; those that a run has nothing for are left out.
+/// The parts of the page in their order; empty ones are omitted.
 std::vector<PagePart> parts_of(const record::RunRecord& record,
                                const evaluation::Evaluation& evaluation,
                                const EarlierResults& earlier) {

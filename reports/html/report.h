@@ -10,14 +10,14 @@
 
 namespace rondure::reports {
 
-/// report.html: one self-contained page (no network, no script needed to read it).
+/// report.html: one self-contained page (needs no network, and no script to be read).
 /// @param earlier  Results of earlier runs, for its run charts.
 [[nodiscard]] std::string write_html(const record::RunRecord& record,
                                      const evaluation::Evaluation& evaluation,
                                      Language language = Language::kEnglish,
                                      const EarlierResults& earlier = {});
-/// The language that write_html() wrote a page in, as the page itself states it; English for
-/// anything else.
+/// The language of a page from write_html(), as the page itself states it; English for anything
+/// else.
 [[nodiscard]] Language language_of_page(std::string_view page);
 
 }  // namespace rondure::reports

@@ -22,10 +22,10 @@ using core::kMicrometre;
 using core::kMicroradian;
 using core::um;
 
-constexpr double kCoverage = 2.0;  // of the bands: standard uncertainties
+constexpr double kCoverage = 2.0;  // Coverage factor of the bands.
 constexpr int kCurvePoints = 121;
 
-/// One of the six errors: place in (t; w), title of its chart, column of the hidden truth.
+/// One of the six errors: index in (t; w), title of its chart, column of the hidden truth.
 struct ErrorName {
   Eigen::Index index = 0;
   const char* title = "";
@@ -97,7 +97,7 @@ std::string with_u(double value, double u, int decimals) {
   return fmt::format("{} ± {}", fixed(value, decimals), fixed(kCoverage * u, decimals));
 }
 
-/// Location and orientation of both axes: what does not depend on the angle.
+/// Location and orientation of both axes: the errors that do not depend on the angle.
 std::string location_table(const evaluation::RotaryResult& facts) {
   TableRows rows;
   for (const evaluation::AxisFacts& axis : axes_of(facts)) {

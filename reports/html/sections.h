@@ -25,8 +25,8 @@ namespace rondure::reports {
                                           const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const evaluation::FeatureResult& feature);
-/// The body of a feature whose shape is an analysis: key numbers, drawings, tables. `record` for
-/// the hidden truth of a simulation.
+/// The body of an analysed feature: key numbers, drawings, tables. `record` gives the hidden truth
+/// of a simulation.
 [[nodiscard]] std::string analysis_part(const evaluation::SpindleResult& facts,
                                         const record::RunRecord& record, int feature);
 [[nodiscard]] std::string analysis_part(const evaluation::WheelResult& facts,
@@ -35,12 +35,12 @@ namespace rondure::reports {
                                         const record::RunRecord& record, int feature);
 [[nodiscard]] std::string analysis_part(const evaluation::RotaryResult& facts,
                                         const record::RunRecord& record, int feature);
-/// The rule behind the verdicts, in words, with its statements.
+/// The rule of the verdicts, in words, with its statements.
 [[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
 [[nodiscard]] std::string uncertainty_section(const evaluation::FeatureResult& feature);
-/// Harmonics of dense sections with the limits of a mask, and what goes beyond them; empty for
-/// sparse ones.
+/// Harmonics of dense sections with the limits of a mask, and those beyond it; empty for sparse
+/// sections.
 [[nodiscard]] std::string harmonics_section(const evaluation::FeatureResult& feature);
 /// Table of the poses of a feature; empty when it has none.
 [[nodiscard]] std::string pose_table(const evaluation::FeatureResult& feature);
@@ -53,34 +53,34 @@ namespace rondure::reports {
                                           const EarlierResults& earlier);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
-/// How the clouds of several poses became one, and what the fixture adds.
+/// Combination of the clouds of several poses, and the fixture's contribution.
 [[nodiscard]] std::string merged_section(const evaluation::MergedPoses& merged);
 /// Why a feature has no result, and its warnings.
 [[nodiscard]] std::string messages(const evaluation::FeatureResult& feature);
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 
-/// A paragraph in small print; HTML already.
+/// A paragraph in small print; `html` is used as it is.
 [[nodiscard]] std::string note(const std::string& html);
-/// In a box that scrolls on a narrow screen.
+/// Puts HTML in a box that scrolls on a narrow screen.
 [[nodiscard]] std::string scrolling(const std::string& html);
 
 using TableRows = std::vector<std::vector<std::string>>;
-/// A table; names and cells are HTML already. Of a row with fewer cells than columns the last one
-/// spans the columns that are left.
+/// A table; names and cells are HTML. In a row with fewer cells than columns, the last cell spans
+/// the remaining columns.
 /// @param css_class  May be empty.
-/// @param columns    A letter a column: 'l' text, 'r' numbers, which stand on the right.
-/// @param caption    A <caption>, as spoken_caption() gives it.
+/// @param columns    A letter per column: 'l' text, 'r' numbers, aligned right.
+/// @param caption    A <caption> from spoken_caption().
 [[nodiscard]] std::string table(std::string_view css_class, std::string_view columns,
                                 std::string_view caption, const std::vector<std::string>& names,
                                 const TableRows& rows);
-/// The name of a table for those who do not see the heading above it; HTML already.
+/// The name of a table for readers who do not see the heading above it; `html` is used as it is.
 [[nodiscard]] std::string spoken_caption(std::string_view html);
 
-/// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
+/// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});
-/// The same of a plain text; nothing without one.
+/// entry() for a plain text; empty without text.
 [[nodiscard]] std::string fact(std::string_view name, const std::string& text);
 
 }  // namespace rondure::reports

@@ -82,7 +82,7 @@ std::string key_numbers(const evaluation::SpindleResult& facts) {
   return html + "</dl>";
 }
 
-/// The truth of a simulation as a curve, or nothing.
+/// Adds the truth of a simulation as a curve, if there is any.
 void add_truth(const record::Series* truth, const char* column, std::vector<Curve>& curves) {
   if (truth == nullptr) return;
   const auto angles = truth->column("angle_deg");
@@ -112,7 +112,7 @@ std::string motion_plot(const std::string& title, const std::vector<double>& alp
   return polar_chart(title, curves);
 }
 
-/// Every revolution without the mean revolution.
+/// Every revolution minus the mean revolution.
 std::string asynchronous_plot(const std::string& title, const std::vector<double>& alpha_rad,
                               const fit::AxisMotion& motion) {
   if (motion.turns_mm.size() < 2) return {};
@@ -144,7 +144,7 @@ std::string harmonic_plots(const evaluation::SpindleResult& facts,
                 tr("gain"), gains));
 }
 
-/// The ten largest harmonics, and all that were lost.
+/// The ten largest harmonics, and all harmonics that were not recovered.
 std::string harmonic_table(const fit::ThreeProbeResult& s) {
   std::vector<fit::RecoveredHarmonic> shown = s.harmonics;
   std::stable_sort(shown.begin(), shown.end(), [](const auto& a, const auto& b) {

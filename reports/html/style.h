@@ -4,9 +4,10 @@
 
 namespace rondure::reports {
 
-/// Style of the page. Colours (Okabe and Ito's, darkened to read as text) stay apart for
-/// colour-blind eyes and in grey print; nothing is told by colour alone. Colours that follow the
-/// theme are variables; those of data (diverging_colour()) are the same on light and dark.
+/// Style of the page. The colours (Okabe and Ito's, darkened for text) can be told apart by
+/// colour-blind readers and in grey print; nothing is expressed by colour alone. Colours that
+/// follow the theme are variables; those of data (diverging_colour()) are the same on light and
+/// dark.
 inline constexpr std::string_view kStyle = R"css(
 :root{--paper:#fff;--ink:#16202a;--soft:#55616d;--line:#d8dee4;--pale:#f4f6f8;--blue:#0b5e9e;
 --orange:#c24e00;--good:#00715a;--bad:#b93c00;--amber:#8a6100;--warn:#d99a00;--alarm:#fdf3ec;
@@ -165,8 +166,8 @@ td{padding-top:3px;padding-bottom:3px}footer{margin-top:6px;padding-top:0;border
 }
 )css";
 
-/// The colours of the dark theme: every text and every mark keeps the contrast that WCAG 2.1 AA
-/// asks for (4.5, and 3 for what is not text). Print never uses them.
+/// The colours of the dark theme: every text and every mark has the contrast required by WCAG 2.1
+/// AA (4.5, and 3 for graphics). Print never uses them.
 inline constexpr std::string_view kDarkColours =
     "--paper:#12181f;--ink:#e8edf2;--soft:#a6b2be;--line:#2e3944;--pale:#1b232c;--blue:#62b0ea;"
     "--orange:#f0954b;--good:#2fc296;--bad:#ff8b5e;--amber:#e2b23e;--warn:#d99a00;--alarm:#2b1d16;"

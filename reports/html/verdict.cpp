@@ -84,7 +84,7 @@ std::string bar_cell(const evaluation::CharacteristicResult& result) {
       trf("{} % of the limit", fixed(100.0 * result.value->quoted_mm() / *limit, 0)));
 }
 
-/// The value that decides; with an interval its estimate, that interval and the value as read.
+/// The deciding value; with an interval, the estimate, that interval and the value as read.
 std::string value_cell(const evaluation::StatedValue& value) {
   std::string html =
       fmt::format(R"(<span class="value">{}</span> µm)", value.in_digits(value.quoted_mm()));
@@ -96,7 +96,7 @@ std::string value_cell(const evaluation::StatedValue& value) {
   return html;
 }
 
-/// A probability counted in trials, no finer than one trial in their number.
+/// A probability estimated from trials, with a resolution of at least one trial.
 std::string percent(double share_1, double trials) {
   const double finest = std::pow(10.0, std::ceil(std::log10(100.0 / trials)));  // in percent
   if (share_1 * trials < 0.5) return trf("below {:g} %", finest);

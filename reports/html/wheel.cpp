@@ -28,7 +28,7 @@ constexpr double kEdgeSize = 340.0;
 constexpr double kEdgeCentre = 170.0;
 constexpr double kEdgeMean = 104.0;  ///< Radius of the mean circle as drawn.
 constexpr double kEdgeReach = 24.0;  ///< Largest deviation of a used point as drawn.
-constexpr double kMiddle = 64.0;     ///< Greatest radius of the drawing in the middle.
+constexpr double kMiddle = 64.0;     ///< Greatest radius of the drawing in the centre.
 constexpr std::size_t kMostCenters = 250;
 
 struct EdgeView {
@@ -41,7 +41,7 @@ struct EdgeView {
   [[nodiscard]] Eigen::Vector2d at(double angle_rad, double r) const {
     return {kEdgeCentre + r * std::cos(angle_rad), kEdgeCentre - r * std::sin(angle_rad)};
   }
-  /// A place near the wheel's centre, magnified alike; drawn to `kMiddle` at most.
+  /// A place near the wheel's centre, at the same magnification; at most `kMiddle` from it.
   [[nodiscard]] Eigen::Vector2d middle(const Eigen::Vector2d& p) const {
     Eigen::Vector2d off = px_per_mm * (p - wheel.center_mm);
     if (off.norm() > kMiddle) off *= kMiddle / off.norm();
@@ -163,7 +163,7 @@ SideView side_view(const fit::WheelPath& path) {
   const Eigen::Vector2d size = view.high - view.low;
   view.px_per_mm =
       std::min((kViewWidth - view.left - kRightMargin) / size.x(), kMostViewHeight / size.y());
-  // A tall view is narrower than the page: in its middle.
+  // Centres a tall view, which is narrower than the page.
   view.left = std::max(view.left, 0.5 * (kViewWidth - view.px_per_mm * size.x()));
   view.bottom = kViewTop + view.px_per_mm * size.y();
   return view;
@@ -186,7 +186,7 @@ void draw_axes(Svg& svg, const SideView& view) {
   svg.upward_text(view.left - 50.0, 0.5 * (kViewTop + view.bottom), "title", "z / mm");
 }
 
-/// The line through places of all rows, thinned to some 700.
+/// A line through the places of all rows, thinned to some 700.
 template <class Place>
 std::string line_of(const fit::WheelPath& path, const SideView& view, const Place& place) {
   const std::size_t step = std::max<std::size_t>(1, path.rows.size() / 700);
@@ -207,7 +207,7 @@ void draw_wheel(Svg& svg, const SideView& view, const fit::WheelPathRow& row, do
   svg.circle(contact.x(), contact.y(), 3.0, "point");
 }
 
-/// The edge of a wheel: deviations of its points about the mean circle, magnified; in its middle,
+/// The edge of a wheel: deviations of its points about the mean circle, magnified; in its centre,
 /// at the same magnification, the centres of the quadruples and the spindle axis.
 std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
                             std::span<const Eigen::Vector2d> points_mm) {

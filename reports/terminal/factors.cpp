@@ -16,12 +16,12 @@ using core::signed_um;
 using core::um;
 
 constexpr std::size_t kLabel = 34;
-constexpr std::size_t kNumber = 9;  ///< Of a reference.
+constexpr std::size_t kNumber = 9;  ///< Columns of a reference.
 constexpr std::size_t kChange = 10;
 
 using Combination = std::array<std::size_t, 4>;
 
-/// A row: one combination of the last three factors, a column a reference.
+/// A row: one combination of the last three factors, one column per reference.
 struct CombinationRow {
   const evaluation::FactorStudy& study;
   Combination combination;  ///< Its reference is ignored.
@@ -45,7 +45,7 @@ struct CombinationRow {
   }
 };
 
-/// The row, and below it why a value is missing.
+/// The row, and below it the reason for a missing value.
 std::string row_text(const CombinationRow& row, const std::string& label) {
   std::string out = fmt::format("{:<{}}", shortened(label, kLabel), kLabel);
   if (!row.has_value()) return wrapped(out, fmt::format("no value: {}", row.reported().why));
@@ -83,7 +83,7 @@ std::string label_of(const evaluation::FactorStudy& study, evaluation::Factor fa
   return fmt::format("  {}", name);
 }
 
-/// One factor at a time, for each reference.
+/// Changes by one factor at a time, for each reference.
 std::string changes_text(const evaluation::FactorStudy& study) {
   std::string out = head_text(study);
   out += row_text({study, study.reported}, "as reported");
@@ -132,7 +132,7 @@ std::string effects_text(const evaluation::FactorStudy& study) {
                                  count(study.shares->values, "value", "values")));
 }
 
-/// Whether an earlier study of the run holds the same values.
+/// Whether an earlier study of the run contains the same values.
 bool shown_before(const evaluation::RunComparison& comparison,
                   const evaluation::FactorStudy& study) {
   for (const evaluation::FactorStudy& other : comparison.studies) {

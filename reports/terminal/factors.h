@@ -7,7 +7,7 @@
 namespace rondure::reports {
 
 /// A comparison as text of at most 80 columns.
-/// @param all  Lists every combination that has a value, too.
+/// @param all  Also lists every combination that has a value.
 [[nodiscard]] std::string comparison_text(const std::string& run_id,
                                           const evaluation::RunComparison& comparison, bool all);
 

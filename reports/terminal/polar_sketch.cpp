@@ -12,11 +12,12 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kInner = 0.62;  ///< Radius of the inner circle as drawn, of 1.
+/// Radius of the inner circle in the drawing, relative to the outer one.
+constexpr double kInner = 0.62;
 constexpr double kOuter = 0.97;
 
-/// A field of dots. Characters are twice as high as wide: a character of letters is one dot wide
-/// and counts two in height, one of braille holds two by four.
+/// A field of dots. Characters are twice as high as wide: an ASCII character is one dot wide and
+/// counts two in height, a braille character has two by four dots.
 class DotCanvas {
  public:
   explicit DotCanvas(bool braille)
@@ -26,7 +27,7 @@ class DotCanvas {
         dots_(static_cast<std::size_t>(width_ * height_), ' '),
         marks_(static_cast<std::size_t>(kSketchColumns * kSketchRows), ' ') {}
 
-  /// x to the right, y up, both in [-1, 1]. `ink` is the letter that stands for it in ASCII.
+  /// x to the right, y up, both in [-1, 1]. `ink` is the letter for the dot in ASCII.
   void dot(double x, double y, char ink) {
     const int column = place(x, width_);
     const int row = place(-y, height_);
@@ -34,7 +35,7 @@ class DotCanvas {
     if (there == ' ' || ink == '*') there = ink;
   }
 
-  /// A character of its own: 'O' an outer contact, 'I' an inner one.
+  /// A character at a contact: 'O' outer, 'I' inner.
   void mark(double x, double y, char ink) {
     marks_[static_cast<std::size_t>(place(-y, kSketchRows) * kSketchColumns +
                                     place(x, kSketchColumns))] = ink;
@@ -86,7 +87,7 @@ class DotCanvas {
   std::string marks_;
 };
 
-/// Deviation to radius as drawn: the zone fills the ring between the two circles.
+/// Radius in the drawing for a deviation: the zone fills the ring between the two circles.
 double drawn_radius(double deviation_mm, double zone_mm) {
   const double share = std::clamp(deviation_mm / zone_mm + 0.5, -0.2, 1.0);
   return kInner + share * (kOuter - kInner);
@@ -99,7 +100,7 @@ void draw_circle(DotCanvas& canvas, double radius, int dots) {
   }
 }
 
-/// Straight between neighbours in angle and radius; a gap of the data stays open.
+/// Draws straight lines between neighbours in angle and radius; a gap in the data stays open.
 void draw_profile(DotCanvas& canvas, const evaluation::Section& section, double zone_mm) {
   const std::size_t n = section.profile.size();
   for (std::size_t i = 0; i < n; ++i) {

@@ -8,28 +8,28 @@
 
 namespace rondure::reports {
 
-/// How a terminal can draw.
+/// Capabilities of a terminal for drawings.
 enum class SketchStyle {
-  kNone,     ///< Not at all: the text goes into a file or a pipe.
+  kNone,     ///< No drawing: the text goes into a file or a pipe.
   kAscii,    ///< Letters only.
-  kBraille,  ///< Unicode braille patterns, 2 x 4 dots a character.
+  kBraille,  ///< Unicode braille patterns, 2 x 4 dots per character.
 };
 
 /// A small drawing of a section for the terminal: the circles of the zone, the profile between
-/// them, the contacts of all sections.
+/// them, and the contacts with all sections.
 struct PolarSketch {
   std::vector<std::string> rows;  ///< kSketchRows lines of kSketchColumns columns.
-  std::string title;              ///< Which section.
+  std::string title;              ///< Name of the section.
   std::size_t section = 0;        ///< Its number, from 1.
-  std::size_t sections = 0;       ///< How many there are.
+  std::size_t sections = 0;       ///< Number of sections.
 };
 
 inline constexpr int kSketchRows = 11;
 inline constexpr int kSketchColumns = 22;
 
-/// Draws the section that deviates most. The zone is always equally wide as drawn. Nothing for
-/// kNone, for analyses, without a zone and for a zone of no width.
-/// Same evaluation, same text; O(points).
+/// Draws the section with the largest deviation. The zone always has the same width in the drawing.
+/// None for kNone, for analyses, without a zone and for a zone of no width. Same evaluation, same
+/// text; O(points).
 [[nodiscard]] std::optional<PolarSketch> polar_sketch(const evaluation::FeatureResult& feature,
                                                       SketchStyle style);
 

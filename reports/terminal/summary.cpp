@@ -109,7 +109,7 @@ std::vector<SummaryLine> lines_of(const evaluation::RotaryResult& facts) {
   return out;
 }
 
-/// What the summary says of an analysis.
+/// The summary lines of an analysis, in English.
 std::vector<SummaryLine> summary_lines(const evaluation::AnalysisResult& result) {
   return std::visit([](const auto& found) { return lines_of(found); }, result.found);
 }
@@ -169,7 +169,7 @@ void add_head(std::string& out, const record::RunRecord& record,
   }
 }
 
-/// Bias of a value and the influence that matters most.
+/// Bias of a value and the largest influence.
 void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   const evaluation::UncertaintyResult& u = *value.uncertainty().result();
   const auto line = [&](const std::string& name, const evaluation::UncertaintyStatement& s) {
@@ -254,7 +254,8 @@ void add_zone(std::string& out, const evaluation::FeatureResult& feature) {
   add_wrapped(out, "  " + tr("certificate"), text);
 }
 
-/// "MCCY radius 25.0052 mm, CYLt 8.812 um; MICY ..."; what does not exist is a warning.
+/// "MCCY radius 25.0052 mm, CYLt 8.812 um; MICY ..."; a reference that does not exist gives a
+/// warning instead.
 void add_one_sided(std::string& out, const evaluation::FeatureResult& feature) {
   using record::Reference;
   const record::Shape shape = feature.feature.shape;

@@ -10,7 +10,7 @@
 namespace rondure::reports {
 
 /// A few lines for the terminal: verdict, each characteristic, the zone, warnings; with a small
-/// drawing of the worst section of each feature where the terminal can show one.
+/// drawing of the worst section of each feature on terminals that can show one.
 [[nodiscard]] std::string write_summary(const record::RunRecord& record,
                                         const evaluation::Evaluation& evaluation,
                                         SketchStyle sketch = SketchStyle::kNone,

@@ -8,9 +8,9 @@
 namespace rondure::reports {
 namespace {
 
-/// Every number below `node` with its JSON pointer. The cloud is left out: it is the touches again,
-/// which the journal's digests hold, and it may have a million rows. So may the curves of an
-/// analysis, which follow from its series; report.json holds them.
+/// Collects every number below `node` with its JSON pointer. The cloud is left out: it repeats the
+/// touches, which the journal's digests cover, and it may have a million rows. The curves of an
+/// analysis are left out too: they follow from its series, and report.json holds them.
 void collect(const Json& node, const std::string& pointer, std::vector<record::StoredResult>& out) {
   if (node.is_number()) {
     out.push_back({pointer, node.get<double>()});

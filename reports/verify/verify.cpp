@@ -31,17 +31,16 @@ using record::Format;
 namespace fs = std::filesystem;
 using State = ListedFiles::State;
 
-/// How exactly this program can repeat what the run's program computed.
+/// How exactly this program can repeat the computation of the program that measured.
 struct Exactness {
   bool same_processor = true;
   bool same_version = true;
 
-  /// Numbers of another kind of processor or of another version may differ by this: mm, um, deg
-  /// alike.
+  /// Tolerance for numbers from another kind of processor or another version: mm, um, deg alike.
   [[nodiscard]] double tolerance() const { return same_processor && same_version ? 0.0 : 1e-9; }
 };
 
-/// One result by its name: as stored, and as the touches give it now.
+/// One result by its name: as stored, and as computed from the touches now.
 struct Pair {
   std::optional<double> stored;
   std::optional<double> now;
@@ -64,15 +63,16 @@ std::optional<std::string> compare_result(const std::string& name, const Pair& p
                      core::shortest(*pair.stored), core::shortest(*pair.now));
 }
 
-/// Compares the results that a run stored with those that its touches give now, by name. A result
-/// of one side only is a difference unless another version measured: versions may give more or
-/// fewer numbers. Adds the first difference, and how many others there are.
+/// Compares the results that a run stored with those computed from its touches now, by name. A
+/// result of one side only is a difference unless another version measured: versions may give more
+/// or fewer numbers. Adds the first difference, and the number of others.
 /// @return How many were compared: stored and computed now.
 std::size_t compare_results(const std::vector<record::StoredResult>& stored,
                             const std::vector<record::StoredResult>& now,
                             const Exactness& exactness, Verification& out) {
   std::map<std::string, Pair> pairs;
-  std::vector<std::string> order;  // of the report, so that the first difference is the highest
+  // order of the report, so that the first difference is the topmost
+  std::vector<std::string> order;
   const auto pair_of = [&](const std::string& name) -> Pair& {
     if (!pairs.contains(name)) order.push_back(name);
     return pairs[name];
@@ -112,7 +112,7 @@ std::optional<std::string> compare_export(const Export& what, const std::string&
   return first_text_difference(expected, found, tolerance);
 }
 
-/// A line about one export: what differs, and whether the file or what it follows from was changed.
+/// A line about one export: the difference, and whether the file or its source was changed.
 std::string difference_line(const Export& what, const std::optional<std::string>& difference,
                             const std::optional<State>& state) {
   const bool changed = state == State::kChanged;
@@ -129,8 +129,8 @@ std::string difference_line(const Export& what, const std::optional<std::string>
   return fmt::format("{}: {}{}", what.file, *difference, note);
 }
 
-/// Whether an export that is not there was once: the list names it. Without a list, those that a
-/// plan asks for unless it says otherwise.
+/// Whether a missing export was written once: the list names it. Without a list: those that a plan
+/// asks for unless it says otherwise.
 bool was_written(const Export& what, const record::RunRecord& record, const ListedFiles& listed) {
   if (listed.list_found) return listed.state_of(what.file).has_value();
   const bool usual =
@@ -171,7 +171,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   return (names.empty() ? "none" : names) + absent;
 }
 
-/// Adds the damage of journal and list that shows before anything is computed.
+/// Adds damage of the journal and the list that is visible before any computation.
 void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Verification& out) {
   const record::RunRecord& record = read.record;
   for (const record::BrokenTable& broken : read.broken) {
@@ -235,7 +235,7 @@ std::string how_exactly(const record::Header& header, const VerifyOptions& optio
   return words.empty() ? "bit for bit (same kind of processor)" : words;
 }
 
-/// Limits of the answer that are no differences.
+/// Limits of the comparison that are no differences.
 std::vector<std::string> notes_on(const record::ReadJournal& read, const ListedFiles& listed) {
   std::vector<std::string> out;
   const record::Header& header = read.record.header;
@@ -302,7 +302,7 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   const auto signature = about_signature(directory, options, *listed, out);
   if (!signature) return core::fail(signature.error());
   out.notes = notes_on(*read, *listed);
-  if (!read->broken.empty()) {  // what was changed may ask for anything
+  if (!read->broken.empty()) {  // changed data may ask for any computation
     out.notes.emplace_back("nothing was computed from a journal that is not as it was written");
     return out;
   }

@@ -13,32 +13,33 @@ namespace rondure::reports {
 
 /// Settings of verify_run().
 struct VerifyOptions {
-  std::string processor;                      ///< Of this machine, spelled as in the journal.
-  std::optional<std::string> public_key_pem;  ///< Checks the signature too, when given.
+  std::string processor;  ///< Processor of this machine, spelled as in the journal.
+  std::optional<std::string> public_key_pem;  ///< If given, the signature is checked too.
   /// Whether a record can be evaluated: plans::check_record(), which this room does not see.
   std::function<core::Result<void>(const record::RunRecord&)> check = {};
 };
 
 /// Result of verify_run().
 struct Verification {
-  std::vector<std::string> differences;  ///< In words, place first; empty: everything follows.
+  std::vector<std::string> differences;  ///< In words, place first; empty: everything agrees.
   std::string what_was_compared;         ///< One sentence: part, serial, verdict, and how exactly.
-  /// Limits of the answer that are no differences, one sentence each: another version, no list.
+  /// Limits of the comparison that are no differences, one sentence each: another version, no list.
   std::vector<std::string> notes;
 };
 
 /// Recomputes a run from its journal and compares: the chain over the journal's rows, the digests
-/// of its tables, the SHA-256 of the files (SHA256SUMS), every stored result, and every export that
-/// stands in the directory. Changes nothing, and evaluates no journal that is not as it was
+/// of its tables, the SHA-256 of the files (SHA256SUMS), every stored result, and every export in
+/// the directory. Changes nothing, and does not evaluate a journal that was changed after it was
 /// written.
-///
+/// written.
 /// Bits must be equal for the version and the kind of processor that measured. On another
 /// processor, where the last bit of sin and atan2 differs, numbers may differ by 1e-9. When another
-/// version measured, numbers that both versions give are compared within 1e-9, and the wording of
+/// version measured, numbers that both versions give are compared within 1e-9, and only SHA256SUMS
+/// covers the wording of reports. The sentence states which comparison was made.
 /// reports is left to SHA256SUMS. The sentence says which.
-///
-/// Without a key this finds accidents: somebody who can write into the directory can also write new
-/// digests. With a key it finds forgery, too: then a file that the list names must be there, and
+/// Without a key this finds accidents: anybody who can write into the directory can also write new
+/// digests. With a key it finds forgery, too: a file that the list names must then exist, and a
+/// file that is read must be on the list.
 /// one that is read must be on the list.
 ///
 /// @return kFile or kJournal when the journal or an export cannot be read, kBadOption for a key of

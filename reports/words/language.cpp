@@ -15,7 +15,8 @@ thread_local Language the_language = Language::kEnglish;
 
 using Table = std::unordered_map<std::string_view, std::string_view>;
 
-/// The texts of the catalogue by the English one, but for the titles of codes.
+/// The texts of the catalogue by the English text, except the titles of codes. Where a text is also
+/// a sentence, the entry for tr() counts: it may state how its arguments are written.
 const Table& table() {
   static const Table all = [] {
     Table out;

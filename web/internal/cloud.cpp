@@ -12,7 +12,7 @@ namespace {
 using record::RunRecord;
 using record::Touch;
 
-/// The feature as the cloud of one pose shows it: nothing to decide, no search in software.
+/// The feature for the cloud of one pose: without characteristics and without a software search.
 record::Feature seen_in_one_pose(const record::Feature& asked) {
   record::Feature out = asked;
   out.characteristics.clear();
@@ -29,7 +29,7 @@ std::size_t touches_in(const RunRecord& record, int pose) {
       }));
 }
 
-/// The record as if the run had one feature, and measured it in this pose only.
+/// The record as if the run had one feature, measured in this pose only.
 RunRecord of_one_pose(const RunRecord& record, const record::PoseVisit& visit, std::size_t every) {
   RunRecord out;
   out.header = record.header;

@@ -8,18 +8,18 @@
 
 namespace rondure::web {
 
-/// Of a cloud with more touches only every k-th point of a layer is evaluated.
+/// For a cloud with more touches, only every k-th point of a layer is evaluated.
 inline constexpr std::size_t kMostLiveTouches = 2000;
 
-/// The cloud of one pose as far as it is on record, evaluated as a final cloud is, without verdicts
-/// and without uncertainty: what the drawings of the report need.
+/// The recorded part of the cloud of one pose, evaluated like a final cloud but without verdicts
+/// and uncertainty: the input of the report's drawings.
 struct LiveCloud {
   evaluation::FeatureResult result;
   std::size_t every = 1;  ///< Only every `every`-th point was evaluated.
 };
 
 /// @return  kNoPoints and the other codes of a fit: the touches do not define the feature yet;
-///          kBadOption: an analysis, which has no cloud.
+///     kBadOption: an analysis, which has no cloud.
 [[nodiscard]] core::Result<LiveCloud> evaluate_so_far(const record::RunRecord& record,
                                                       const record::PoseVisit& visit);
 

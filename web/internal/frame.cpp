@@ -24,12 +24,12 @@ using reports::isolated;
 using reports::tr;
 using reports::trf;
 
-/// The strategy by which f of a single pose is found.
+/// The strategy that determines f of a single pose.
 record::Strategy strategy_of(const record::RunRecord& record, const record::PoseVisit& visit) {
   return record.features[static_cast<std::size_t>(visit.feature)].strategy;
 }
 
-/// Whether every target of a pose was touched; until then its f is not comparable with the others.
+/// Whether every target of a pose was touched; its f cannot be compared with the others until then.
 bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
   const record::Feature& feature = record.features[static_cast<std::size_t>(visit.feature)];
   const int targets = feature.layers * feature.points_per_layer;
@@ -37,7 +37,7 @@ bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
          static_cast<std::size_t>(std::max(targets, 1));
 }
 
-/// A feature with nothing but its poses, for the drawings of the search.
+/// A feature with only its poses, for the drawings of the search.
 evaluation::FeatureResult with_poses(const record::RunRecord& record,
                                      const record::PoseVisit& present,
                                      const std::map<int, evaluation::PoseValue>& values) {
@@ -57,7 +57,7 @@ evaluation::FeatureResult with_poses(const record::RunRecord& record,
 std::string answer_of(const LiveFrame& frame, std::string_view session, std::uint64_t since) {
   nlohmann::ordered_json parts = nlohmann::ordered_json::object();
   for (const LivePart& part : frame.parts) {
-    // A page of another run, with a number of its own, gets everything.
+    // A page of another run, which has its own version numbers, receives everything.
     if (part.version > since || since > frame.version) parts[part.id] = well_formed(part.html);
   }
   const nlohmann::ordered_json out = {{"session", session},
@@ -171,7 +171,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
       fmt::format("{} {}.", tr("The run is over. Verdict:"), tr(name_of(evaluation.verdict))));
   put("touches", live_touches(record));
   put("decisions", reports::decisions_section(record));
-  std::string drawings;  // under a heading that says of which feature
+  std::string drawings;  // below a heading that names the feature
   std::string searches;
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     const auto zone = zone_of(feature);

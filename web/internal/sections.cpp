@@ -35,7 +35,7 @@ std::string clock_text(double time_s) {
   return fmt::format("{}:{:02}:{:02} h", s / 3600, s / 60 % 60, s % 60);
 }
 
-/// Which pose of its feature a visit is, from 1.
+/// Index of a visit among the poses of its feature, from 1.
 std::size_t number_of(const record::RunRecord& record, const record::PoseVisit& visit) {
   std::size_t number = 0;
   for (const record::PoseVisit& other : record.poses) {

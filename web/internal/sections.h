@@ -11,26 +11,26 @@
 
 namespace rondure::web {
 
-/// The state of a run, from which the parts of the page are made. Every text of the record is
+/// The state of a run from which the parts of the page are written. All text of the record is
 /// escaped.
 struct LiveNow {
-  const record::PoseVisit* pose = nullptr;  ///< The present one; none before the first.
-  std::optional<evaluation::PoseValue> f;   ///< Of the present pose, of its touches so far.
+  const record::PoseVisit* pose = nullptr;  ///< The current pose; null before the first.
+  std::optional<evaluation::PoseValue> f;   ///< For the touches so far in the current pose.
   std::optional<double> zone_mm;            ///< Minimum zone of these touches.
-  std::size_t expected = 0;                 ///< Touches of the run as predicted; 0: unknown.
+  std::size_t expected = 0;                 ///< Predicted touches of the run; 0: unknown.
   double elapsed_s = 0.0;
   std::optional<double> left_s;
 };
 
-/// "Measuring feature bore, pose 3": changes with the pose and the state only.
+/// "Measuring feature bore, pose 3": changes only with the pose and the state.
 [[nodiscard]] std::string live_doing(const record::RunRecord& record, const LiveNow& now);
-/// The numbers of the moment.
+/// The current numbers.
 [[nodiscard]] std::string live_numbers(const record::RunRecord& record, const LiveNow& now);
-/// The drawings of the report, of the present cloud.
+/// The drawings of the report for the current cloud.
 [[nodiscard]] std::string live_drawings(const core::Result<LiveCloud>& cloud);
 /// The last touches, the newest first.
 [[nodiscard]] std::string live_touches(const record::RunRecord& record);
-/// Heading of the page when the run is over, above the verdict.
+/// Heading of the page after the run, above the verdict.
 [[nodiscard]] std::string live_over(const record::RunRecord& record, std::string_view report);
 
 }  // namespace rondure::web

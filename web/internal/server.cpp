@@ -21,19 +21,20 @@ namespace rondure::web {
 namespace {
 
 constexpr std::size_t kThreads = 8;
-constexpr int kWaiting = 128;      ///< Connections that were not accepted yet.
-constexpr int kMostAccepted = 64;  ///< Connections that wait for a thread; more are closed.
+constexpr int kWaiting = 128;      ///< Connections not accepted yet.
+constexpr int kMostAccepted = 64;  ///< Connections waiting for a thread; more are closed.
 constexpr std::size_t kMostBody_bytes = 1024;
-constexpr auto kConnection = std::chrono::milliseconds(2000);  ///< For a request and its answer.
+/// Limit for a request and its answer.
+constexpr auto kConnection = std::chrono::milliseconds(2000);
 constexpr const char* kAddress = "127.0.0.1";
 
-/// One port, one program: the library's own setting would let two share it.
+/// Allows one program per port; the library's default would share it between two.
 void allow_reuse_after_end(socket_t socket) {
   const int yes = 1;
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// The header when it was sent once; else empty.
+/// The header if it was sent exactly once; otherwise empty.
 std::string only(const httplib::Request& request, const char* name) {
   return request.get_header_value_count(name) == 1 ? request.get_header_value(name) : std::string();
 }
@@ -54,7 +55,7 @@ void refuse(const Refusal& refusal, httplib::Response& response) {
   response.set_content(refusal.why + "\n", "text/plain; charset=utf-8");
 }
 
-/// Signals go to the run, which may wait for one; the run goes first.
+/// Blocks signals, which must reach the run, and gives the run priority.
 class QuietThreads {
  public:
   QuietThreads() {
@@ -70,12 +71,12 @@ class QuietThreads {
   sigset_t before_{};
 };
 
-/// In the thread that accepts: the connection of the task at hand is one too many.
+/// In the accepting thread: the connection of the current task exceeds the limit.
 thread_local bool one_too_many = false;
 
-/// The library's threads with a limit on waiting connections: silent ones would otherwise use up
-/// the files that the process may open, and the run needs some. The library cannot be told
-/// no: a task too many is done at once, and closes its connection unread.
+/// The library's threads with a limit on waiting connections: silent clients would otherwise use up
+/// the files that the process may open, and the run needs some. The library does not accept a
+/// refusal: a task beyond the limit runs at once, and closes its connection unread.
 class BoundedQueue final : public httplib::TaskQueue {
  public:
   void enqueue(std::function<void()> task) override {
@@ -101,7 +102,7 @@ class BoundedQueue final : public httplib::TaskQueue {
 
 }  // namespace
 
-/// The library's server with connections that end.
+/// The library's server with connections of limited duration.
 class LiveServer::Http final : public httplib::Server {
  public:
   Http(LiveGate gate, std::string page, LiveHandlers handlers)
@@ -122,7 +123,8 @@ class LiveServer::Http final : public httplib::Server {
          {"X-Frame-Options", "DENY"}});
     set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       auto refusal = refuse_host(gate_, only(request, "Host"));
-      // The library takes a body in chunks without a limit. A browser states the length of its own.
+      // The library accepts a chunked body without a limit. Browsers state the length of their
+      // bodies.
       if (!refusal && request.has_header("Transfer-Encoding"))
         refusal = Refusal{411, "the length of the body is not stated"};
       if (!refusal) return HandlerResponse::Unhandled;
@@ -140,14 +142,15 @@ class LiveServer::Http final : public httplib::Server {
 
   [[nodiscard]] const LiveGate& gate() const { return gate_; }
 
-  /// The port that was had, or nothing.
+  /// The port that was opened, or none.
   [[nodiscard]] bool take_port(std::uint16_t port) {
     const int had = port == 0                      ? bind_to_any_port(kAddress)
                     : bind_to_port(kAddress, port) ? port
                                                    : -1;
     if (had <= 0) return false;
     gate_.port = static_cast<std::uint16_t>(had);
-    ::listen(svr_sock_, kWaiting);  // the library's five let a sixth browser wait for a second
+    // the library's backlog of five makes a sixth browser wait a second
+    ::listen(svr_sock_, kWaiting);
     return true;
   }
 
@@ -186,8 +189,8 @@ class LiveServer::Http final : public httplib::Server {
     if (one_too_many) return ::close(socket) == 0;
     LiveStream stream(socket, kConnection, ending_);
     bool closed = false;
-    // Compressing costs more than handing it over within a computer. Nothing here is asked for in
-    // parts: a header of 8 kB names the whole page a thousand times, and the library copies it.
+    // Compression costs more than a transfer within a computer. Ranges are not needed either: a
+    // header of 8 kB could request the whole page a thousand times, and the library would copy it.
     const bool well = process_request(stream, true, closed, [](httplib::Request& request) {
       request.headers.erase("Accept-Encoding");
       request.headers.erase("Range");
@@ -208,11 +211,11 @@ LiveServer::LiveServer(std::unique_ptr<Http> http) : http_(std::move(http)) {
   const QuietThreads quiet;
   thread_ = std::thread([this] {
     constexpr int kYield = 10;
-    ::setpriority(PRIO_PROCESS, 0, kYield);  // of this thread and those it starts
+    ::setpriority(PRIO_PROCESS, 0, kYield);  // for this thread and those that it starts
     http_->listen_after_bind();
     left_ = true;
   });
-  // The library forgets a stop that comes before it listens.
+  // The library ignores a stop that arrives before it listens.
   while (!http_->is_running() && !left_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 

@@ -12,25 +12,26 @@
 
 namespace rondure::web {
 
-/// Answers of the program to the server, which calls them from its threads.
+/// Callbacks for the answers of the program; the server calls them from its threads.
 struct LiveHandlers {
-  /// JSON for a page that has seen a version; `client` is the page's name for itself.
+  /// Returns the JSON for a page that has version `since`; `client` is the name that the page
+  /// chose.
   std::function<std::string(std::uint64_t since, const std::string& client)> state;
   std::function<void()> stop;
 };
 
-/// Serves the live page at 127.0.0.1, from threads of its own that take no signals and yield the
+/// Serves the live page at 127.0.0.1, from threads of its own that block signals and yield the
 /// processor to the run. GET never changes anything.
 ///
-///   GET /  GET /live.css  GET /live.js    the page
-///   GET /live?since=VERSION&client=NAME   what changed since
-///   POST /stop                            stops the run, where refuse_stop() has no objection
+/// GET /  GET /live.css  GET /live.js    the page
+/// GET /live?since=VERSION&client=NAME   the changes since that version
+/// POST /stop                            stops the run, unless refuse_stop() refuses
 class LiveServer {
  public:
   /// @param port      0: any free one.
-  /// @param gate      Its port is filled in.
+  /// @param gate      The server sets its port.
   /// @param page      The answer to "/": live_page().
-  /// @return  kFile when the port cannot be had: `what` says what to do.
+  /// @return  kFile when the port is not available: `what` names the remedy.
   [[nodiscard]] static core::Result<std::unique_ptr<LiveServer>> start(std::uint16_t port,
                                                                        LiveGate gate,
                                                                        std::string page,
@@ -45,7 +46,7 @@ class LiveServer {
   class Http;
   explicit LiveServer(std::unique_ptr<Http> http);
   std::unique_ptr<Http> http_;
-  std::atomic<bool> left_ = false;  ///< The thread is done.
+  std::atomic<bool> left_ = false;  ///< The thread has ended.
   std::thread thread_;
 };
 

@@ -10,10 +10,10 @@
 namespace rondure::web {
 namespace {
 
-/// A browser's request has one or two kB. The library bounds a line, but neither their number nor
-/// a body that comes in chunks.
+/// A browser's request has one or two kB. The library limits the length of a line, but neither the
+/// number of lines nor a chunked body.
 constexpr std::size_t kMostRequest_bytes = 32'768;
-constexpr std::size_t kMostRest_bytes = 262'144;  ///< Read after a refused request.
+constexpr std::size_t kMostRest_bytes = 262'144;  ///< Bytes read after a refused request.
 
 }  // namespace
 
@@ -22,7 +22,7 @@ LiveStream::LiveStream(socket_t socket, std::chrono::milliseconds limit,
     : socket_(socket), end_(Clock::now() + limit), ending_(ending) {}
 
 bool LiveStream::wait(short events) const {
-  constexpr int kLook_ms = 20;  // how soon the end of the run is seen
+  constexpr int kLook_ms = 20;  // time after which the end of the run is noticed
   constexpr auto kLastAnswer = std::chrono::milliseconds(500);
   while (Clock::now() < end_) {
     if (ending_ && events == POLLIN) return false;
@@ -32,7 +32,7 @@ bool LiveStream::wait(short events) const {
     }
     pollfd look{socket_, events, 0};
     const int ready = ::poll(&look, 1, kLook_ms);
-    if (ready > 0) return true;  // an error shows in the call that follows
+    if (ready > 0) return true;  // the next call reports an error
     if (ready < 0 && errno != EINTR) return false;
   }
   return false;
@@ -63,7 +63,7 @@ ssize_t LiveStream::write(const char* ptr, size_t size) {
 }
 
 void LiveStream::get_remote_ip_and_port(std::string& ip, int& port) const {
-  ip = "127.0.0.1";  // nobody else can connect
+  ip = "127.0.0.1";  // only this computer can connect
   port = 0;
 }
 

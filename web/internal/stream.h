@@ -10,9 +10,9 @@
 
 namespace rondure::web {
 
-/// A connected socket for one request and its answer, within a time for both together: a client
-/// that sends or reads by drops is left, and so is one that sends more than 32 kB. When `ending`
-/// becomes true no request is waited for, and an answer has half a second. Does not close the
+/// A connected socket for one request and its answer, with a common time limit: a client that sends
+/// or reads too slowly is dropped, and so is one that sends more than 32 kB. After `ending` becomes
+/// true, the stream waits for no request, and an answer may take half a second. Does not close the
 /// socket.
 class LiveStream final : public httplib::Stream {
  public:
@@ -26,8 +26,8 @@ class LiveStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   [[nodiscard]] socket_t socket() const override { return socket_; }
 
-  /// Ends the answer and takes some of what the client still sends, so that the answer is not lost
-  /// with a reset of the connection.
+  /// Ends the answer and reads some of what the client still sends, so that a reset of the
+  /// connection does not destroy the answer.
   void finish();
 
  private:
@@ -37,12 +37,12 @@ class LiveStream final : public httplib::Stream {
 
   socket_t socket_;
   mutable Clock::time_point end_;
-  mutable bool hurried_ = false;  ///< The end of the run was seen.
+  mutable bool hurried_ = false;  ///< The end of the run was noticed.
   const std::atomic<bool>& ending_;
   std::array<char, 4096> buffer_{};
   std::size_t begin_ = 0;
   std::size_t filled_ = 0;
-  std::size_t taken_ = 0;  ///< Of the request, in all.
+  std::size_t taken_ = 0;  ///< Bytes of the request received in total.
 };
 
 }  // namespace rondure::web

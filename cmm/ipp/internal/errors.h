@@ -7,7 +7,7 @@ namespace rondure::cmm::ipp {
 /// One entry of the list of I++ DME errors.
 struct ErrorEntry {
   int number = 0;    ///< F2, four digits on the wire.
-  int severity = 0;  ///< F1: 0 info, 1 warning, 2 the client can repair it, 3 the user, 9 fatal.
+  int severity = 0;  ///< F1: 0 info, 1 warning, 2 the client can recover, 3 the user must, 9 fatal.
   std::string_view text;  ///< The fixed text of the number.
 };
 
@@ -18,7 +18,7 @@ struct ErrorEntry {
 /// From this severity on the server aborts pending commands and requires ClearAllErrors().
 inline constexpr int kErrorState = 2;
 
-// The numbers that the server uses, by meaning.
+// Numbers that the server uses, named by their meaning.
 inline constexpr int kIllegalTag = 1;
 inline constexpr int kNoSpace = 2;
 inline constexpr int kAborted = 6;

@@ -21,7 +21,7 @@ class ItemReader {
  public:
   enum class Manner { kStrict, kLiberal };
 
-  /// Why reading stopped.
+  /// Reason why reading stopped.
   struct Fault {
     int number = 0;  ///< 0502, 0509 or 0008.
     std::string what;
@@ -31,13 +31,14 @@ class ItemReader {
 
   ItemReader(std::string_view text, Manner manner) : text_(text), manner_(manner) {}
 
-  /// letter {letter | digit}; with `dotted` also with points in between. Empty when there is none.
+  /// Reads  letter {letter | digit},  with `dotted` also with points in between. Empty when there
+  /// is no name.
   [[nodiscard]] std::string_view read_name(bool dotted);
-  /// "(" [item {"," item}] ")", with the spaces that the grammar allows.
+  /// Reads  "(" [item {"," item}] ")",  with the spaces that the grammar allows.
   [[nodiscard]] Read<std::vector<Item>> read_arguments(int depth);
-  /// item {"," item} up to the end of the line.
+  /// Reads  item {"," item}  up to the end of the line.
   [[nodiscard]] Read<std::vector<Item>> read_list();
-  /// Whether nothing but spaces is left.
+  /// Whether only spaces are left.
   [[nodiscard]] bool at_end();
   [[nodiscard]] std::size_t position() const { return at_; }
 

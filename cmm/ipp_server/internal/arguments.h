@@ -20,7 +20,7 @@ namespace rondure::cmm::ipp {
 
 using Arguments = std::vector<Item>;
 
-inline constexpr std::size_t kMaxNames = 64;  ///< Per command: the answer must fit into a line.
+inline constexpr std::size_t kMaxNames = 64;  ///< Per command: the answer must fit into one line.
 
 [[nodiscard]] inline tl::unexpected<Failure> refusal(int number, std::string what) {
   return tl::unexpected(Failure{number, std::move(what)});
@@ -39,7 +39,7 @@ inline constexpr std::size_t kMaxNames = 64;  ///< Per command: the answer must 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The names of X(), Y(), IJK(); nothing when any argument is something else, when there are none,
+/// The names of X(), Y(), IJK(); nothing when any argument is not such a call, when there are none,
 /// or more than kMaxNames.
 [[nodiscard]] inline std::optional<std::vector<std::string>> empty_calls(
     const Arguments& arguments) {

@@ -62,7 +62,7 @@ bool surely_clear(const PartSurface& surface, double deviation_mm, const Vector3
 
 constexpr double kOverlap_mm = 1e-9;
 
-/// True for a point of an end plane that belongs to the flat end.
+/// Whether a point of an end plane belongs to the flat end.
 bool on_end(const PartSurface& surface, const Vector3d& p) {
   const double from_axis = std::hypot(p.x(), p.y());
   const double rim = surface.radius_at(std::atan2(p.y(), p.x()), p.z());
@@ -70,7 +70,7 @@ bool on_end(const PartSurface& surface, const Vector3d& p) {
   return from_axis >= rim && from_axis <= surface.radius_mm + kBlockWall_mm;
 }
 
-/// True for a point within the material.
+/// Whether a point is within the material.
 bool in_material(const PartSurface& surface, const Vector3d& p) {
   return std::abs(p.z()) <= surface.half_length_mm && on_end(surface, p);
 }

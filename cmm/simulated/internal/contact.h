@@ -9,13 +9,13 @@ namespace rondure::cmm {
 
 /// First contact of the sphere of a probe tip with a part, in the part frame.
 struct Contact {
-  double travel_mm = 0.0;                                ///< From the start, >= 0.
+  double travel_mm = 0.0;                                ///< Travel from the start, >= 0.
   Eigen::Vector3d tip_P_mm = Eigen::Vector3d::Zero();    ///< Tip centre at contact.
   Eigen::Vector3d point_P_mm = Eigen::Vector3d::Zero();  ///< Contact point on the part.
 };
 
 /// Moves a sphere along a straight line until it first meets the real part: its side (with all of
-/// its form), a rim or a flat end; of a bore also the outer wall of the block. Exact: the contact
+/// its form), a rim or a flat end; for a bore also the outer wall of the block. Exact: the contact
 /// is the least travel at which the sphere reaches any point of the part, so a tip bridges a valley
 /// that is narrower than itself.
 ///
@@ -24,7 +24,7 @@ struct Contact {
 /// @param tip_radius_mm  > 0.
 /// @param max_travel_mm  Largest travel of the tip, >= 0.
 /// @return  The contact; kCollision when the sphere overlaps the part at its start by more than
-///          1e-9 mm, kNoTouch when it meets nothing, kNotConverged should the solver fail.
+///     1e-9 mm, kNoTouch when it meets nothing, kNotConverged if the solver fails.
 [[nodiscard]] core::Result<Contact> first_contact(const PartSurface& surface,
                                                   const Eigen::Vector3d& start_P_mm,
                                                   const Eigen::Vector3d& direction_P,

@@ -28,8 +28,8 @@ struct Local {
 
 /// A point of the surface relative to the line of the sweep.
 struct Sight {
-  double along_mm = 0.0;  ///< Along the line, from the start.
-  Vector3d across_mm;     ///< From the line, perpendicular to it.
+  double along_mm = 0.0;  ///< Position along the line, from the start.
+  Vector3d across_mm;     ///< Offset from the line, perpendicular to it.
 };
 
 Sight sight(const SphereSweep& sweep, const Vector3d& x_mm) {
@@ -38,8 +38,8 @@ Sight sight(const SphereSweep& sweep, const Vector3d& x_mm) {
   return {along, w - along * sweep.direction_P};
 }
 
-/// Travel s until the sphere reaches a surface point; nothing when it passes by, or when the point
-/// lies before the start: a sphere that starts clear of it never meets it.
+/// Travel s until the sphere reaches a surface point; nothing when the sphere misses the point, or
+/// when the point lies before the start: a sphere that starts clear of it never meets it.
 std::optional<Local> travel_to(const PartSurface& surface, const SphereSweep& sweep,
                                const Vector2d& at) {
   const SurfaceJet jet = surface_jet(surface, at.x(), at.y());
@@ -232,7 +232,7 @@ class SideSearch {
     const Sight seen = sight(sweep_, point(center));
     const double radius = sweep_.radius_mm + reach(half);
     const double depth2 = radius * radius - seen.across_mm.squaredNorm();
-    if (depth2 < 0.0) return;  // the sphere passes by
+    if (depth2 < 0.0) return;  // the sphere misses the point
     const double depth = std::sqrt(depth2);
     if (seen.along_mm + depth < 0.0) return;  // before the start
     open_.push({center, half, seen.along_mm - depth});
@@ -271,7 +271,7 @@ class SideSearch {
     if (!travel(at)) {
       const auto nearest = nearest_to(sweep_, at);
       if (!nearest) return false;
-      if (!travel(nearest->at)) return true;  // the sphere passes by
+      if (!travel(nearest->at)) return true;  // the sphere misses the point
       at = nearest->at;
     }
     const auto minimum = minimise(travel, at, surface_.half_length_mm);
@@ -329,13 +329,13 @@ std::optional<std::optional<SideContact>> gentle_contact(const PartSurface& surf
   return SideContact{minimum->value, surface_jet(surface, minimum->at.x(), minimum->at.y()).x_mm};
 }
 
-/// True when the sphere stays away from every mark on its whole path.
+/// Whether the sphere stays away from every mark on its whole path.
 bool passes_marks(const PartSurface& surface, const SphereSweep& sweep) {
   const Vector3d a = sweep.start_P_mm;
   const Vector3d b = a + sweep.travel_mm * sweep.direction_P;
   const double theta = std::atan2(a.y(), a.x());
   const double turn = std::abs(std::remainder(std::atan2(b.y(), b.x()) - theta, core::kTwoPi));
-  // Seen from the axis, a path turns by less than half a revolution only if it does not cross it.
+  // Seen from the axis, a path that does not cross the axis turns by less than half a revolution.
   if (turn > 0.25 * core::kTwoPi) return false;
   return std::none_of(surface.marks.begin(), surface.marks.end(), [&](const SurfaceMark& mark) {
     const double keep_off = sweep.radius_mm + std::abs(mark.height_mm);

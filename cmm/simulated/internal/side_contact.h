@@ -19,7 +19,7 @@ struct SphereSweep {
 
 /// First contact of a sweep with the round side of a part, or its rims.
 struct SideContact {
-  double travel_mm = 0.0;  ///< < 0: the sphere overlaps the side at its start, by that much.
+  double travel_mm = 0.0;  ///< < 0: overlap of the sphere with the side at its start.
   Eigen::Vector3d point_P_mm = Eigen::Vector3d::Zero();
 };
 

@@ -46,7 +46,7 @@ void add_mark(const PartSurface& surface, const SurfaceMark& mark, double theta_
 /// Adds the contribution of a mark to the bounds of the absolute values.
 void bound_mark(const PartSurface& surface, const SurfaceMark& mark, RadiusDerivatives& b) {
   constexpr double kSlope = 1.875;       // largest derivative of the flank
-  constexpr double kCurvature = 5.7736;  // and of its derivative
+  constexpr double kCurvature = 5.7736;  // largest derivative of that
   const double height = std::abs(mark.height_mm);
   const double radius = surface.radius_mm;
   const double slope = height * kSlope / mark.flank_mm;
@@ -116,9 +116,10 @@ ShapeBounds bounds_with(const PartSurface& surface, std::span<const SurfaceMark>
   const double scale = 1.0 / surface.half_length_mm;
   const double barrel = std::abs(form.barrel_mm);
   const double bend = std::abs(form.bend_mm);
-  const double parabola = 2.0 / 3.0;              // largest |q^2 - 1/3|
-  double fastest_1_mm = 1.0 / surface.radius_mm;  // of a phase along the surface [rad/mm]
-  RadiusDerivatives b;                            // bounds of the absolute values
+  const double parabola = 2.0 / 3.0;  // largest |q^2 - 1/3|
+  // greatest gradient of a phase along the surface [rad/mm]
+  double fastest_1_mm = 1.0 / surface.radius_mm;
+  RadiusDerivatives b;  // bounds of the absolute values
   b.r_mm = std::abs(form.taper_mm) + (barrel + bend) * parabola;
   b.t = bend * parabola;
   b.z = (std::abs(form.taper_mm) + 2.0 * (barrel + bend)) * scale;

@@ -38,8 +38,8 @@ struct ShapeBounds {
   double toward_free_mm = 0.0;       ///< r - radius of a shaft, radius - r of a bore.
   double stretch_u = 0.0;            ///< |dX/du|.
   double stretch_z = 0.0;            ///< |dX/dz|.
-  double form_curvature_1_mm = 0.0;  ///< Of the form without the ideal cylinder [1/mm].
-  double wavelength_mm = 0.0;  ///< Of the finest undulation, in either direction of the surface.
+  double form_curvature_1_mm = 0.0;  ///< Form without the ideal cylinder [1/mm].
+  double wavelength_mm = 0.0;        ///< Finest undulation, in either direction of the surface.
 };
 
 [[nodiscard]] ShapeBounds shape_bounds(const PartSurface& surface);

@@ -47,7 +47,7 @@ std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownVal
   const Prior& prior = *rule.prior;
   const auto& values = value.statement->values_mm;
   const double count = static_cast<double>(values.size());
-  // The compared value of a part y is y + e, and e = compared - value of a trial.
+  // The compared value of a part with true value y is y + e, where e = compared - value of a trial.
   const auto at_most = [&](double limit_mm, double y_mm) {
     const double least = outcome.compared_mm + y_mm - limit_mm;
     return static_cast<double>(values.end() -

@@ -4,13 +4,13 @@
 
 #include "evaluation/decision/decision.h"
 
-// Private to the room: probabilities behind the rules of decision.h.
+// Private to the room: the probabilities that the rules of decision.h compare.
 
 namespace rondure::evaluation {
 
-/// The probability that a part conforms, whose distribution is the one behind `known` moved by
-/// `shift_mm`, and weighted by the prior where there is one: JCGM 106, 7.2. Nothing when there is
-/// no distribution, or the prior gives fewer than 50 of its values weight.
+/// The probability that a part conforms whose distribution is that of `known` shifted by `shift_mm`
+/// and, where there is a prior, weighted by it: JCGM 106, 7.2. None when there is no distribution,
+/// or when the prior gives weight to fewer than 50 of its values.
 [[nodiscard]] std::optional<double> conformance(const UncertaintyStatement& known,
                                                 const std::optional<Prior>& prior, double shift_mm,
                                                 double tolerance_mm);

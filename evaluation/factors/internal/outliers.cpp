@@ -20,8 +20,8 @@ constexpr double kSigmas = 3.0;
 constexpr double kMedianScales = 5.0;
 constexpr double kLeastScaleMm = 1e-4;
 
-/// Which of the deviations a rule calls outliers.
-/// @param parameters  Of the least-squares fit they come from.
+/// Marks the deviations that a rule calls outliers.
+/// @param parameters  Number of parameters of the least-squares fit that the deviations come from.
 std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rule,
                           double parameters) {
   double middle = 0.0;
@@ -75,7 +75,7 @@ core::Result<std::vector<double>> cylinder_deviations(const Points3& points) {
   return out;
 }
 
-/// The flags of every point, layer by layer.
+/// The outlier flags of all points, layer by layer.
 core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierRule rule) {
   if (points.form == Form::kCylindricity) {
     const auto deviations = cylinder_deviations(points.all_mm());

@@ -9,13 +9,13 @@
 
 namespace rondure::evaluation {
 
-/// Rules that find outliers. Both look once, at the distances d from the least-squares reference
-/// (of each section for RONt) with p parameters.
+/// Rules that find outliers. Each is applied once, to the distances d from the least-squares
+/// reference (of each section for RONt) with p parameters.
 enum class OutlierRule {
   kNone,
   kThreeSigma,  ///< |d| > 3 s, s^2 = sum d^2 / (n - p).
   /// |d - m| > 5 s, m = median d, s = 1.4826 median |d - m|, at least 0.1 um: one bad point cannot
-  /// widen its own limit. The scales of fit/wheel/outliers.h.
+  /// widen its own limit. Same scales as fit/wheel/outliers.h.
   kFiveMedians,
 };
 inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kThreeSigma,
@@ -24,13 +24,13 @@ inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kT
 /// "none", "3 sigma", "5 medians".
 [[nodiscard]] std::string_view name_of(OutlierRule rule);
 
-/// What a rule leaves.
+/// The points that remain after a rule was applied.
 struct WithoutOutliers {
   FactorPoints points;
   std::size_t left_out = 0;
 };
-/// @return kOutliers when more than a quarter of the points (of a section) would go: that is form;
-///         the errors of the least-squares fit.
+/// @return kOutliers when more than a quarter of the points (of a section) would be removed, since
+///     that is form; or the errors of the least-squares fit.
 [[nodiscard]] core::Result<WithoutOutliers> without_outliers(const FactorPoints& points,
                                                              OutlierRule rule);
 

@@ -10,19 +10,19 @@
 
 namespace rondure::evaluation {
 
-/// What the plan declared about a measurement, as its settings "uncertainty/..." keep it, completed
-/// by what the run itself says: repeatability of a touch, tip qualification, temperatures.
+/// The uncertainty contributions that the plan declares (its settings "uncertainty/..."), completed
+/// by values of the run itself: repeatability of a touch, tip qualification, temperatures.
 struct Declared {
   Influences influences;
   UncertaintyOptions options;
-  /// Terms of the form spectrum: nothing where none was asked for, empty for the part's own.
+  /// Terms of the form spectrum: none where no spectrum was asked for, empty for the part's own.
   std::optional<FormSpectrum> spectrum;
 };
 
-/// What the plan declared about the fixture; nothing when it did not.
+/// The declared contributions of the fixture; none when the plan declares none.
 [[nodiscard]] std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record);
 
-/// Nothing when the plan asked for no uncertainty.
+/// None when the plan asks for no uncertainty.
 [[nodiscard]] std::optional<Declared> declared_for(const record::RunRecord& record,
                                                    const FeatureResult& result,
                                                    const std::optional<fit::ProbeTip>& probe);

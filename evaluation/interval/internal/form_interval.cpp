@@ -11,7 +11,7 @@
 namespace rondure::evaluation {
 namespace {
 
-/// Rows of the cloud behind a characteristic.
+/// Rows of the cloud that a characteristic is evaluated from.
 struct Rows {
   FormKind kind = FormKind::kCylindricity;
   std::vector<std::size_t> rows;
@@ -102,7 +102,7 @@ tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
   if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
   const auto declared = declared_for(record, result, probe);
   const Rows rows = rows_of(result, asked);
-  constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
+  constexpr std::size_t kMostPoints = 20'000;  // about 10 s of trials; verify repeats them
   if (rows.rows.size() > kMostPoints) {
     return none(
         core::phrase("{} points are more than {}, the limit of the trials; give every n-th point",

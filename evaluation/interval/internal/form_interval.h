@@ -13,7 +13,7 @@
 
 namespace rondure::evaluation {
 
-/// What the engine of uncertainty.h is asked about a characteristic.
+/// Input of the uncertainty engine for one characteristic.
 struct UncertaintyQuestion {
   FormCloud cloud;
   Influences influences;
@@ -21,12 +21,12 @@ struct UncertaintyQuestion {
   UncertaintyOptions options;
 };
 
-/// All points of a cylinder or a circle, as the engine takes them.
+/// All points of a cylinder or a circle, as input of the engine.
 /// @return  The errors of form_cloud().
 [[nodiscard]] core::Result<FormCloud> surface_cloud(const FeatureResult& result);
 
-/// The declared spectrum on a cloud, or none of its own terms where the part's own was asked for;
-/// nothing where nobody asked.
+/// The declared spectrum on a cloud, or an empty one where the part's own was asked for; none where
+/// no spectrum was asked for.
 [[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
                                                                     const Declared& declared);
 
@@ -39,9 +39,9 @@ struct UncertaintyQuestion {
     const record::RunRecord& record, const FeatureResult& result,
     const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked);
 
-/// The uncertainty of a form value of touches or points: the engine of uncertainty.h on the cloud
-/// that gave it, or why there is no interval. Roundness of several layers is that of the worst one.
-/// Pure; the seed stands in the record.
+/// The uncertainty of a form value of touches or points, from the engine of uncertainty.h on its
+/// cloud, or why there is no interval. The roundness of several layers is that of the worst one.
+/// Pure; the record holds the seed.
 [[nodiscard]] UncertaintyStatus uncertainty_of(const record::RunRecord& record,
                                                const FeatureResult& result,
                                                const std::optional<fit::ProbeTip>& probe,

@@ -22,8 +22,8 @@ constexpr double kTimesPointError = 10.0;  // where there is no tolerance
 constexpr double kLeastForm_mm = 1e-3;     // where there is no error either
 constexpr int kScalingParts = 32;
 
-/// The places of the final cloud of a feature, with their repeats; by layer and point, as the
-/// evaluation has them.
+/// The places of the final cloud of a feature, with their repeats, by layer and point as in the
+/// evaluation.
 std::vector<CloudPoint> places_of(const record::RunRecord& record, int feature) {
   std::map<std::pair<int, int>, CloudPoint> places;
   for (const record::Touch& touch : record.touches) {
@@ -43,7 +43,7 @@ std::vector<CloudPoint> places_of(const record::RunRecord& record, int feature) 
   return out;
 }
 
-/// The axis of a nominal part stands along the z of its pose.
+/// The axis of a nominal part is the z axis of its pose.
 Eigen::Vector3d direction_of(const record::RunRecord& record, int feature) {
   for (const record::PoseVisit& pose : record.poses) {
     if (pose.feature != feature || !pose.final_cloud) continue;
@@ -54,7 +54,7 @@ Eigen::Vector3d direction_of(const record::RunRecord& record, int feature) {
   return Eigen::Vector3d::UnitZ();
 }
 
-/// The sections of a simulated cloud about the reference that is asked for.
+/// The sections of a simulated cloud about the requested reference.
 std::vector<LayerResult> layers_of(const FormCloud& cloud, const std::vector<CloudPoint>& points,
                                    record::Reference reference) {
   std::map<int, std::vector<std::size_t>> rows;
@@ -81,7 +81,7 @@ std::vector<LayerResult> layers_of(const FormCloud& cloud, const std::vector<Clo
   return out;
 }
 
-/// About the reference of the cloud.
+/// Form value about the reference of the cloud.
 double form_mm(const FormCloud& cloud) {
   Eigen::VectorXd deviations(static_cast<Eigen::Index>(cloud.points.size()));
   for (Eigen::Index i = 0; i < deviations.size(); ++i) {
@@ -90,7 +90,7 @@ double form_mm(const FormCloud& cloud) {
   return FormValue(cloud, cloud.points).of(deviations);
 }
 
-/// Form of which nothing is known but that its undulations fall with their number.
+/// A generic form: undulations whose amplitude falls with their number.
 FormSpectrum common_form(const FormCloud& cloud) {
   FormSpectrum out;
   out.absolute = true;
@@ -115,7 +115,7 @@ void scale(FormSpectrum& spectrum, double factor) {
   for (FormTerm& term : spectrum.terms) term.amplitude_mm *= factor;
 }
 
-/// Mean value of parts of a form, found without errors.
+/// Mean value of error-free inspections of parts with a given form.
 core::Result<double> mean_value_mm(const TrialInspection& rehearsal, const FormSpectrum& form,
                                    const record::Characteristic& asked) {
   double sum = 0.0;
@@ -132,7 +132,7 @@ core::Result<double> mean_value_mm(const TrialInspection& rehearsal, const FormS
   return sum / kScalingParts;
 }
 
-/// Standard deviation of the errors of a point, of all influences.
+/// Standard deviation of the errors of a point, all influences together.
 double point_error_mm(const FormCloud& cloud, const Influences& influences) {
   const ErrorModel errors(cloud, influences);
   const double systematic =

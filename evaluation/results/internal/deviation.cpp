@@ -33,8 +33,8 @@ core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
   return certified_deviation(fit->deviation_mm, *fit);
 }
 
-/// See Deviation::unseen_rad.
-/// @param a_turn  Points that share a turn among them, were they evenly spread.
+/// Computes Deviation::unseen_rad.
+/// @param a_turn  Number of points on a turn if they were evenly spread.
 double unseen(std::vector<double> angles_rad, std::size_t a_turn) {
   if (angles_rad.size() < 3) return 0.0;
   std::sort(angles_rad.begin(), angles_rad.end());
@@ -56,7 +56,7 @@ double unseen_in(const FeatureResult& result, const LayerResult& layer) {
   return unseen(std::move(angles_rad), count);
 }
 
-/// Of all points together, seen along the axis.
+/// The same for all points together, projected along the axis.
 double unseen_in(const FeatureResult& result) {
   std::vector<double> angles_rad;
   for (const CloudPoint& point : result.cloud) angles_rad.push_back(point.angle_rad);
@@ -65,7 +65,7 @@ double unseen_in(const FeatureResult& result) {
   return unseen(std::move(angles_rad), a_turn);
 }
 
-/// The deviation about one reference; without that reference, why there is none.
+/// The deviation about one reference, or why that reference does not exist.
 core::Result<Deviation> section_deviation(const LayerResult& layer, Reference reference) {
   if (!layer.mz) return core::fail(layer.mz.error());
   if (!layer.ls) return core::fail(layer.ls.error());

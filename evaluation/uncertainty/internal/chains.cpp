@@ -10,8 +10,8 @@ namespace {
 
 enum Stream : std::uint64_t { kValueStream = 12, kErrorStream = 13 };
 
-constexpr std::size_t kErrorDraws = 50;  // of each chain, of errors on a perfect form
-constexpr std::size_t kReadDraws = 7;    // of each chain, of inspections of a drawn form
+constexpr std::size_t kErrorDraws = 50;  // per chain, of errors on a perfect form
+constexpr std::size_t kReadDraws = 7;    // per chain, of inspections of a drawn form
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void in_parallel(int threads, std::size_t count,
   if (parts > 0) work(0, count / parts);
 }
 
-/// What one chain works with.
+/// Working state of one chain.
 struct FormChains::Chain {
   Chain(const FormCloud& cloud, const FormModel& model, const std::optional<WholeExtent>& extent,
         std::uint64_t seed, std::uint64_t number)
@@ -45,8 +45,8 @@ struct FormChains::Chain {
   }
 
   FormChain forms;
-  core::KeyedNoise noise;   ///< Of values.
-  core::KeyedNoise errors;  ///< Of simulated inspections.
+  core::KeyedNoise noise;   ///< For values.
+  core::KeyedNoise errors;  ///< For simulated inspections.
   FormValue value;
   std::optional<WholeSurface> whole;
   Eigen::VectorXd changed = {};
@@ -81,7 +81,7 @@ void FormChains::run(std::size_t each, std::size_t budget) {
   });
 }
 
-/// By how much each influence alone changes the value of a drawn form.
+/// Change of the value of a drawn form by each influence alone.
 void FormChains::change(Chain& chain, const FormDraw& draw, double value, ChainValues& out) const {
   for (std::size_t influence = 0; influence < out.changes_mm.size(); ++influence) {
     if (!errors_.acts(influence)) continue;
@@ -95,8 +95,8 @@ void FormChains::draw_one(Chain& chain, ChainValues& out, std::size_t budget) co
   const std::size_t done = out.sampled_mm.size();
   const FormDraw& draw = chain.forms.next();
   const double value = chain.value.of(draw.form_mm);
-  // Where several spots compete for the extreme, noise has raised their maximum already. Raising it
-  // once more and reflecting takes that back to first order (B. Efron, R. Tibshirani 1993).
+  // Where several spots compete for the extreme, noise has already raised their maximum. Raising it
+  // once more and reflecting removes that to first order (B. Efron, R. Tibshirani 1993).
   double raise = 0.0;
   if (!draw.spots.empty()) {
     chain.changed = draw.form_mm;

@@ -16,47 +16,47 @@
 
 namespace rondure::evaluation {
 
-/// Splits 0..count among threads: work(first, last). Threads that cannot be had are done by the
-/// calling one.
+/// Splits 0..count among threads: work(first, last). The calling thread does the work of threads
+/// that cannot be started.
 void in_parallel(int threads, std::size_t count,
                  const std::function<void(std::size_t, std::size_t)>& work);
 
-/// The surface that a statement about the whole is made of.
+/// The surface that a statement about the whole surface covers.
 struct WholeExtent {
-  double low_mm = 0.0;  ///< Along the axis, in the heights of the cloud.
+  double low_mm = 0.0;  ///< Lower end along the axis, in the heights of the cloud.
   double high_mm = 0.0;
   bool declared = false;  ///< Its form is a declared spectrum.
 };
 
-/// What the draws of one chain gave.
+/// Results of the draws of one chain.
 struct ChainValues {
   std::vector<double> sampled_mm;  ///< (a)
-  std::vector<double> whole_mm;    ///< (b); none where nobody asked.
-  /// By how much each influence alone changes the value of a drawn form; one list an influence,
-  /// empty for those that do not act.
+  std::vector<double> whole_mm;    ///< (b); empty where it was not asked for.
+  /// Change of the value of a drawn form by each influence alone; one list per influence, empty for
+  /// those without effect.
   std::vector<std::vector<double>> changes_mm;
-  std::vector<double> of_errors_mm;  ///< Value of errors alone, on a perfect form.
-  std::vector<double> read_mm;       ///< What an inspection of the drawn forms would read.
+  std::vector<double> of_errors_mm;  ///< Value of the errors alone, on a perfect form.
+  std::vector<double> read_mm;       ///< Value of simulated inspections of the drawn forms.
   double unresolved_mm = 0.0;        ///< Sums over the draws.
   double noise_mm = 0.0;
   double groups = 0.0;
   double spots = 0.0;
-  double scatter_1 = 0.0;        ///< Over draws without unresolved form, which are
-  int resolved = 0;              ///< so many.
-  std::vector<int> spot_counts;  ///< Of each point, the draws in which it is a spot.
+  double scatter_1 = 0.0;        ///< Sum over the draws without unresolved form.
+  int resolved = 0;              ///< Number of those draws.
+  std::vector<int> spot_counts;  ///< For each point, the number of draws in which it is a spot.
 };
 
-/// The draws of one measurement, as chains. A chain is a pure function of (seed, its number), so
-/// that the number of threads changes nothing.
+/// The draws of one measurement, as chains. A chain is a pure function of the seed and its number,
+/// so that the number of threads changes nothing.
 class FormChains {
  public:
-  /// Inputs as measurement_uncertainty() has checked them; they must outlive the chains.
+  /// Takes inputs that measurement_uncertainty() has checked; they must outlive the chains.
   FormChains(const FormCloud& cloud, const ErrorModel& errors, const FormModel& model,
              const std::optional<WholeExtent>& whole, std::uint64_t seed, int chains, int threads);
   ~FormChains();
 
-  /// Draws `each` more in every chain; of each chain's first `budget` also what every influence
-  /// alone changes.
+  /// Adds `each` draws to every chain; for the first `budget` draws of a chain also the change by
+  /// every influence alone.
   void run(std::size_t each, std::size_t budget);
 
   [[nodiscard]] const std::vector<ChainValues>& values() const { return values_; }

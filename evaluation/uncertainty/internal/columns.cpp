@@ -17,14 +17,14 @@ using Eigen::VectorXd;
 constexpr int kMostResolved = 150;    // undulations of a closed section
 constexpr int kMostHalfWaves = 300;   // along an arc
 constexpr int kMostAlong = 3;         // degree
-constexpr int kMostAlongLow = 12;     // of 0 and 1 undulations: each layer may have its own size
+constexpr int kMostAlongLow = 12;     // for 0 and 1 undulations: each layer may have its own size
 constexpr int kMostScattered = 5;     // where there are no layers
-constexpr double kLeastLeft = 1e-3;   // of a column beside place, size and tilt
+constexpr double kLeastLeft = 1e-3;   // norm of a column after removing position, size and tilt
 constexpr double kLeastOnArc = 0.05;  // cosines of an arc are nearly motions
 
 using Rows = std::vector<std::size_t>;
 
-/// Rows in layers by height; none where the heights show no layers.
+/// Rows in layers by height; empty where the heights show no layers.
 std::vector<Rows> height_layers(const FormCloud& cloud) {
   Rows order(cloud.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -36,7 +36,7 @@ std::vector<Rows> height_layers(const FormCloud& cloud) {
   for (std::size_t i = 1; i < order.size(); ++i) {
     largest = std::max(largest, height(order[i]) - height(order[i - 1]));
   }
-  // A part that stands askew spreads the heights of a layer, by less than layers lie apart.
+  // A tilted part spreads the heights of a layer, by less than the spacing of the layers.
   std::vector<Rows> layers(1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i > 0 && height(order[i]) - height(order[i - 1]) > 0.25 * largest) layers.emplace_back();
@@ -71,7 +71,7 @@ std::pair<double, double> largest_gap(const std::vector<double>& angles) {
   return {gap, end};
 }
 
-/// Turns that points make on their way along the axis; 0 where they make no way round.
+/// Turns that the points make along the axis; 0 where they do not go round it.
 double turns_of(const FormCloud& cloud) {
   Rows order(cloud.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -98,8 +98,8 @@ bool even_steps(const std::vector<double>& angles) {
   return true;
 }
 
-/// The largest gap that does not open a section: a missing touch between steps that need not be
-/// even, and, of a dense scan, the few that drop out one beside the other.
+/// The largest gap that still counts as a closed section: a missing touch between steps that may be
+/// uneven or, in a dense scan, the few neighbouring points that drop out.
 double closed_gap(int points_per_layer) {
   const double step = core::kTwoPi / std::max(1, points_per_layer);
   return std::max(2.5 * step, std::min(5.5 * step, 10.0 * core::kDegree));
@@ -191,7 +191,7 @@ void FormColumns::lay_out(const FormCloud& cloud) {
                         (layers.size() == 1 || extent < 1e-9) &&
                         even_steps(sorted_angles(cloud, layer));
     }
-    // Passes at places of their own lie in bunches: together they resolve what one of them does.
+    // Passes at different places form bunches: together they resolve what one of them does.
     layout_.points_per_layer = std::max(1, static_cast<int>(least) / std::max(1, cloud.passes));
   } else {
     layout_.layered = false;
@@ -248,8 +248,8 @@ VectorXd FormColumns::heights_1(const VectorXd& heights_mm) const {
   return (heights_mm.array() - middle_mm_) / reach_mm_;
 }
 
-/// Polynomials orthonormal over the points (recurrence of Stieltjes): Legendre's are not, at four
-/// heights.
+/// Polynomials orthonormal over the points (recurrence of Stieltjes): Legendre polynomials are not
+/// orthonormal at, say, four heights.
 void FormColumns::make_polynomials(const VectorXd& q, int degrees) {
   recurrence_ = MatrixXd::Zero(degrees, 2);
   VectorXd before = VectorXd::Zero(q.size());
@@ -259,7 +259,7 @@ void FormColumns::make_polynomials(const VectorXd& q, int degrees) {
     const double shift = q.cwiseProduct(now).dot(now) / now.squaredNorm();
     VectorXd next = (q.array() - shift).matrix().cwiseProduct(now) - scale * before;
     const double size = std::sqrt(next.squaredNorm() / static_cast<double>(q.size()));
-    if (size < 1e-6) {  // no more heights than that
+    if (size < 1e-6) {  // no further distinct heights
       recurrence_.conservativeResize(d, 2);
       break;
     }
@@ -310,8 +310,8 @@ void FormColumns::visit(const std::function<void(std::size_t, const VectorXd&)>&
   }
 }
 
-/// Makes columns free of place, size and tilt, leaves out those of which nothing remains, and
-/// groups the others.
+/// Removes position, size and tilt from the columns, drops those with nothing left, and groups the
+/// others.
 void FormColumns::project(std::vector<Column> wanted) {
   const double n = static_cast<double>(rigid_.rows());
   const double least = layout_.arc_rad ? kLeastOnArc : kLeastLeft;
@@ -401,7 +401,8 @@ FormGrid FormColumns::grid(int undulations, int angles, const VectorXd& heights_
 }
 
 MatrixXd FormColumns::on_grid(const VectorXd& coefficients, const FormGrid& grid) const {
-  // Of each height the cosines and sines; place, size and tilt among those of 0 and 1 undulations.
+  // For each height the cosines and sines; position, size and tilt are among those of 0 and 1
+  // undulations.
   MatrixXd cosines = MatrixXd::Zero(grid.cosines.cols(), grid.heights_mm.size());
   MatrixXd sines = cosines;
   VectorXd moved = VectorXd::Zero(rigid_.cols());

@@ -13,47 +13,48 @@
 
 namespace rondure::evaluation {
 
-/// Columns that come and go together: cos and sin of one undulation times one degree.
+/// Columns that enter or leave the model together: cos and sin of one undulation times one degree.
 struct FormGroup {
   double undulations = 0.0;           ///< On an arc half waves, counted as undulations of a turn.
-  int harmonic = 0;                   ///< Undulations, on an arc half waves along it.
-  int degree = 0;                     ///< Along the axis.
-  std::vector<Eigen::Index> columns;  ///< Into all columns; one or two.
-  /// Octave of the undulations and class of the degree (0; 1 and 2; 3 and more): groups alike have
-  /// a size in common.
+  int harmonic = 0;                   ///< Undulations; on an arc, half waves along it.
+  int degree = 0;                     ///< Degree along the axis.
+  std::vector<Eigen::Index> columns;  ///< Column indices; one or two.
+  /// Octave of the undulations and class of the degree (0; 1 and 2; 3 and more): groups of one
+  /// class share a common size.
   int octave = 0;
   int degree_class = 0;
 };
 
-/// How the points of a cloud lie, as far as it says which form they show.
+/// Layout of the points of a cloud, as far as it determines which form they resolve.
 struct PointLayout {
   int layers = 1;
-  int points_per_layer = 0;  ///< Of the layer with the fewest, in one pass; of a helix, a turn.
-  bool layered = true;       ///< false: a helix, or scattered.
-  bool regular = false;      ///< Even steps, all layers alike: the columns are orthogonal.
-  std::optional<double> arc_rad;  ///< Of points that do not go round.
+  /// Of the layer with the fewest points, in one pass; of a helix, per turn.
+  int points_per_layer = 0;
+  bool layered = true;            ///< false: a helix, or scattered.
+  bool regular = false;           ///< Even steps, all layers alike: the columns are orthogonal.
+  std::optional<double> arc_rad;  ///< Angle covered, for points that do not close a turn.
 };
 
-/// Places of a whole surface, in even steps round it, with what the columns need there.
+/// Places of a whole surface, in even angular steps, with the factors that the columns need there.
 struct FormGrid {
-  int undulations = 0;  ///< The most that it is fine enough for.
+  int undulations = 0;  ///< The most undulations that the grid resolves.
   Eigen::VectorXd angles_rad;
   Eigen::VectorXd heights_mm;
-  Eigen::VectorXd heights_1;  ///< As the columns count them.
-  Eigen::MatrixXd cosines;    ///< One row an angle, one column an undulation.
+  Eigen::VectorXd heights_1;  ///< Heights, normalised as in the columns.
+  Eigen::MatrixXd cosines;    ///< One row per angle, one column per undulation.
   Eigen::MatrixXd sines;
-  Eigen::MatrixXd along;  ///< One row a height, one column a degree.
+  Eigen::MatrixXd along;  ///< One row per height, one column per degree.
 };
 
 /// The columns of a form model at the points of a cloud: undulations times polynomials along the
-/// axis, without place, size and tilt. Values are made anew where they are needed: 5000 points have
-/// 1200 columns.
+/// axis, without position, size and tilt. Values are recomputed where they are needed: 5000 points
+/// have 1200 columns.
 class FormColumns {
  public:
-  /// All that the points can tell apart, orthonormal over them.
+  /// All forms that the points can distinguish, orthonormal over them.
   FormColumns(const FormCloud& cloud, const Eigen::VectorXd& root_weights);
-  /// The terms of a declared spectrum, with the motions of the part still in them: what looks like
-  /// size at few points is form between them.
+  /// The terms of a declared spectrum, including the motions of the part: a form that equals a
+  /// change of size at few points is form between them.
   FormColumns(const FormCloud& cloud, const Eigen::VectorXd& root_weights,
               const FormSpectrum& spectrum);
 
@@ -63,18 +64,18 @@ class FormColumns {
   [[nodiscard]] int most_undulations() const { return most_undulations_; }
   [[nodiscard]] int most_degree() const { return most_degree_; }
 
-  /// Place, size and tilt: n x 5 (3 for a section), orthogonal, mean square 1.
+  /// Position, size and tilt: n x 5 (3 for a section), orthogonal, mean square 1.
   [[nodiscard]] const Eigen::MatrixXd& rigid() const { return rigid_; }
 
-  /// X^T values, of all columns.
+  /// X^T values, for all columns.
   [[nodiscard]] Eigen::VectorXd products(const Eigen::VectorXd& values) const;
   /// Columns of some groups, in their order.
   [[nodiscard]] Eigen::MatrixXd matrix(std::span<const std::size_t> groups) const;
 
-  /// A grid of a full turn, for forms of at most so many undulations.
+  /// A grid of a full turn, for forms with at most `undulations`.
   [[nodiscard]] FormGrid grid(int undulations, int angles, const Eigen::VectorXd& heights_mm) const;
-  /// Values of a form on it: one row an angle, one column a height.
-  /// @param coefficients  Of all columns; those of more undulations than the grid has are 0.
+  /// Values of a form on a grid: one row per angle, one column per height.
+  /// @param coefficients  Of all columns; those with more undulations than the grid has must be 0.
   [[nodiscard]] Eigen::MatrixXd on_grid(const Eigen::VectorXd& coefficients,
                                         const FormGrid& grid) const;
 
@@ -84,7 +85,7 @@ class FormColumns {
     int degree = 0;
     bool sine = false;
     double scale = 1.0;
-    Eigen::VectorXd rigid;  ///< Its part in rigid_; empty where motions stay.
+    Eigen::VectorXd rigid;  ///< Its component in rigid_; empty where motions stay.
   };
 
   void lay_out(const FormCloud& cloud);
@@ -96,7 +97,7 @@ class FormColumns {
   void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
 
   PointLayout layout_;
-  Eigen::VectorXd angle_;  ///< On an arc its share, times pi.
+  Eigen::VectorXd angle_;  ///< On an arc the fraction of it, times pi.
   Eigen::VectorXd height_mm_;
   Eigen::VectorXd root_weight_;
   double middle_mm_ = 0.0;

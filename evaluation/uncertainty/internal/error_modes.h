@@ -13,60 +13,60 @@
 
 namespace rondure::evaluation {
 
-/// How the random number of a mode is distributed; its variance is always 1.
+/// Distribution of the random number of a mode; its variance is always 1.
 enum class Distribution {
   kNormal,
   kRectangular,
   kPhase,  ///< sqrt(2) cos psi and sqrt(2) sin psi, psi uniform: two columns.
 };
 
-/// One systematic error: one draw an inspection moves all points by its column.
+/// One systematic error: one draw per inspection moves all points by its column.
 struct ErrorMode {
-  std::size_t influence = 0;  ///< Into ErrorModel::names.
+  std::size_t influence = 0;  ///< Index into ErrorModel::names.
   Distribution distribution = Distribution::kNormal;
-  Eigen::Index column = 0;  ///< The first of one, or of two.
+  Eigen::Index column = 0;  ///< The first of one or two columns.
 };
 
-/// An error that each point has for itself.
+/// An independent error of each point.
 struct PointError {
   std::size_t influence = 0;
   Distribution distribution = Distribution::kNormal;
-  Eigen::VectorXd sigma_mm;         ///< Standard deviation, one a point.
-  double degrees_of_freedom = 0.0;  ///< Behind it; 0: known.
-  /// Likeness of each point's error to that of the point before; empty: each point anew.
+  Eigen::VectorXd sigma_mm;         ///< Standard deviation, one per point.
+  double degrees_of_freedom = 0.0;  ///< Of `sigma_mm`; 0: known exactly.
+  /// Correlation of each point's error with that of the previous point; empty: independent.
   Eigen::VectorXd likeness_1 = {};
 };
 
-/// What the declared influences do to each point, along its normal, to first order.
+/// Effect of the declared influences on each point, along its normal, to first order.
 struct DeclaredModes {
-  std::vector<std::string> names;  ///< Of the influences declared.
+  std::vector<std::string> names;  ///< Names of the declared influences.
   std::vector<ErrorMode> modes;
   std::vector<PointError> point_errors;
-  std::vector<Eigen::VectorXd> columns;  ///< Of the modes [mm].
+  std::vector<Eigen::VectorXd> columns;  ///< Columns of the modes [mm].
 };
 
-/// Every number declared, as modes; motions of the whole part still in them.
+/// Every declared number as a mode, including motions of the whole part.
 [[nodiscard]] DeclaredModes declared_modes(const FormCloud& cloud, const Influences& influences);
 
 /// The declared influences as they act on the deviations of a cloud, to first order: along the
-/// normals, without what only moves or resizes the part as a whole.
+/// normals, without motions or a change of size of the whole part.
 class ErrorModel {
  public:
-  /// @param influences  As check_influences() accepts them.
+  /// @param influences  As accepted by check_influences().
   ErrorModel(const FormCloud& cloud, const Influences& influences);
 
-  /// Names of the influences declared, also of those that move no form.
+  /// Names of the declared influences, including those that change no form.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// Systematic errors, n x k, unit variance each.
   [[nodiscard]] const Eigen::MatrixXd& columns() const { return columns_; }
-  /// Variance of the errors that each point has for itself [mm^2].
+  /// Variance of the independent errors of each point [mm^2].
   [[nodiscard]] const Eigen::VectorXd& point_variance_mm2() const { return point_variance_; }
-  /// Degrees of freedom of it (Welch and Satterthwaite); 0: known.
+  /// Degrees of freedom of that variance (Welch and Satterthwaite); 0: known exactly.
   [[nodiscard]] double degrees_of_freedom() const { return degrees_of_freedom_; }
-  /// Way over which the errors of neighbours are alike [mm]; 0: each point anew.
+  /// Path length over which the errors of neighbours correlate [mm]; 0: independent points.
   [[nodiscard]] double correlation_mm() const { return correlation_mm_; }
 
-  /// Whether an influence moves any form: some were declared as zero, some move the part as a
+  /// Whether an influence changes any form: some were declared as zero, some move the part as a
   /// whole.
   [[nodiscard]] bool acts(std::size_t influence) const;
 

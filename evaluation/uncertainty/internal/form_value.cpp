@@ -11,7 +11,7 @@ namespace {
 
 using record::Reference;
 
-/// Of a one-sided reference.
+/// Zone weights of a one-sided reference.
 fit::ZoneWeights weights_of(Reference reference) {
   return reference == Reference::kMinimumCircumscribed ? fit::kMinimumCircumscribed
                                                        : fit::kMaximumInscribed;
@@ -19,7 +19,7 @@ fit::ZoneWeights weights_of(Reference reference) {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Where trials about a one-sided cylinder start, in the frame of the cloud.
+/// Start of trials about a one-sided cylinder, in the frame of the cloud.
 fit::Axis start_of(const FormCloud& cloud, fit::CylinderZoneFitter& fitter) {
   const Reference reference = cloud.reference;
   if (reference == Reference::kMinimumZone || reference == Reference::kLeastSquares) return {};

@@ -11,18 +11,18 @@
 
 namespace rondure::evaluation {
 
-/// The form value of given places with varying deviations, about the reference of a cloud, without
-/// proof: for loops. Minimum zones take no memory after the first call. Searches start where the
-/// one before ended; those for one-sided cylinders, of which few points have several close to one
-/// another, at the best one of the deviations of the cloud. An object gives the same bits for the
-/// same calls in the same order.
+/// The form value at given places with varying deviations, about the reference of a cloud, without
+/// proof: for loops. Minimum zones allocate no memory after the first call. A search starts where
+/// the previous one ended; one for a one-sided cylinder, which has several close optima for few
+/// points, at the best one of the deviations of the cloud. The same calls in the same order give
+/// the same bits.
 class FormValue {
  public:
-  /// @param cloud   Kind, reference and radius are taken of it, the places are not.
+  /// @param cloud   Gives kind, reference and radius; its places are not used.
   FormValue(const FormCloud& cloud, std::span<const FormPoint> places);
 
   /// The value [mm] of radius + deviation at each place: radial peak to valley about the reference;
-  /// NaN where there is no such reference.
+  /// NaN where that reference does not exist.
   [[nodiscard]] double of(const Eigen::VectorXd& deviations_mm);
 
  private:
@@ -31,8 +31,8 @@ class FormValue {
 
   FormKind kind_;
   record::Reference reference_;
-  fit::Axis start_ = {};                              ///< Of searches for a cylinder.
-  Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< Of searches for a circle.
+  fit::Axis start_ = {};                              ///< Start of searches for a cylinder.
+  Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< Start of searches for a circle.
   double radius_;
   std::vector<Eigen::Vector3d> directions_;  ///< cos, sin, height.
   std::vector<Eigen::Vector2d> plane_;

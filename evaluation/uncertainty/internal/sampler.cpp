@@ -20,17 +20,18 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::uint64_t kChainStream = 11;
-constexpr double kLeastSigma_mm = 1e-8;  // below this noise is none; keeps variances positive
-constexpr int kWarmUp = 60;              // sweeps before the first draw
-constexpr int kSpotSweep = 3;            // from here on spots may go
+// noise below this counts as none; keeps variances positive
+constexpr double kLeastSigma_mm = 1e-8;
+constexpr int kWarmUp = 60;    // sweeps before the first draw
+constexpr int kSpotSweep = 3;  // from this sweep on spots may be removed
 constexpr int kStartRounds = 80;
 constexpr double kSpotCandidate = 3.3;  // standard deviations
 constexpr double kNoUnresolved = 0.35;  // probability that all form is resolved
 constexpr int kVariances = 48;          // steps of the unresolved variance
-constexpr int kNoiseSteps = 15;         // of a noise that is not known exactly
-constexpr double kOverlap = 0.3;        // of two columns, beyond which they are drawn together
+constexpr int kNoiseSteps = 15;         // for noise that is not known exactly
+constexpr double kOverlap = 0.3;        // of two columns; above it they are drawn together
 constexpr double kModeOverlap = 0.05;   // of a column with a systematic error, squared
-constexpr double kSpectrumRest = 0.05;  // no surface is made of a few declared terms alone
+constexpr double kSpectrumRest = 0.05;  // no surface consists of a few declared terms alone
 constexpr double kMostValues = 4e7;     // of the matrix of columns: 320 MB
 
 VectorXd point_variances(const ErrorModel& errors) {
@@ -56,7 +57,7 @@ void free_of(const MatrixXd& rigid, VectorXd& values) {
   values -= rigid * (rigid.transpose() * values / static_cast<double>(values.size()));
 }
 
-/// Upper end of the sizes of a band.
+/// Upper limit of the sizes of a band.
 double most_size(double least, double power) { return std::max(4.0 * power, 4.0 * least); }
 
 }  // namespace
@@ -156,8 +157,8 @@ void FormModel::weigh(const FormCloud& cloud, const ErrorModel& errors) {
   }
 }
 
-/// A robust start: takes out low undulations first, then whatever group or point stands out most.
-/// (A burr lends every column some energy, and draws leave a false start slowly.)
+/// A robust start: first removes low undulations, then always the group or point that stands out
+/// most. (A burr gives every column some energy, and draws leave a false start slowly.)
 void FormModel::start() {
   const double n = static_cast<double>(y_.size());
   imputed_ = y_;
@@ -180,7 +181,7 @@ void FormModel::start() {
       if (!low && !(energy > std::max(20.0 * w, top))) continue;
       if (!columns_.layout().arc_rad) {
         taken.push_back(g);
-      } else if (energy > strongest) {  // nearly dependent columns: one a round
+      } else if (energy > strongest) {  // nearly dependent columns: one per round
         taken = {g};
         strongest = energy;
       }
@@ -217,7 +218,7 @@ void FormModel::start() {
   }
 }
 
-/// Which groups take part: low undulations first, then by their energy.
+/// Selects the groups that take part: low undulations first, then by energy.
 void FormModel::screen() {
   std::vector<std::size_t> order(columns_.groups().size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -270,7 +271,7 @@ void FormModel::assemble() {
   gram_.triangularView<Eigen::StrictlyUpper>() = gram_.transpose();
 }
 
-/// Noise that neighbours share: what it gives to each undulation beyond the rest.
+/// Noise that neighbours share: its additional contribution to each undulation.
 void FormModel::correlate(const FormCloud& cloud, const ErrorModel& errors) {
   const double length = errors.correlation_mm();
   const PointLayout& layout = columns_.layout();
@@ -324,7 +325,7 @@ void FormModel::find_bands() {
   for (const FormGroup& group : columns_.groups()) ++bands_[band_of(group)].groups;
   for (KeptGroup& group : groups_) {
     group.band = band_of(columns_.groups()[group.source]);
-    // A form that a systematic error looks like: else all of it would be taken for the error.
+    // A form similar to a systematic error: otherwise all of it would be attributed to the error.
     double shared = 0.0;
     bool like = false;
     for (Index j = group.first; j < group.first + group.width; ++j) {
@@ -334,7 +335,7 @@ void FormModel::find_bands() {
         shared += product * product / (n * n) / group.width;
       }
     }
-    // An error that vanishes in the noise of the coefficient takes no form away.
+    // An error below the noise of the coefficient removes no form.
     if (like && shared > noise_mm2_ / n) {
       --bands_[group.band].groups;
       group.band = bands_.size();
@@ -381,7 +382,7 @@ void FormModel::first_state() {
     on_[g] = bands_[groups_[g].band].always ||
              energy_[static_cast<Index>(groups_[g].source)] > 6.0 * noise_mm2_;
   }
-  // Least squares of what is there; a little stiffness keeps overlapping columns apart.
+  // Least squares of the groups present; a small ridge term separates overlapping columns.
   std::vector<Index> used;
   for (Index k = 0; k < columns_.rigid().cols(); ++k) used.push_back(k);
   for (std::size_t g = 0; g < groups_.size() && !declared_; ++g) {
@@ -443,7 +444,7 @@ void FormChain::move(Index column, double by) {
   if (!model_.orthogonal()) pull_ -= by * model_.gram_.col(column);
 }
 
-/// X^T of what the other coefficients leave.
+/// X^T times the residual of the other coefficients.
 double FormChain::pull(Index column) const {
   if (model_.orthogonal()) return pull_[column];
   return pull_[column] + model_.square_[column] * coefficients_[column];
@@ -475,13 +476,13 @@ double FormChain::gamma(double shape) {
   }
 }
 
-/// Of a declared spectrum: what it does not hold.
+/// Lower limit of the variance that a declared spectrum does not contain.
 double FormChain::floor_mm2() const {
   if (!model_.declared_) return 0.0;
   return kSpectrumRest * kSpectrumRest * size_mm2_.front() * model_.spectrum_power_;
 }
 
-/// Variance of unresolved form, and of the noise where it is not known exactly.
+/// Draws the variance of unresolved form, and of the noise where it is not known exactly.
 void FormChain::draw_variances() {
   double squares = 0.0;
   double count = 0.0;
@@ -528,7 +529,7 @@ void FormChain::draw_spots() {
   }
 }
 
-/// Place, size, tilt: nothing is known of them beforehand. Systematic errors: their declared size.
+/// Draws position, size and tilt with a flat prior; systematic errors with their declared size.
 void FormChain::draw_rigid() {
   for (Index j = 0; j < model_.base_; ++j) {
     const double known = j < model_.columns_.rigid().cols() ? 0.0 : 1.0;
@@ -569,7 +570,7 @@ void FormChain::draw_group(std::size_t g) {
   }
 }
 
-/// Columns that overlap, all at once.
+/// Draws the columns that overlap, all at once.
 void FormChain::draw_together() {
   std::vector<Index> used;
   for (Index j = 0; j < model_.base_; ++j) {

@@ -13,25 +13,25 @@
 
 namespace rondure::evaluation {
 
-/// Logarithm of the odds that a point stands out by itself, of what the model leaves of it.
-/// @param per_point  Spots expected of a point.
+/// Logarithm of the odds that a point is a spot, from its residual of the model.
+/// @param per_point  Expected number of spots per point.
 [[nodiscard]] double spot_log_odds(double rest_mm, double variance_mm2, double per_point);
 
-/// Logarithm of how much more likely the data are with a column of normal size than without it.
-/// @param product  Column times what the other columns leave of the data.
+/// Logarithm of the likelihood ratio of the data with a column of normal size and without it.
+/// @param product  Column times the residual of the other columns.
 /// @param square   Column times itself.
 [[nodiscard]] double column_evidence(double product, double square, double variance_mm2,
                                      double size_mm2);
 
-/// What the two variances of a residual are drawn from.
+/// Inputs for drawing the two variances of a residual.
 struct VarianceTerms {
-  double stated_mm2 = 0.0;          ///< Noise, as declared, > 0.
-  double degrees_of_freedom = 0.0;  ///< Behind it; 0: known.
+  double stated_mm2 = 0.0;          ///< Declared noise, > 0.
+  double degrees_of_freedom = 0.0;  ///< Of the declared noise; 0: known exactly.
   double power_mm2 = 0.0;           ///< Mean square of the deviations.
-  double floor_mm2 = 0.0;           ///< Unresolved form is not less.
+  double floor_mm2 = 0.0;           ///< Least variance of unresolved form.
 };
 
-/// One pair of variances; the unresolved one is spread evenly over a step of its logarithm.
+/// One pair of variances; the unresolved one is uniform over a step of its logarithm.
 struct VarianceOdd {
   double noise_mm2 = 0.0;
   double unresolved_mm2 = 0.0;
@@ -40,44 +40,44 @@ struct VarianceOdd {
 };
 using VarianceOdds = std::vector<VarianceOdd>;
 
-/// @param squares_mm2  Sum of the squares of the residual, of `count` points.
+/// @param squares_mm2  Sum of the squares of the residuals of `count` points.
 [[nodiscard]] VarianceOdds variance_odds(const VarianceTerms& terms, double squares_mm2,
                                          double count);
 
-/// What is learnt together: how large the columns of a band are, and how many are there at all.
+/// Learnt jointly for a band: the size of its columns, and how many of them are present.
 struct FormBand {
   double rareness = 1.0;  ///< alpha of pi ~ Beta(alpha, 1).
-  int groups = 0;         ///< Also those that were left out: they count as absent.
+  int groups = 0;         ///< Including those that were left out: they count as absent.
   int kept = 0;
   double extra_mm2 = 0.0;  ///< Mean over the kept groups of KeptGroup::extra_mm2.
-  bool always = false;     ///< Its groups are there in every draw.
-  double least_mm2 = 0.0;  ///< The size is not below this.
+  bool always = false;     ///< Its groups are present in every draw.
+  double least_mm2 = 0.0;  ///< Lower bound of the size.
 };
 
 /// A group that takes part in the draws.
 struct KeptGroup {
-  std::size_t source = 0;  ///< Into FormColumns::groups().
-  Eigen::Index first = 0;  ///< Into the columns of the model.
+  std::size_t source = 0;  ///< Index into FormColumns::groups().
+  Eigen::Index first = 0;  ///< Index of the first column in the model.
   int width = 1;
   std::size_t band = 0;
   double extra_mm2 = 0.0;  ///< Variance that correlated noise gives its coefficients.
 };
 
-/// The form model of docs/uncertainty.md on one cloud: what stands before the first draw. All
-/// values are weighted, so that every point has the same variance.
+/// The form model of docs/uncertainty.md on one cloud: the state before the first draw. All values
+/// are weighted, so that every point has the same variance.
 class FormModel {
  public:
-  /// @param spectrum  Declared terms, in place of what the cloud shows by itself; or none.
-  /// @param expected_spots  Of a part, > 0.
+  /// @param spectrum  Declared terms, which replace those that the cloud shows; or none.
+  /// @param expected_spots  Expected number of spots on a part, > 0.
   FormModel(const FormCloud& cloud, const ErrorModel& errors, const FormSpectrum* spectrum,
             double expected_spots);
 
   [[nodiscard]] const FormColumns& columns() const { return columns_; }
-  /// Mean square of what X^T of the deviations is, of each group, over their number [mm^2].
+  /// For each group, the mean square of X^T deviations divided by their number [mm^2].
   [[nodiscard]] const Eigen::VectorXd& energy_mm2() const { return energy_; }
-  /// Points that a robust start leaves out, as a share; beyond a fifth there is no smooth form.
+  /// Fraction of points that a robust start leaves out; above a fifth there is no smooth form.
   [[nodiscard]] double flagged_share() const;
-  /// Standard deviation of what the start leaves unexplained [mm].
+  /// Standard deviation of the residual of the start [mm].
   [[nodiscard]] double residual_mm() const { return residual_mm_; }
   [[nodiscard]] std::size_t points() const { return static_cast<std::size_t>(y_.size()); }
 
@@ -95,26 +95,26 @@ class FormModel {
   [[nodiscard]] bool orthogonal() const { return gram_.size() == 0; }
 
   Eigen::VectorXd root_weight_;
-  double noise_mm2_ = 0.0;     ///< Of a point, mean.
-  double residual_mm2_ = 0.0;  ///< The part of it that neighbours do not share.
+  double noise_mm2_ = 0.0;     ///< Mean variance of a point.
+  double residual_mm2_ = 0.0;  ///< The part of noise_mm2_ that neighbours do not share.
   double freedom_ = 0.0;       ///< Degrees of freedom of the noise; 0: known.
   double expected_spots_ = 0.5;
   FormColumns columns_;
   bool declared_ = false;
   bool absolute_ = false;
-  Eigen::VectorXd y_;        ///< Deviations, free of place, size and tilt.
-  Eigen::VectorXd imputed_;  ///< Those, as the start takes them.
+  Eigen::VectorXd y_;        ///< Deviations, free of position, size and tilt.
+  Eigen::VectorXd imputed_;  ///< y_, as the start imputes it.
   std::vector<std::size_t> flagged_;
   double residual_mm_ = 0.0;
   double power_mm2_ = 0.0;  ///< Mean square of the imputed deviations.
-  Eigen::VectorXd energy_;  ///< Of each group.
+  Eigen::VectorXd energy_;  ///< Per group.
   std::vector<std::size_t> kept_sources_;
   std::vector<KeptGroup> groups_;
   std::vector<FormBand> bands_;
   Eigen::MatrixXd systematic_;  ///< Declared modes.
   Eigen::MatrixXd all_;         ///< rigid, systematic, form: one column each.
   Eigen::Index base_ = 0;       ///< First column of form.
-  Eigen::VectorXd square_;      ///< Of each column, summed.
+  Eigen::VectorXd square_;      ///< Sum of squares of each column.
   Eigen::MatrixXd gram_;        ///< Empty where the columns are orthogonal.
   bool joint_all_ = false;
   std::vector<bool> joint_;      ///< Columns that are drawn together.
@@ -125,23 +125,23 @@ class FormModel {
   std::vector<double> size_mm2_;
 };
 
-/// One form that may stand behind the deviations.
+/// One form that is compatible with the deviations.
 struct FormDraw {
-  Eigen::VectorXd form_mm;         ///< At the points.
-  std::vector<std::size_t> spots;  ///< Points that stand out by themselves.
-  Eigen::VectorXd coefficients;    ///< Of all columns of the model.
-  double unresolved_mm2 = 0.0;     ///< Variance of what is rougher than the columns.
+  Eigen::VectorXd form_mm;         ///< Form at the points.
+  std::vector<std::size_t> spots;  ///< Rows of the spots.
+  Eigen::VectorXd coefficients;    ///< For all columns of the model.
+  double unresolved_mm2 = 0.0;     ///< Variance of form rougher than the columns.
   double noise_mm2 = 0.0;          ///< Variance of the error of a point.
-  int groups = 0;                  ///< That are there.
-  double scatter_1 = 0.0;          ///< Of the residual, over the noise; without unresolved form.
+  int groups = 0;                  ///< Number of groups present.
+  /// Scatter of the residual relative to the noise; without unresolved form.
+  double scatter_1 = 0.0;
 };
 
-/// A chain of draws: a pure function of the model, the seed and its number.
+/// A chain of draws: a pure function of the model, the seed and the number of the chain.
 class FormChain {
  public:
   FormChain(const FormModel& model, std::uint64_t seed, std::uint64_t number);
 
-  /// The next draw.
   const FormDraw& next();
   [[nodiscard]] core::KeyedNoise& noise() { return noise_; }
 
@@ -166,19 +166,20 @@ class FormChain {
   core::KeyedNoise noise_;
   int sweeps_ = 0;
   Eigen::VectorXd coefficients_;  ///< Form and, where noise is correlated, its share of them.
-  Eigen::VectorXd form_;          ///< The form in them.
+  Eigen::VectorXd form_;          ///< The form given by the coefficients.
   std::vector<bool> on_;
   std::vector<double> size_mm2_;
   std::vector<double> share_1_;  ///< pi of each band.
   std::vector<bool> spot_;
   std::vector<std::size_t> candidates_;
   Eigen::VectorXd y_;
-  Eigen::VectorXd pull_;  ///< X^T y, less what the coefficients explain where columns overlap.
+  /// X^T y, minus the part that the coefficients explain where columns overlap.
+  Eigen::VectorXd pull_;
   Eigen::VectorXd prediction_;
   Eigen::VectorXd shape_;  ///< The form in the prediction.
   double unresolved_mm2_ = 0.0;
   double noise_mm2_ = 0.0;
-  double variance_mm2_ = 0.0;  ///< Of the residual: both.
+  double variance_mm2_ = 0.0;  ///< Variance of the residual: noise and unresolved form.
   double scatter_1_ = 0.0;
   FormDraw draw_;
 };

@@ -12,12 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kGridPerUndulation = 8;  // with parabolas a crest is found within 1 %
+constexpr int kGridPerUndulation = 8;  // parabolas then find a crest within 1 %
 constexpr int kLeastHeights = 13;
-constexpr int kUnresolvedReach = 3;  // unresolved form ends at this many times what is resolved
-constexpr int kWaves = 32;           // that stand for unresolved form
+// unresolved form ends at this multiple of the resolved undulations
+constexpr int kUnresolvedReach = 3;
+constexpr int kWaves = 32;  // number of waves that represent unresolved form
 
-/// Puts crests and troughs round each section where parabolas through three places have them.
+/// Refines crests and troughs round each section with parabolas through three places.
 void refine_crests(MatrixXd& surface) {
   const Index n = surface.rows();
   const MatrixXd raw = surface;
@@ -79,7 +80,7 @@ void WholeSurface::add_waves(const FormDraw& draw, core::KeyedNoise& noise, cons
   const int last = undulations_;
   const double amplitude_mm = std::sqrt(2.0 * draw.unresolved_mm2 / kWaves);
   for (int wave = 0; wave < kWaves; ++wave) {
-    // The inverse of the sum of 1 / k^2, as an integral.
+    // The inverse of the sum of 1 / k^2, approximated by an integral.
     const double u = noise.uniform();
     const double k = 1.0 / ((1.0 - u) / (first - 0.5) + u / (last + 0.5));
     const double turns =

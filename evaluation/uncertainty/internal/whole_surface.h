@@ -11,16 +11,16 @@
 
 namespace rondure::evaluation {
 
-/// The value of a whole surface: of a grid on it, crests between its places found by parabolas,
-/// together with the sampled points. Never below the value of those.
+/// The value of a whole surface: of a grid on it, with crests between its places interpolated by
+/// parabolas, together with the sampled points. Never below the value of the points.
 class WholeSurface {
  public:
   /// @param low_mm,high_mm  Ends along the axis, in the heights of the cloud.
-  /// @param declared        The form is a declared spectrum: nothing is finer than its terms.
+  /// @param declared        The form is a declared spectrum: it has nothing finer than its terms.
   WholeSurface(const FormCloud& cloud, const FormColumns& columns, double low_mm, double high_mm,
                bool declared);
 
-  /// @param noise  Form that the points do not resolve is drawn from it between them.
+  /// @param noise  Source of the random form that the points do not resolve.
   [[nodiscard]] double of(const FormDraw& draw, core::KeyedNoise& noise);
 
  private:
@@ -37,8 +37,8 @@ class WholeSurface {
   const FormColumns& columns_;
   Eigen::VectorXd heights_mm_;
   bool declared_;
-  int undulations_ = 1;        ///< The most that any form has.
-  std::vector<Level> levels_;  ///< Each finer than the one before; made when first needed.
+  int undulations_ = 1;        ///< The most undulations of any form.
+  std::vector<Level> levels_;  ///< Each finer than the previous one; created when first needed.
   Eigen::VectorXd all_mm_;
 };
 

@@ -48,7 +48,7 @@ struct JointModel::Place {
   double distance_mm;       // from the axis
   double along;             // on the axis, in half lengths
   Eigen::Matrix3d turn_PW;  // from the machine, corrected
-  Eigen::Vector3d arm_W;    // from the pivot, for the turn of the pose
+  Eigen::Vector3d arm_W;    // from the pivot, for the rotation of the pose
 };
 
 JointModel::JointModel(std::span<const JointPose> poses, const PoseJointOptions& options,

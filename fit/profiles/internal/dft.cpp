@@ -54,7 +54,7 @@ Spectrum spectrum(std::span<const double> series) {
 
 std::vector<double> series_of(std::span<const Complex> half, std::size_t count) {
   assert(half.size() == count / 2 + 1);
-  std::vector<Complex> in(half.begin(), half.end());  // is overwritten
+  std::vector<Complex> in(half.begin(), half.end());  // it is overwritten
   std::vector<double> out(count);
   const int size = static_cast<int>(count);
   execute([&] { return fftw_plan_dft_c2r_1d(size, raw(in), out.data(), kFlags); });

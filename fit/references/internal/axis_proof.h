@@ -13,7 +13,7 @@
 
 namespace rondure::fit {
 
-/// The zone of a cylinder as it will be reported, with its certificate.
+/// The zone of a cylinder in its reported form, with its certificate.
 struct AxisProof {
   Axis axis;  ///< Its point is midway between the ends of the points.
   double half_length = 0.0;
@@ -21,7 +21,7 @@ struct AxisProof {
   Certificate certificate;
   ZoneEnding ending = ZoneEnding::kLimit;
   int boxes = 0;  ///< Boxes bounded by all searches.
-  /// A better axis that was found but not taken, because it lies outside the reach.
+  /// A better axis that was found but rejected, because it is outside the reach.
   std::optional<Axis> other;
 };
 

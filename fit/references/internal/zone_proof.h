@@ -9,7 +9,7 @@
 
 namespace rondure::fit {
 
-/// A zone as it will be reported: about a place with its final digits.
+/// A zone in its reported form: about a place with its final digits.
 template <class Frame>
 struct ProvenZone {
   Extremes zone;  ///< Extreme distances of all points from the place.
@@ -30,8 +30,7 @@ template <class Frame>
 /// @return The first-order growth there.
 template <int D, class MinZone>
 double state_zone(std::span<const Eigen::Matrix<double, D, 1>> points,
-                  const Eigen::Matrix<double, D, 1>& center, double round_off,
-                  MinZone& out) {
+                  const Eigen::Matrix<double, D, 1>& center, double round_off, MinZone& out) {
   const CenterFrame<D> frame(Eigen::Matrix<double, D, 1>::Zero());
   const auto proven = prove_zone(points, center, frame, kMinimumZone, round_off);
   out.center_mm = center;

@@ -169,7 +169,7 @@ std::vector<MeasuredTurn> measured_turns(const RotaryMeasurement& m,
   return out;
 }
 
-/// Rotation about its own axis that a station has left.
+/// Residual rotation of a station about its own axis.
 struct OwnTurn {
   double angle_rad = 0.0;
   Approach approach = Approach::kUnknown;

@@ -17,8 +17,8 @@ struct StationBall {
   Eigen::Vector3d nominal_mm = Eigen::Vector3d::Zero();  ///< R(angle) p0.
   Eigen::Vector3d measured_mm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d measured_mm2 =
-      Eigen::Matrix3d::Identity();                        ///< Covariance of the measured position,
-  Eigen::Matrix3d nominal_mm2 = Eigen::Matrix3d::Zero();  ///< and of the turned reference.
+      Eigen::Matrix3d::Identity();                        ///< Covariance of the measured position.
+  Eigen::Matrix3d nominal_mm2 = Eigen::Matrix3d::Zero();  ///< Covariance of the rotated reference.
 };
 
 /// Solves a station. Leaves out balls as long as the global test fails and a better set remains.

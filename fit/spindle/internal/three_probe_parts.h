@@ -17,7 +17,7 @@ struct ProbeSamples {
   std::size_t count = 0;  ///< N: samples per revolution.
   int revolutions = 1;
   double start_rad = 0.0;  ///< theta of the first sample.
-  std::size_t rows = 0;    ///< Readings from which they come.
+  std::size_t rows = 0;    ///< Readings from which the samples come.
   bool interpolated = false;
   std::array<std::vector<double>, 3> h_mm;     ///< count * revolutions values.
   std::array<std::vector<double>, 3> mean_mm;  ///< Mean revolution.

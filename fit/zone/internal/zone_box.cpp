@@ -71,7 +71,7 @@ class BoxProof {
     Eigen::Vector2d tilt = Eigen::Vector2d::Zero();       ///< Linear in the tilt.
     double heights = 0.0;                                 ///< Half the factor of o.t.
     double squares = 0.0;                                 ///< Sum of the squared heights.
-    Eigen::Matrix2d quadratic = Eigen::Matrix2d::Zero();  ///< In the tilt.
+    Eigen::Matrix2d quadratic = Eigen::Matrix2d::Zero();  ///< Quadratic in the tilt.
     double rest = 0.0;                                    ///< Bound of third and higher orders.
   };
 

@@ -14,8 +14,8 @@ namespace rondure::plans {
 [[nodiscard]] bool drives_fixture(const Plan& plan);
 
 /// Opens the driver of such a fixture; nothing turns.
-/// @return  kMachine when it is not plugged in, is busy, may not be opened, or does not answer;
-///          kBadOption for a fixture set by hand without CellOptions::set_by_hand.
+/// @return  kMachine when the fixture is not plugged in, is busy, may not be opened, or does not
+///     answer; kBadOption for a fixture set by hand without CellOptions::set_by_hand.
 [[nodiscard]] core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(
     const FixturePlan& plan, const CellOptions& options);
 

@@ -20,7 +20,7 @@ void take(const std::optional<double>& given, double unit, double& value) {
   if (given) value = *given * unit;
 }
 
-/// "EYX" is component Y of axis X; of a rotation the letters A, B, C stand for about x, y, z.
+/// "EYX" is component Y of axis X; for a rotation the letters A, B, C mean about x, y, z.
 std::size_t component_of(const std::string& error, char first) {
   return static_cast<std::size_t>(error[1] - first);
 }

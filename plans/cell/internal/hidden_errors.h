@@ -6,8 +6,8 @@
 
 namespace rondure::plans {
 
-/// The hidden errors of the simulated machine and probe: the values in the plan, and the class in
-/// `errors` for the others.
+/// The hidden errors of the simulated machine and probe: values given in the plan, and those of the
+/// class in `errors` for the others.
 [[nodiscard]] cmm::MachineErrors machine_errors(const SimulationPlan& simulation);
 
 /// The scatter of the points of a simulated scan.

@@ -23,7 +23,7 @@ std::chrono::milliseconds milliseconds_of(double time_s) {
 }
 
 /// The directions of z and y of the ring in a pose. The axes of the fixture are those of the
-/// machine, so only the rotation counts.
+/// machine, so only the rotation matters.
 cmm::IppMachine::Alignment alignment_of(const core::Pose& pose) {
   const Eigen::Matrix3d R = fixture::body_to_machine({}, pose).linear();
   return {R.col(2), R.col(1)};
@@ -59,7 +59,7 @@ cmm::IppMachineOptions machine_options(const Plan& plan, const CellOptions& opti
   return out;
 }
 
-/// Connects, with a log if the plan run has one.
+/// Connects, with a log if the run has one.
 cmm::IppMachine::Connect connector(const MachinePlan& machine,
                                    const std::filesystem::path& wire_log) {
   wire::TcpOptions tcp;

@@ -12,8 +12,8 @@
 namespace rondure::plans {
 
 /// Two rotary axes of an I++ DME machine as a fixture. AlignPart (14 numbers) turns z and y of the
-/// ring to their directions in the commanded pose; their directions afterwards give the pose that
-/// was reached.
+/// ring to their directions in the commanded pose; the pose reached follows from their directions
+/// afterwards.
 class IppFixture final : public fixture::Fixture {
  public:
   /// @param machine  Outlives the fixture.
@@ -71,10 +71,10 @@ class IppCell final : public Cell {
 
   std::unique_ptr<cmm::IppMachine> machine_;
   std::unique_ptr<fixture::Fixture> fixture_;
-  std::vector<std::string> features_;  ///< Their ids, in the order of the plan.
-  std::int64_t feature_ = 0;           ///< Index of the measured one.
-  std::int64_t sent_feature_ = -1;     ///< Last one sent to the simulator.
-  std::int64_t turns_ = 0;             ///< Of the fixture since its homing.
+  std::vector<std::string> features_;  ///< Ids of the features, in the order of the plan.
+  std::int64_t feature_ = 0;           ///< Index of the measured feature.
+  std::int64_t sent_feature_ = -1;     ///< Last index sent to the simulator.
+  std::int64_t turns_ = 0;             ///< Turns of the fixture since its homing.
   core::Pose last_turn_;               ///< As commanded.
 };
 

@@ -27,8 +27,8 @@ struct UsedCalibration {
     const Plan& plan, std::string_view run_utc);
 
 /// The settings of the fixture in the journal, for the whole run: its nominal axes, its travel and,
-/// if there is one, the calibration itself ("fixture/calibration") and the requirements of the plan
-/// on it. Empty for a plan without a fixture.
+/// if there is one, the calibration itself ("fixture/calibration") with the plan's requirements on
+/// it. Empty for a plan without a fixture.
 [[nodiscard]] std::vector<record::Setting> fixture_settings(
     const Plan& plan, const std::optional<UsedCalibration>& calibration);
 

@@ -18,7 +18,7 @@ namespace {
 
 using core::Code;
 
-// The first earlier entry with the same id, as an index.
+// The index of the first earlier entry with the same id.
 template <class Entries>
 std::optional<std::size_t> earlier_with_same_id(const Entries& entries, std::size_t index) {
   for (std::size_t k = 0; k < index; ++k) {
@@ -169,8 +169,8 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
-/// Checks the points of touched sections for harmonics: as many as reports filter, 7 at 50
-/// undulations.
+/// Checks that touched sections have enough points for harmonics: as many as reports filter, 7 per
+/// undulation at 50 undulations.
 void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
                  const std::string& feature_where, const std::string& where, Findings& findings) {
   constexpr int kDense = 350;
@@ -193,7 +193,8 @@ void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
   }
 }
 
-/// Checks the settings of the driver "zaber", and that no other driver has settings it ignores.
+/// Checks the settings of the driver "zaber", and that no other driver has settings that it
+/// ignores.
 void check_zaber(const FixturePlan& fixture, Findings& findings) {
   constexpr std::string_view kWhere = "/fixture/zaber";
   const bool is_zaber = fixture.driver == FixturePlan::Driver::kZaber;
@@ -218,7 +219,7 @@ void check_zaber(const FixturePlan& fixture, Findings& findings) {
 }
 
 /// Checks the drivers of machine and fixture together: both are simulated here, or neither. A
-/// fixture with its own driver, or set by hand, turns with either.
+/// fixture with its own driver, or set by hand, works with either.
 void check_drivers(const Plan& plan, Findings& findings) {
   if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
       !findings.sound("/fixture/driver")) {
@@ -269,7 +270,7 @@ void check_thorlabs_axis(const ThorlabsAxisPlan& axis, const std::string& where,
   }
 }
 
-/// Checks the sections of single drivers.
+/// Checks the driver-specific sections.
 void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
   if (!findings.sound("/fixture/driver")) return;
   check_driver_section(fixture, FixturePlan::Driver::kThorlabs, "thorlabs",

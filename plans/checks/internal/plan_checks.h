@@ -13,25 +13,27 @@ namespace rondure::plans {
 /// Runs all checks below, in this order.
 void check_plan(const Plan& plan, Findings& findings);
 
-/// Travel, resolution, temperature limits, and everything that touched features need.
+/// Checks travel, resolution, temperature limits, and everything that touched features need.
 void check_equipment(const Plan& plan, Findings& findings);
 
-/// Ids, characteristics, and keys that have no effect.
+/// Checks ids, characteristics, and keys that have no effect.
 void check_feature(const Plan& plan, std::size_t index, Findings& findings);
 
-/// Nominal, layers and points of a touched feature: on the part, outside the clamp, reachable.
+/// Checks nominal, layers and points of a touched feature: on the part, outside the clamp,
+/// reachable.
 void check_sampling(const Plan& plan, std::size_t index, Findings& findings);
 
-/// Start and steps of the pose search of a touched feature against the fixture.
+/// Checks start and steps of the pose search of a touched feature against the fixture.
 void check_pose_search(const Plan& plan, std::size_t index, Findings& findings);
 
-/// The points file of a feature that has one: opened, read, counted.
+/// Checks the points file of a feature that has one: opens, reads and counts it.
 void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 
-/// Parameters and statements of the decision rule, and whether the uncertainty provides its inputs.
+/// Checks parameters and statements of the decision rule, and that the uncertainty provides its
+/// inputs.
 void check_uncertainty(const Plan& plan, Findings& findings);
 
-/// Whether a feature is touched by the machine: not read from a file, and no analysis of series.
+/// Whether a feature is touched by the machine: neither read from a file nor an analysis of series.
 [[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);
 
 }  // namespace rondure::plans

@@ -10,14 +10,14 @@
 namespace rondure::plans {
 
 /// The targets of a touched feature, if the tool can reach all of them in the start pose, with the
-/// part where the plan says it is.
+/// part at the position stated in the plan.
 /// @return kSampling or kUnreachable with the pointer of the feature's sampling; names the first
-/// unreachable target, the number of others, the cause and the remedy. Nothing moves.
+///     unreachable target, the number of others, the cause and the remedy. Nothing moves.
 [[nodiscard]] core::Result<std::vector<Target>> reachable_targets(const Plan& plan,
                                                                   std::size_t index);
 
-/// Checks across all features that the park height clears the part in every pose and the reference
-/// sphere, and that the sphere stands outside the space that the fixture sweeps.
+/// Checks for all features together that the park height clears the part in every pose and the
+/// reference sphere, and that the sphere is outside the space that the fixture sweeps.
 /// @return kUnreachable with the pointer of the key to change.
 [[nodiscard]] core::Result<void> check_room(const Plan& plan);
 

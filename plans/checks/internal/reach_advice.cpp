@@ -14,7 +14,7 @@ namespace rondure::plans {
 namespace {
 
 constexpr int kMostTried = 500;    // targets
-constexpr double kMargins = 40.0;  // tried, at most
+constexpr double kMargins = 40.0;  // most margins that are tried
 constexpr double kLongest_mm = 300.0;
 constexpr double kLengthStep_mm = 5.0;
 

@@ -8,8 +8,8 @@
 
 namespace rondure::plans {
 
-/// All targets of a feature that the tool cannot reach in a pose, before the part is located and
-/// with the part where the plan says it is. Ignores the order of touches: one check per target.
+/// All targets of a feature that the tool cannot reach in a pose, before the part is located, with
+/// the part at the position stated in the plan. Ignores the order of touches: one check per target.
 [[nodiscard]] std::vector<Unreachable> unreachable_targets(const Plan& plan,
                                                            const FeaturePlan& feature,
                                                            const core::Pose& pose);

@@ -19,17 +19,17 @@ struct Unreachable {
 /// against the scene. Machine frame. Between two targets it takes the shortest clear one of these
 /// paths: around at the travel radius; the same further out, where the shaft leans over the part;
 /// over the end of the part (in a bore: along its axis); through the sky, which is always clear
-/// when both targets are reachable. Bores are entered along their axis. Keeps references to
+/// when both targets are reachable. Bores are entered along their axis. Keeps a reference to
 /// `scene`.
 class CloudPath {
  public:
   /// @param targets   At least one.
   /// @param proposed  Order of touching, as indices; used unless the targets' own order is shorter,
-  ///                  which is checked for up to 2000 targets.
+  ///     which is checked for up to 2000 targets.
   CloudPath(const Scene& scene, const Placement& placement, const PathGeometry& geometry,
             double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed);
 
-  /// Targets without a path. @pre for the paths below: there are none.
+  /// Targets without a path. @pre for the paths below: this list is empty.
   [[nodiscard]] const std::vector<Unreachable>& unreachable() const { return unreachable_; }
   /// Indices of the targets in the order of touching.
   [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
@@ -58,7 +58,7 @@ class CloudPath {
   const Scene* scene_;
   Placement placement_;
   PathGeometry geometry_;
-  PathGeometry further_;  ///< With a path around further out, for the shaft.
+  PathGeometry further_;  ///< For a path around further out, because of the shaft.
   double sky_mm_;
   std::vector<Target> targets_;
   std::vector<Entry> entries_;

@@ -15,7 +15,7 @@ class FeaturePlanner {
   FeaturePlanner(const Plan& plan, const FeaturePlan& feature);
 
   /// @param X_WB  The clamping ring (body frame) in the machine.
-  /// @param X_BP  The part in the body frame, as best known.
+  /// @param X_BP  The best estimate of the part in the body frame.
   /// @return kUnreachable with the first unreachable target and the cause.
   [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
                                             const PathGeometry& geometry,

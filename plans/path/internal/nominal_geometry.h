@@ -34,8 +34,8 @@ namespace rondure::plans {
 /// The pose in which the measurement of a feature starts.
 [[nodiscard]] core::Pose start_pose(const FeaturePlan& feature);
 
-/// Poses sent to and read from a fixture lie on a grid of 1e-10 deg, so that a turn sent as
-/// directions in a line of I++ DME is equal to the last bit to a turn inside the program.
+/// Poses sent to and read from a fixture are on a grid of 1e-10 deg, so that a turn sent as
+/// directions in a line of I++ DME equals a turn inside the program to the last bit.
 [[nodiscard]] inline core::Pose on_grid(const core::Pose& pose) {
   return {cmm::angle_on_grid(pose.alpha_rad), cmm::angle_on_grid(pose.beta_rad)};
 }

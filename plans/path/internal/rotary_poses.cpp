@@ -71,7 +71,7 @@ core::Result<void> check_visit(const record::RotaryTask& rotary,
                   visit.balls.size(), rotary.balls.size(), sound.error().what));
 }
 
-/// Stations of an axis, rising, without 0.
+/// Stations of an axis in ascending order, without 0.
 std::vector<double> stations_rad(std::vector<double> stations_deg) {
   std::sort(stations_deg.begin(), stations_deg.end());
   std::vector<double> out;

@@ -89,7 +89,7 @@ Order improved(Order order, const TourCost& cost) {
   const CostTable table(n, cost);
   Order ring = {n};
   ring.insert(ring.end(), order.begin(), order.end());
-  // Every change shortens the ring by more than kGain_mm, so this ends; the limit is for safety.
+  // Every change shortens the ring by more than kGain_mm, so this ends; the limit is a safeguard.
   for (int round = 0; round < 100; ++round) {
     const bool turned = turn_round(ring, table);
     if (!move_pieces(ring, table) && !turned) break;

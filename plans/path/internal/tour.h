@@ -18,9 +18,9 @@ using TourCost = std::function<double(std::size_t from, std::size_t to)>;
 [[nodiscard]] double tour_length_mm(std::span<const std::size_t> order, const TourCost& cost);
 
 /// A short order of touching, as indices into the targets. Up to 7 targets: the shortest order. Up
-/// to 128: the best of layer after layer, layers in alternating sense and columns up and down, each
-/// improved by reversing (2-opt) and moving pieces of up to three stops. Beyond: without
-/// improvement. By `cost` never longer than the order of the targets themselves. The same input
+/// to 128: the best of layer after layer, layers in alternating sense, and columns up and down,
+/// each improved by reversing (2-opt) and moving pieces of up to three stops. Beyond: without
+/// improvement. Never longer by `cost` than the order of the targets themselves. The same input
 /// gives the same order. O(n^2) per round up to 128 stops, O(n log n) beyond.
 [[nodiscard]] std::vector<std::size_t> short_tour(std::span<const Target> targets,
                                                   const TourCost& cost);

@@ -11,9 +11,9 @@
 namespace rondure::plans {
 namespace {
 
-constexpr std::size_t kShownDigits = 12;  ///< Of a digest.
+constexpr std::size_t kShownDigits = 12;  ///< Digits of a digest.
 
-/// A value as shown in one line.
+/// A value in one line.
 /// @param value  Null: absent.
 std::string shown(const JsonValue* value) {
   if (value == nullptr) return "absent";

@@ -21,7 +21,7 @@ tl::unexpected<core::Error> other_way(const std::string& what) {
                                 what));
 }
 
-/// For an error, which has no words for a message: levelling-step {"alpha_deg":1.41,...}.
+/// A message as code, for an error text: levelling-step {"alpha_deg":1.41,...}.
 std::string as_code(const core::Message& message) {
   return fmt::format("{} {}", core::message_name(message.code), record::arguments_json(message));
 }

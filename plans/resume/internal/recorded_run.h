@@ -10,9 +10,9 @@
 
 namespace rondure::plans {
 
-/// The journal of an interrupted run. The resumed run replays the same steps and asks here before
-/// each of them: a recorded step is taken from the journal and not repeated. A new run has an empty
-/// one.
+/// The journal of an interrupted run. The resumed run replays the same steps and consults this
+/// object before each of them: a recorded step is taken from the journal and not repeated. For a
+/// new run it is empty.
 ///
 /// A step that differs from the recorded one ends the run (kJournal): this program, on this
 /// processor, does not repeat the run that was measured, and its touches would not fit.
@@ -28,25 +28,25 @@ class RecordedRun {
   [[nodiscard]] const record::Touch* touch(std::int64_t id) const;
   /// The recorded pose of that number, or nullptr.
   [[nodiscard]] const record::PoseVisit* pose(int id) const;
-  /// The next decision, or nullptr. Skips decisions about the whole run: they are about earlier
+  /// The next decision, or nullptr. Skips decisions about the whole run, which are about earlier
   /// interruptions.
   [[nodiscard]] const record::Decision* next_decision();
   /// Hidden truths of a feature in the journal: one for each of its final clouds.
   [[nodiscard]] std::ptrdiff_t truths_of(int feature) const;
   /// Whether the part was located again after that many touches.
   [[nodiscard]] bool relocated_after(std::int64_t touches) const;
-  /// Whether a feature continued after the present step without a touch: it decided or turned.
+  /// Whether a feature continued after the current step without a touch, by a decision or a turn.
   [[nodiscard]] bool goes_on_untouched(int next_pose) const;
   /// Whether a decision about the whole run is in the journal.
   [[nodiscard]] bool has_decision(const core::Message& message) const;
-  /// Whether the series of a feature are in the journal: all of them, or none is.
+  /// Whether the series of a feature are in the journal; either all of them are, or none.
   [[nodiscard]] bool knows_series(int feature) const;
   /// The number of the next check: -1, -2, ...
   [[nodiscard]] std::int64_t next_check() const;
 
  private:
   record::RunRecord run_;
-  std::int64_t machine_touches_end_ = 0;  ///< After the last touch that the machine made.
+  std::int64_t machine_touches_end_ = 0;  ///< Id after the last touch that the machine made.
   std::size_t next_decision_ = 0;
 };
 
@@ -56,8 +56,8 @@ class RecordedRun {
 /// The same for poses as commanded, within 1e-9 rad.
 [[nodiscard]] core::Result<void> check_same_step(const record::PoseVisit& known, int feature,
                                                  const core::Pose& commanded);
-/// The same for decisions: one feature, messages that core::say_the_same(). How a sentence is
-/// worded does not matter.
+/// The same for decisions: one feature, messages equal by core::say_the_same(). The wording of a
+/// sentence does not matter.
 [[nodiscard]] core::Result<void> check_same_step(const record::Decision& known,
                                                  const record::Decision& planned);
 

@@ -66,7 +66,7 @@ record::Series truth_of(const Cell& cell, int feature, bool carried,
 
 core::Result<void> keep_truth(RunContext& context, int feature, const record::RotaryTask& rotary) {
   if (context.recorded.knows_series(feature)) return {};
-  if (!context.cell->true_errors(false, 0.0)) return {};  // a real fixture hides nothing here
+  if (!context.cell->true_errors(false, 0.0)) return {};  // a real fixture has no known truth
   const std::vector<record::Series> truth = {
       truth_of(*context.cell, feature, false, rotary.alpha_stations_deg),
       truth_of(*context.cell, feature, true, rotary.beta_stations_deg)};

@@ -11,9 +11,9 @@
 namespace rondure::plans {
 
 /// Measures a feature of the type "rotary_axes": turns the fixture through rotary_visits() and
-/// touches the balls in each pose. Everything is journalled before the next step. A touch of ball i
-/// has the layer i. After the last touch the hidden truth of a simulated fixture is stored as
-/// curves. Evaluation: evaluation/rotary/result.h.
+/// touches the balls in each pose. Everything is journalled before the next step. Touches of ball i
+/// have layer i. After the last touch the hidden truth of a simulated fixture is stored as curves.
+/// Evaluation: evaluation/rotary/result.h.
 [[nodiscard]] core::Result<void> calibrate_fixture(RunContext& context, int feature_index);
 
 /// Steps that touch one ball in a pose, from park height and up again; see sphere_steps().

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr const char* kDatumPointer = "/fixture/datum";
 
-/// Where the base is, for the journal.
+/// Position of the base, for the journal.
 core::Message base_message(const fit::Registration& base) {
   const Vector3d shift = base.motion.translation();
   const Eigen::AngleAxisd turn(base.motion.rotation());

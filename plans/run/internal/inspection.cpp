@@ -32,7 +32,6 @@ Eigen::Isometry3d FeatureSession::part_at(const core::Pose& pose) const {
   return fixture::body_to_machine(context_.cell->kinematics(), pose) * X_BP_;
 }
 
-/// The error with its point and the remedy.
 tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
                                                      const core::Error& error) const {
   // A stop by the operator and a journal that cannot be written are not tied to a point.
@@ -121,7 +120,7 @@ core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
   for (;;) {
     auto axis = locate_once(commanded);
     if (axis || !context_.relocation_due) return axis;
-    context_.relocation_due = false;  // it moved again while it was being located: start again
+    context_.relocation_due = false;  // it moved again while being located: start again
   }
 }
 
@@ -283,7 +282,8 @@ core::Result<void> FeatureSession::visit(const CloudPath& path, record::Touch::P
     context_.doing = fmt::format("{}, layer {}", feature_.id, target.layer + 1);
     if (!by_layer) context_.doing += fmt::format(", point {}", target.point + 1);
     if (auto moved = context_.follow(step.way_W); !moved) {
-      // Refused by the operator: the tip is back at the previous touch. After a fault it stays.
+      // Refused by the operator: the tip is back at the previous touch. After a fault it stays
+      // there.
       if (context_.retreating && k > 0) leave(path, k - 1);
       return fault_at(target, moved.error());
     }

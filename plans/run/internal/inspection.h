@@ -16,7 +16,7 @@
 
 namespace rondure::plans {
 
-/// One feature in the machine: turns, touches, journals. See PoseSession.
+/// One feature on the machine: turns, touches, journals. See PoseSession.
 class FeatureSession final : public PoseSession {
  public:
   FeatureSession(RunContext& context, int feature_index, std::vector<Target> targets);
@@ -36,14 +36,14 @@ class FeatureSession final : public PoseSession {
   void show(double f_mm) override;
 
  private:
-  /// Whether several poses make the cloud: it cannot be restarted in one of them.
+  /// Whether the cloud comes from several poses: it cannot be restarted in one of them.
   [[nodiscard]] bool merging() const { return !all_targets_.empty(); }
-  /// Stores the truth of this part of such a cloud.
+  /// Stores the truth of the current pose's part of such a cloud.
   void keep_merged_truth();
   /// Turns to a pose and touches one cloud; repeats both after each relocation.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> turn_and_touch(
       const core::Pose& commanded);
-  /// Locates the part that has moved, in the pose in which that was found.
+  /// Locates the part again after it has moved, in the pose in which that was detected.
   [[nodiscard]] core::Result<void> locate_again();
   /// Touches the locating targets in a pose and follows the axis found.
   [[nodiscard]] core::Result<fit::Axis> locate_once(const core::Pose& commanded);
@@ -57,7 +57,7 @@ class FeatureSession final : public PoseSession {
   /// @param by_layer  The path has one target per layer.
   [[nodiscard]] core::Result<void> visit(const CloudPath& path, record::Touch::Purpose purpose,
                                          bool by_layer, const Measure& measure);
-  /// Touches targets once in the present pose. Returns the tip centres in the order of the targets.
+  /// Touches targets once in the current pose. Returns the tip centres in the order of the targets.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
   /// Measures all targets once, as the plan samples them.
@@ -72,7 +72,7 @@ class FeatureSession final : public PoseSession {
   /// The path through these targets in a pose. kUnreachable: nothing has moved.
   [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
                                             const core::Pose& pose);
-  /// The step that touches the k-th target of a path, from the one before it or from above.
+  /// The step that touches the k-th target of a path, coming from the one before it or from above.
   [[nodiscard]] TouchStep step_to(const CloudPath& path, std::size_t k,
                                   record::Touch::Purpose purpose) const;
   /// After a refused or failed motion to the k-th target: moves from the pre-touch point at which
@@ -81,9 +81,10 @@ class FeatureSession final : public PoseSession {
   /// The error with its point and the remedy.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
-  /// Checks that a located cylinder can be the part of the plan; otherwise nothing may move on it.
+  /// Checks that a located cylinder can be the part of the plan; otherwise nothing may move near
+  /// it.
   [[nodiscard]] core::Result<void> check_location(const fit::LsCylinder& found) const;
-  /// From now on targets follow this axis, seen in the present pose.
+  /// From now on targets follow this axis, seen in the current pose.
   void follow_axis(const fit::Axis& axis_W);
   [[nodiscard]] Eigen::Isometry3d part_at(const core::Pose& pose) const;
 
@@ -101,8 +102,9 @@ class FeatureSession final : public PoseSession {
   int visits_ = 0;
   std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
   std::ptrdiff_t truths_ = 0;           ///< Number of final clouds with a truth so far.
-  std::vector<Target> all_targets_;     ///< Of a cloud from several poses; otherwise empty.
-  std::vector<Eigen::Vector3d> merged_truth_B_;  ///< Its noise-free tips, in the true body frame.
+  std::vector<Target> all_targets_;     ///< For a cloud from several poses; otherwise empty.
+  /// Noise-free tips of that cloud, in the true body frame.
+  std::vector<Eigen::Vector3d> merged_truth_B_;
 };
 
 }  // namespace rondure::plans

@@ -46,9 +46,9 @@ core::Result<void> finish(PoseSession& session, const FeaturePlan& feature) {
 
 /// The decision of the guided search after a cloud.
 struct NextStep {
-  core::MessageCode code = core::MessageCode::kLevellingStep;  ///< Any other ends the search.
+  core::MessageCode code = core::MessageCode::kLevellingStep;  ///< Any other code ends the search.
   core::Pose pose;                                             ///< The pose to step to.
-  double size_rad = 0.0;  ///< Largest angle from the present pose to it.
+  double size_rad = 0.0;  ///< Largest angle from the current pose to it.
 };
 
 double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
@@ -61,8 +61,8 @@ core::Message message_at(const core::Pose& pose, core::MessageCode code,
   return out;
 }
 
-/// The decision for the next step.
-/// @param zone_um  Of the cloud in the pose `reached`, the `visit`-th of the search.
+/// The message for the next step.
+/// @param zone_um  Zone of the cloud in the pose `reached`, the `visit`-th of the search.
 core::Message message_of(const NextStep& next, const core::Pose& reached, double zone_um, int visit,
                          const fixture::FixtureLimits& limits) {
   const double step_deg = in_deg(next.size_rad);
@@ -138,7 +138,7 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   const auto f = [&](const core::Pose& pose) -> core::Result<double> {
     const auto cloud = session.measure(pose);
     if (!cloud) {
-      // A pose that cannot be measured is skipped, as one beyond the limits.
+      // A pose that cannot be measured is skipped, like one beyond the limits.
       const bool unreachable = cloud.error().code == core::Code::kUnreachable;
       return core::fail(unreachable ? core::Code::kPoseRange : cloud.error().code,
                         cloud.error().what);
@@ -199,7 +199,7 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
     auto noted = session.note(message_at(pose, core::MessageCode::kPartLocated,
                                          {in_deg(level.alpha_rad), in_deg(level.beta_rad)}));
     if (!noted) return noted;
-    // The other strategies start where the plan says: that is what they are compared for.
+    // The other strategies start in the pose of the plan: they serve to compare it.
     const bool guides = feature.type == record::Shape::kCylinder && strategy == Strategy::kGuided;
     if (guides && within(session.limits(), level)) pose = level;
   }

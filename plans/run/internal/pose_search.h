@@ -12,7 +12,7 @@
 
 namespace rondure::plans {
 
-/// One cloud of tip centres, in the pose the fixture reached.
+/// One cloud of tip centres, in the pose that the fixture reached.
 struct Cloud {
   core::Pose reached;
   std::vector<Eigen::Vector3d> tips_W_mm;
@@ -31,11 +31,11 @@ class PoseSession {
   /// Turns to a pose and measures the reachable targets there: a part of a cloud from several
   /// poses. kUnreachable, with nothing moved, for fewer than 4 of them.
   [[nodiscard]] virtual core::Result<Cloud> measure_reachable(const core::Pose& commanded) = 0;
-  /// Ends such a cloud; all its parts are evaluated.
+  /// Ends a cloud from several poses; all its parts are evaluated.
   [[nodiscard]] virtual core::Result<void> end_merged() = 0;
-  /// Measures `times` more clouds in the present pose.
+  /// Measures `times` more clouds in the current pose.
   [[nodiscard]] virtual core::Result<void> repeat(int times) = 0;
-  /// Marks the cloud of the present pose, with its repeats, for evaluation.
+  /// Marks the cloud of the current pose, with its repeats, for evaluation.
   [[nodiscard]] virtual core::Result<void> keep_as_final() = 0;
   /// Locates the part with a few touches in a pose that enter no result; from then on targets
   /// follow the located axis. Returns the axis, in the machine frame.
@@ -45,14 +45,14 @@ class PoseSession {
   [[nodiscard]] virtual core::Pose commanded_for(const core::Pose& wanted) const { return wanted; }
   /// Whether the plan leaves the position of the part open.
   [[nodiscard]] virtual bool must_locate() const = 0;
-  /// Expected direction of the axis in the present pose: nominal, or as located. Fits start there.
+  /// Expected direction of the axis in the current pose: nominal, or as located. Fits start there.
   [[nodiscard]] virtual Eigen::Vector3d expected_axis() const = 0;
-  /// The pose that turns a direction seen in the present pose to machine z.
+  /// The pose that turns a direction seen in the current pose to machine z.
   [[nodiscard]] virtual core::Pose levelling(const Eigen::Vector3d& direction_W) const = 0;
   [[nodiscard]] virtual const fixture::FixtureLimits& limits() const = 0;
   /// Writes a decision into the journal.
   [[nodiscard]] virtual core::Result<void> note(const core::Message& decision) = 0;
-  /// Tells whoever watches.
+  /// Reports f to observers.
   virtual void show(double f_mm) = 0;
 };
 

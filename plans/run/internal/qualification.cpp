@@ -65,7 +65,7 @@ core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& contex
     }
     tips.push_back(*tip);
   }
-  // The last touch is at or above the equator, outside the sphere: the way up is free.
+  // The last touch is at or above the equator, outside the sphere: the path up is free.
   context.doing = "back to park height";
   if (auto moved = context.rise(); !moved) {
     if (context.retreating) (void)context.rise();

@@ -11,12 +11,14 @@ namespace rondure::plans {
 
 /// A sphere on the table or on the fixture.
 struct SphereToTouch {
-  Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();  ///< Nominal.
+  Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();  ///< Nominal centre.
   double radius_mm = 0.0;
   int points = 13;
-  double uncertainty_mm = 0.0;  ///< Largest offset; approach and search are longer by it.
-  record::Touch::Purpose purpose = record::Touch::Purpose::kQualification;  ///< Of its touches.
-  int layer = 0;  ///< Of its touches: the number of the sphere.
+  /// Largest offset; approach and search are longer by this distance.
+  double uncertainty_mm = 0.0;
+  /// Purpose of its touches.
+  record::Touch::Purpose purpose = record::Touch::Purpose::kQualification;
+  int layer = 0;  ///< Layer of its touches: the number of the sphere.
 };
 
 /// Steps that touch a sphere: from park height down to its pole, then around it. kSampling when

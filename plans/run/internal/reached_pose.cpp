@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr const char* kReachedPosePointer = "/fixture/reached_pose";
-constexpr double kLeastLever_mm = 10.0;  ///< There 1 um of a sphere is 0.006 deg.
+constexpr double kLeastLever_mm = 10.0;  ///< At this lever, 1 um of a sphere is 0.006 deg.
 
 /// Largest distance of a sphere from its place in the commanded pose [mm].
 double setting_room_mm(const ReachedPosePlan& plan, const fixture::Kinematics& kinematics,

@@ -21,11 +21,11 @@ namespace rondure::plans {
 
 /// One touch to make and the paths to it, in the machine frame.
 struct TouchStep {
-  cmm::TouchCommand command;  ///< Its number is set later.
-  record::Touch row;          ///< Its purpose; number, reading and direction are set later.
-  Polyline entry_W;           ///< From park height to its pre-touch point.
-  Polyline way_W;             ///< From the position of the tip to its pre-touch point.
-  Polyline aside_W = {};      ///< From there to a start of the touch at another place.
+  cmm::TouchCommand command;  ///< Its id is set later.
+  record::Touch row;          ///< Holds the purpose; id, reading and direction are set later.
+  Polyline entry_W;           ///< Path from park height to its pre-touch point.
+  Polyline way_W;             ///< Path from the position of the tip to its pre-touch point.
+  Polyline aside_W = {};      ///< Path from there to a start of the touch at another place.
   /// For the first point of a scan: that scan, and its last reading.
   std::optional<cmm::ScanCircleCommand> scan = {};
   cmm::TouchReading scan_end = {};
@@ -33,9 +33,9 @@ struct TouchStep {
 
 /// One circle to scan and the paths to it.
 struct ScanStep {
-  cmm::ScanCircleCommand command;  ///< Its number is set later.
-  record::Touch row;               ///< Of its points; values that differ among them are set later.
-  Polyline entry_W;                ///< As for a touch at its first point.
+  cmm::ScanCircleCommand command;  ///< Its ids are set later.
+  record::Touch row;  ///< Row of its points; values that differ among them are set later.
+  Polyline entry_W;   ///< As for a touch at its first point.
   Polyline way_W;
 };
 
@@ -50,27 +50,27 @@ struct RunContext {
   int next_pose = 0;
   Progress progress = {};
   RecordedRun recorded = {};
-  std::vector<TouchStep> last_steps = {};  ///< The last replayed touches of the present cloud.
-  bool retreating = false;      ///< The operator refused a motion: back and up without asking.
-  std::string doing = {};       ///< What the next motions are for, in words.
+  std::vector<TouchStep> last_steps = {};  ///< The last replayed touches of the current cloud.
+  bool retreating = false;      ///< The operator refused a motion: retreat without asking.
+  std::string doing = {};       ///< Purpose of the next motions, in words.
   bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
-  bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
+  bool lost_place = false;  ///< An interruption was not resolved: only a person may move the tip.
 
   /// Whether touches come from the journal and nothing moves.
   [[nodiscard]] bool replaying() const { return recorded.replaying(next_touch); }
-  /// kStopped when the operator asked for it.
+  /// kStopped when the operator has requested a stop.
   [[nodiscard]] core::Result<void> check_stop() const;
   void show() const;
   /// Makes and journals a touch at the position of the tip, or takes it from the journal. After the
   /// last recorded touch the machine returns to its position (come_back()). A touch that fails is
   /// not journalled.
   [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
-  /// As touch(), for a whole scan: all its points are journalled in one transaction before the next
+  /// touch() for a whole scan: all its points are journalled in one transaction before the next
   /// command. When a run is resumed after it, its first point is touched for comparison.
   [[nodiscard]] core::Result<std::vector<record::Touch>> scan(ScanStep step);
   /// Homes machine and fixture, goes to the last recorded touches and repeats them: kLocation, with
   /// difference and limit, when one has moved; kMachine when the fixture does not read the recorded
-  /// pose. Then the tip is at the last of them.
+  /// pose. The tip is then at the last of these touches.
   [[nodiscard]] core::Result<void> come_back();
   /// kStopped when the operator refuses the motion in a run of single steps.
   [[nodiscard]] core::Result<void> ask_for_homing();
@@ -87,12 +87,12 @@ struct RunContext {
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
   [[nodiscard]] core::Result<record::Touch> replay(TouchStep step, const record::Touch& known);
-  /// The error for a part that is not where it was: kLocation, with relocation_due set if the part
-  /// may be located again. The tip is at park height.
+  /// The error for a part that has moved: kLocation, with relocation_due set if the part may be
+  /// located again. The tip is at park height.
   [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<record::Touch>> replay_scan(ScanStep step);
-  /// Adds a replayed step to those that are repeated before the run continues; after the last
-  /// replayed step it continues.
+  /// Adds a replayed step to those repeated before the run continues; after the last replayed step,
+  /// continues the run.
   [[nodiscard]] core::Result<void> keep_replayed(TouchStep step);
   /// Sets a simulation to the state after a replayed step.
   [[nodiscard]] core::Result<void> replay_state(const TouchStep& step);
@@ -102,7 +102,7 @@ struct RunContext {
   [[nodiscard]] core::Result<double> repeat_touch(const TouchStep& step, std::int64_t check_id);
 };
 
-/// Puts a reading into a row of the journal, and back.
+/// Copies a reading to a row of the journal, and back.
 void take_reading(const cmm::TouchReading& reading, record::Touch& row);
 [[nodiscard]] cmm::TouchReading reading_of(const record::Touch& row);
 

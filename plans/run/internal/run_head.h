@@ -12,10 +12,10 @@ namespace rondure::plans {
 
 [[nodiscard]] record::Strategy strategy_of(const FeaturePlan& feature);
 
-/// The head of the record of a run: header, artefact, features and settings, as they are known
-/// before the first touch. Left out: descriptions of machine and fixture, digests of points files,
-/// the calibration of the fixture.
-/// @param seed  Of the simulation; stored when anything is simulated.
+/// The head of the record of a run: header, artefact, features and settings, as known before the
+/// first touch. Omitted: descriptions of machine and fixture, digests of points files, the
+/// calibration of the fixture.
+/// @param seed  Seed of the simulation; stored when anything is simulated.
 [[nodiscard]] record::RunRecord run_head(const Plan& plan, const RunOptions& options,
                                          std::uint64_t seed);
 

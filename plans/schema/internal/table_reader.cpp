@@ -17,7 +17,7 @@ namespace {
 using core::Code;
 using Kind = JsonValue::Kind;
 
-// "in mm" for a key with a unit, else nothing.
+// "in mm" for a key with a unit, otherwise empty.
 std::string in_unit(std::string_view key) {
   const std::string_view unit = unit_of(key);
   return unit.empty() ? std::string() : fmt::format(" in {}", unit);
@@ -59,7 +59,7 @@ std::string spelling_message(const std::string& value, const TextSpec& spec) {
   return fmt::format("{} is not known; give {}{}", in_quotes(value), spelled(spec.one_of), hint);
 }
 
-// The first sentence of a meaning: a message needs no more. "e.g. x" does not end a sentence.
+// The first sentence of a meaning, which is enough for a message. "e.g. x" does not end a sentence.
 std::string_view first_sentence(std::string_view text) {
   for (std::size_t at = text.find(". "); at != std::string_view::npos;
        at = text.find(". ", at + 1)) {
@@ -69,8 +69,8 @@ std::string_view first_sentence(std::string_view text) {
   return text;
 }
 
-// A sentence of the table as a clause: without full stop, with a small letter unless an
-// abbreviation.
+// A sentence of the table as a clause: without full stop, with a small initial letter unless it is
+// an abbreviation.
 std::string as_clause(std::string_view sentence) {
   std::string clause(sentence);
   if (clause.ends_with('.')) clause.pop_back();

@@ -17,7 +17,7 @@ namespace rondure::plans {
 /// its default; every problem goes to the findings. Call finish() after describe().
 class TableReader {
  public:
-  /// All three must outlive the reader.
+  /// All three arguments must outlive the reader.
   TableReader(const JsonValue& object, std::string pointer, Findings& findings)
       : object_(object), pointer_(std::move(pointer)), findings_(findings) {}
 
@@ -42,7 +42,7 @@ class TableReader {
   void numbers(std::string_view key, std::vector<double>& values, const NumberSpec& spec);
   void whole(std::string_view key, int& value, const NumberSpec& spec);
   void whole(std::string_view key, std::uint64_t& value, const NumberSpec& spec);
-  /// Accepts a text without using it.
+  /// Accepts a text and ignores it.
   void passed_over(std::string_view key, std::string_view meaning);
 
   template <class T>

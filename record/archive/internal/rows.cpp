@@ -79,7 +79,7 @@ constexpr std::string_view kSelect =
     "r.number, cast(r.time_s as text), cast(r.number as text) from rondure_result r join "
     "rondure_run n on n.id = r.run";
 
-/// The variables that a fetch fills.
+/// The variables that a fetch writes to.
 struct Row {
   ArchivedResult out;
   int simulated = 0;

@@ -14,7 +14,7 @@
 
 namespace rondure::record {
 
-/// Inserts a run with its results, unless its journal is there already. Call it inside a
+/// Inserts a run with its results, unless the archive holds its journal already. Call it inside a
 /// transaction.
 /// @param time_s  Start of the run, seconds since 1970.
 /// @return Whether the run was new.

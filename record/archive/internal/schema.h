@@ -12,10 +12,10 @@ namespace rondure::record {
 
 /// SQL that differs between the two databases.
 struct Dialect {
-  std::string_view id_type;      ///< Of a column that numbers its rows itself.
-  std::string_view has_archive;  ///< Query: 1 when our tables are there.
+  std::string_view id_type;      ///< Type of a column with automatic row numbers.
+  std::string_view has_archive;  ///< Query: 1 when the tables of this program exist.
   std::string_view begin;        ///< Starts a transaction that writes.
-  std::string_view lock;         ///< Keeps a second program from creating them; may be empty.
+  std::string_view lock;  ///< Prevents a second program from creating the tables; may be empty.
 };
 
 [[nodiscard]] const Dialect& sqlite_dialect();

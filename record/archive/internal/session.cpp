@@ -54,7 +54,7 @@ std::string reason_of_server(const ArchivePlace& place, const std::exception& ex
   return words;
 }
 
-/// SQLite only says "unable to open"; the system gives the reason.
+/// SQLite reports only "unable to open"; the reason comes from the system.
 std::string reason_of_file(const fs::path& file, const std::exception& exception,
                            soci::session* session) {
   const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
@@ -85,14 +85,15 @@ core::Result<void> check_file(const ArchivePlace& place, Archive::Access access)
   return {};
 }
 
-/// Taken from SQLite, which reads under its lock: another program may be writing the first page.
+/// Decides by SQLite's own error, because SQLite reads under its lock: another program may be
+/// writing the first page.
 bool is_no_database(const std::exception& exception) {
   const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
   return error != nullptr && (error->result() & 0xff) == SQLITE_NOTADB;
 }
 
-/// Adds time limits to a URL: 5 s for an answer, 15 s for a cut cable. The URL is rebuilt, since
-/// SOCI cuts it at spaces and quotes.
+/// Adds time limits to a URL: 5 s for an answer, 15 s for a broken connection. The URL is rebuilt,
+/// since SOCI cuts it at spaces and quotes.
 std::string with_limits(const std::string& url) {
   auto settings = parse_server_url(url).value_or(std::vector<ServerSetting>{});
   for (const ServerSetting& limit :
@@ -153,8 +154,8 @@ void make_tables(ArchiveSession& session) {
 }
 
 core::Result<void> check_tables(ArchiveSession& session, Archive::Access access) {
-  // Queried first: if another program creates tables between the two queries, they are an
-  // archive's.
+  // Queried first: tables that another program creates between the two queries belong to an
+  // archive.
   const bool holds_tables = has_tables(session);
   if (!has_archive(session)) {
     if (holds_tables) {
@@ -211,7 +212,7 @@ core::Result<void> write_in_one(ArchiveSession& session, const std::function<voi
     auto failure = archive_failure(session.place, "written", exception, &session.sql);
     try {
       if (begun) session.sql << "rollback";
-    } catch (const std::exception&) {  // a server that is gone has rolled back already
+    } catch (const std::exception&) {  // a server that is gone has already rolled back
     }
     return failure;
   }

@@ -54,20 +54,21 @@ namespace rondure::record {
 [[nodiscard]] bool is_utf16(std::string_view text);
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
-/// Reads a whole table. The first line that holds anything is the header, each later one a row.
+/// Reads a whole table. The first line with content is the header, each later one a row.
 ///
 /// @param name     The file's name for `where` ("name:line").
 /// @param header   Takes the header line; returns core::Result<void>.
-/// @param row      Takes a row and the number of its line; returns core::Result<void>.
-/// @param no_rows  Returns the sentence for a table without rows; takes whether it has a header.
-/// @param plain    Tried first where a row begins: takes the text from there on, and returns the
-///                 bytes of the row with the end of its line, or 0 for a line that `row` must read.
+/// @param row      Takes a row and its line number; returns core::Result<void>.
+/// @param no_rows  Takes whether the table has a header; returns the sentence for a table without
+///     rows.
+/// @param plain    Fast reader, tried first at each row: takes the text from the start of the row,
+///     and returns the bytes of the row with its line end, or 0 for a line that `row` must read.
 /// @return  The error of `header` or `row` with its place, kSyntax for UTF-16, kNoPoints.
 template <class Header, class Row, class NoRows, class Plain>
 core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
                               const Row& row, const NoRows& no_rows, const Plain& plain) {
   std::string_view rest = without_byte_order_mark(text);
-  std::size_t number = 0;  // of the line, from 1
+  std::size_t number = 0;  // line number, from 1
   const auto here = [&] { return fmt::format("{}:{}", name, std::max<std::size_t>(number, 1)); };
   if (is_utf16(text)) {
     return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());

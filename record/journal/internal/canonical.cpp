@@ -11,7 +11,7 @@
 namespace rondure::record {
 namespace {
 
-/// Appends the eight bytes of a number, lowest first, whatever the byte order of the processor.
+/// Appends the eight bytes of a number, lowest first, on any processor.
 void append_number(std::string& bytes, std::uint64_t number) {
   for (unsigned shift = 0; shift < 64; shift += 8) {
     bytes += static_cast<char>((number >> shift) & 0xffU);

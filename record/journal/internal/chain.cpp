@@ -16,7 +16,7 @@ namespace {
 using soci::into;
 using soci::use;
 
-/// The digest of a link: over the digest of the link before (empty text for the first) and all
+/// The digest of a link: over the digest of the previous link (empty text for the first) and all
 /// fields of this link.
 std::string link_sha256(std::string_view before, std::int64_t id, std::string_view table,
                         std::int64_t row, std::string_view row_sha256) {
@@ -55,7 +55,7 @@ class Mismatches {
   std::size_t count_ = 0;
 };
 
-/// Reads all links; reports those that do not follow from the one before.
+/// Reads all links; reports those that do not follow from the previous one.
 std::map<std::string, Expected> follow_links(soci::session& sql, std::vector<BrokenTable>& out) {
   std::map<std::string, Expected> expected;
   Mismatches mismatches;
@@ -110,7 +110,7 @@ void compare_rows(soci::session& sql, std::string_view table, Expected expected,
   mismatches.report(table, out);
 }
 
-/// Number of links, and the digest of the last: the head of the chain, which stands for all rows.
+/// Number of links, and the digest of the last: the head of the chain, which represents all rows.
 Digest chain_head(soci::session& sql) {
   Digest head;
   sql << "select count(*) from chain", into(head.rows);
@@ -120,7 +120,7 @@ Digest chain_head(soci::session& sql) {
   return head;
 }
 
-/// Walks the chain and says for each table what does not fit first, in words that name the row;
+/// Follows the chain and describes the first mismatch of each table in words that name the row;
 /// table "chain" when the links themselves do not follow from each other. O(rows).
 std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
   std::vector<BrokenTable> out;

@@ -40,7 +40,7 @@ class Chain {
   /// same transaction.
   void append_all(std::string_view table);
 
-  /// The transaction around the links was committed, or was rolled back.
+  /// Call after the transaction around the links was committed, or was rolled back.
   void commit() { committed_ = tip_; }
   void roll_back() { tip_ = committed_; }
 
@@ -55,13 +55,13 @@ class Chain {
 
   soci::session& sql_;
   Digest tip_;        ///< Number of links and the last one's digest.
-  Digest committed_;  ///< The same as it is on disk.
+  Digest committed_;  ///< The same as stored on disk.
   Link link_;         ///< Bound to the statement.
   soci::statement insert_;
 };
 
 /// Fills the seal with the digest of every other table and the head of the chain.
-/// @param version  Of the tables.
+/// @param version  Version of the tables.
 void insert_seal(soci::session& sql, std::int64_t version);
 
 [[nodiscard]] bool is_sealed(soci::session& sql);

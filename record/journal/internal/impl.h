@@ -29,7 +29,8 @@ namespace rondure::record {
 struct Journal::Impl {
   enum class State { kOpen, kDigested, kOneFile, kClosed };
 
-  RunLock lock;  ///< Before the session, so that it is released after the journal is closed.
+  /// Declared before the session, so that it is released after the journal is closed.
+  RunLock lock;
   std::filesystem::path file;
   soci::session sql;
   std::optional<Statements> statements;
@@ -37,7 +38,7 @@ struct Journal::Impl {
   std::optional<std::int64_t> last_touch;
   Header header;                          ///< Header and poses as given: these rows change later.
   std::map<int, PoseVisit> poses;         ///< By id.
-  std::int64_t version = kSchemaVersion;  ///< Of its tables.
+  std::int64_t version = kSchemaVersion;  ///< Version of the tables.
   bool ended = false;
   State state = State::kOpen;
   std::shared_ptr<GrowingRecord> follower;  ///< May be null.

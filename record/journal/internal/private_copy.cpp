@@ -33,8 +33,8 @@ std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal,
   return {fs::last_write_time(journal, ignored), std::string(head.data(), kLogHead)};
 }
 
-/// Whether a rollback journal ends in the name of a super-journal (sqlite.org/fileformat2.html, 3):
-/// a file that SQLite reads, and may delete, in any place. No journal of a run has one.
+/// Whether a rollback journal ends with the name of a super-journal (sqlite.org/fileformat2.html,
+/// 3): a file anywhere on the disk that SQLite reads, and may delete. No journal of a run has one.
 bool names_super_journal(const fs::path& rollback) {
   constexpr std::array<unsigned char, 8> kMagic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
   std::array<char, kMagic.size()> tail{};
@@ -68,8 +68,8 @@ int locked_folder(const fs::path& folder) {
   return -1;
 }
 
-/// Removes the copies of killed programs, whose locks are free. Only the files of a copy are
-/// removed, so that an unrelated folder of that name keeps its contents.
+/// Removes the copies of killed programs, whose locks are free. Removes only the files of a copy,
+/// so that an unrelated folder of that name keeps its contents.
 void remove_left_behind(const fs::path& place) {
   std::error_code ignored;  // a leftover is removed at the next start
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
@@ -123,7 +123,7 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
   remove_left_behind(place);
   PrivateCopy copy = in_new_folder(place);
   if (copy.folder_.empty()) return cannot_copy(journal, system_reason(errno));
-  constexpr int kTries = 50;  // tried again when a running measurement moves its log into the file
+  constexpr int kTries = 50;  // retries while a running measurement moves its log into the file
   for (int i = 0; i < kTries; ++i) {
     const auto before = stamp_of(journal, logs);
     problem = copy.take(journal, logs);
@@ -142,7 +142,8 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
 }
 
 PrivateCopy PrivateCopy::in_new_folder(const fs::path& place) {
-  constexpr int kTries = 20;  // another program may mistake the folder for a leftover
+  // retries, because another program may mistake the folder for a leftover
+  constexpr int kTries = 20;
   for (int i = 0; i < kTries; ++i) {
     std::string folder = (place / kFolderBegins).string() + "XXXXXX";
     if (::mkdtemp(folder.data()) == nullptr) return {{}, -1};

@@ -42,7 +42,7 @@ class PrivateCopy {
 
  private:
   PrivateCopy(std::filesystem::path folder, int lock);
-  /// Has an empty folder when none can be created (errno).
+  /// Has an empty path when the folder cannot be created (errno).
   [[nodiscard]] static PrivateCopy in_new_folder(const std::filesystem::path& place);
   [[nodiscard]] std::error_code take(const std::filesystem::path& journal, Logs logs) const;
 
@@ -50,8 +50,8 @@ class PrivateCopy {
   int lock_ = -1;  ///< Descriptor of the open folder.
 };
 
-/// The result of `look` on the database in a private copy; nothing when it is no database or is
-/// damaged. kFile, kJournal when it cannot be copied.
+/// Runs `look` on the database in a private copy and returns its result; nothing when the file is
+/// no database or is damaged. kFile, kJournal when it cannot be copied.
 template <class Look>
 auto in_copy(const std::filesystem::path& journal, PrivateCopy::Logs logs, const Look& look)
     -> core::Result<std::optional<std::invoke_result_t<Look, soci::session&>>> {

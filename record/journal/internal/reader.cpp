@@ -61,7 +61,7 @@ core::Code code_named(const std::string& text) {
 }
 
 std::uint64_t seed_from(const std::string& text) {
-  std::uint64_t seed = 0;  // stays so for a text that is no number
+  std::uint64_t seed = 0;  // unchanged for a text that is not a number
   (void)std::from_chars(text.data(), text.data() + text.size(), seed);
   if (std::to_string(seed) != text) {
     throw Contradiction(fmt::format("header.seed is \"{}\", no whole number", text.substr(0, 40)));
@@ -195,7 +195,7 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   std::string purpose;
   Measured temperature;
   Measured scales;
-  // Before version 3 nothing was corrected to 20 degC, and no scale temperatures were recorded.
+  // Before version 3 nothing was corrected to 20 degC, and scale temperatures were not recorded.
   const std::string query = fmt::format(
       "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
       "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
@@ -218,7 +218,7 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
     }
     (check ? record.checks : record.touches).push_back(row);
   }
-  std::reverse(record.checks.begin(), record.checks.end());  // their numbers count downward
+  std::reverse(record.checks.begin(), record.checks.end());  // their ids count downward
 }
 
 void read_decisions(soci::session& sql, RunRecord& record, std::int64_t version) {
@@ -287,7 +287,8 @@ std::vector<SchemaObject> schema_of(soci::session& sql) {
   return out;
 }
 
-/// Removes from a list of objects the one that is this table, and neither a view nor a look-alike.
+/// Removes from a list of objects the one that is this table; a view or another object of that name
+/// stays.
 void take_table(std::vector<SchemaObject>& schema, const Table& table, std::int64_t version) {
   const auto found = std::find_if(schema.begin(), schema.end(), [&](const SchemaObject& object) {
     return object.type == "table" && object.name == table.name;

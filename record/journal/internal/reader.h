@@ -12,7 +12,7 @@
 namespace rondure::record {
 
 /// Throws Contradiction unless the file holds exactly the tables of that version (docs/journal.md),
-/// word for word: no index, view, trigger or other table.
+/// byte for byte, and no index, view, trigger or other table.
 void require_schema(soci::session& sql, std::int64_t version);
 
 /// Reads and checks every table of an open journal. Throws soci::soci_error, Contradiction, Damage.

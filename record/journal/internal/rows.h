@@ -33,7 +33,7 @@ struct Statements {
   soci::statement insert_truth;
   soci::statement update_final;
 
-  /// @param version  Of the tables.
+  /// @param version  Version of the tables.
   Statements(soci::session& sql, std::int64_t version);
   Statements(const Statements&) = delete;
   Statements& operator=(const Statements&) = delete;

@@ -6,8 +6,8 @@ namespace rondure::record {
 namespace {
 
 /// A table in the form of the versions `since` to `until`.
-/// @param columns  Those after the id, separated by ", ". Each is `not null`, unless it ends with a
-///                 question mark.
+/// @param columns  The columns after the id, separated by ", ". Each is `not null`, unless it ends
+///     with a question mark.
 Table table(std::string_view name, std::string_view columns, std::int64_t since = 1,
             std::int64_t until = kSchemaVersion, std::string_view id_check = "") {
   std::string sql = "create table ";
@@ -26,8 +26,8 @@ Table table(std::string_view name, std::string_view columns, std::int64_t since 
   return {name, sql + "\n) strict", since, until};
 }
 
-// Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
-// -0.0, because SQLite packs whole numbers there as integers.
+// Measured numbers have the type `any`: a column of type `real` would lose the sign of -0.0,
+// because SQLite stores whole numbers there as integers.
 const std::vector<Table>& known_tables() {
   static const std::string kTouch =
       "purpose text, pose integer, layer integer, point integer, repeat integer, tip_x_mm any, "

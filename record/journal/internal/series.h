@@ -14,10 +14,10 @@
 
 namespace rondure::record {
 
-/// Rows of a series that are stored in one row of table series_block.
+/// Rows of a series in one row of table series_block.
 inline constexpr std::size_t kBlockRows = 256;
 
-/// Replaces the feature index in a setting of the whole run.
+/// Stands for the feature index in a setting of the whole run.
 inline constexpr int kWholeRun = -1;
 
 /// Writes the settings of a feature, or of the whole run.

@@ -11,7 +11,8 @@
 
 #include "record/run_record.h"
 
-// Private to the room: values as a journal stores them, and what no journal of Rondure contains.
+// Private to the room: values as a journal stores them, and errors for contents that no journal of
+// Rondure has.
 
 namespace rondure::record {
 
@@ -37,7 +38,7 @@ Enum named(std::string_view column, const std::string& text) {
   throw Contradiction(fmt::format("{} holds the unknown word \"{}\"", column, text.substr(0, 40)));
 }
 
-/// The feature that a row of `table` names; throws Contradiction when there is none.
+/// The feature whose index is in a row of `table`; throws Contradiction when there is none.
 [[nodiscard]] Feature& feature_at(RunRecord& record, int feature, std::string_view table);
 
 /// A number bound with its indicator; null when it was not measured.

@@ -33,10 +33,10 @@ using Json = nlohmann::ordered_json;
   return error ? error_json(*error) : Json(nullptr);
 }
 [[nodiscard]] Json characteristic_json(const evaluation::CharacteristicResult& result);
-/// A feature whose shape is an analysis.
+/// JSON of a feature whose shape is an analysis.
 [[nodiscard]] Json analysis_json(const evaluation::FeatureResult& feature);
 [[nodiscard]] Json rotary_json(const evaluation::RotaryResult& facts);
-/// The decision rule of a run with its parameters and statements; null when it is not known.
+/// The decision rule of a run with its parameters and statements; null for an unknown rule.
 [[nodiscard]] Json rule_json(const evaluation::Evaluation& evaluation);
 
 template <class Range, class Convert>

@@ -15,8 +15,8 @@ using core::decimal;
 using record::Form;
 using record::Reference;
 
-/// The family of elements that carries a characteristic. Form characteristics of QIF must have a
-/// tolerance; what is only reported, and what QIF has no word for, is a user-defined length.
+/// The family of elements for a characteristic. Form characteristics of QIF must have a tolerance;
+/// reported-only values, and those that QIF has no word for, are user-defined lengths.
 enum class Family { kCylindricity, kCircularity, kUserDefined };
 
 Family family_of(const record::Characteristic& asked) {
@@ -42,7 +42,7 @@ bool has_reference(const record::Characteristic& asked) {
   return !evaluation::reference_of(asked).empty();
 }
 
-/// One characteristic, with the ids of its elements once they are written.
+/// One characteristic, with the ids of its elements after they are written.
 struct PlacedResult {
   const evaluation::CharacteristicResult& result;
   const evaluation::FeatureResult& feature;
@@ -94,7 +94,7 @@ void add_item(QifDraft& draft, PlacedResult& placed) {
   add(node, "CharacteristicNominalId", placed.nominal);
 }
 
-/// The measured shapes that the value comes from.
+/// The measured shapes that the value was computed from.
 std::vector<int> measured_shapes(const PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   const auto about = static_cast<std::size_t>(asked.reference);
@@ -116,7 +116,7 @@ void add_radii(pugi::xml_node parent, double inner_mm, double outer_mm) {
   add(radii, "MaxRadius", decimal(outer_mm));
 }
 
-/// Whether the value is the width of this zone, and not a corrected one.
+/// Whether the value is the uncorrected width of this zone.
 bool is_width(const evaluation::CharacteristicResult& result, double width_mm) {
   constexpr double kSame_mm = 1e-12;
   return result.value && std::abs(result.value->quoted_mm() - width_mm) <= kSame_mm;

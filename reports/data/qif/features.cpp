@@ -15,11 +15,11 @@ using core::decimal;
 
 using record::Reference;
 
-/// A cylinder or circle that a reference puts through the points; radii of the surface where the
-/// tip is known.
+/// A cylinder or circle fitted to the points by one reference; radii of the surface where the tip
+/// is known.
 struct Associated {
   Reference reference = Reference::kLeastSquares;
-  fit::Axis axis;  ///< Of a circle: its centre and the normal of its plane.
+  fit::Axis axis;  ///< For a circle: its centre and the normal of its plane.
   double radius_mm = 0.0;
   double deviation_mm = 0.0;
 };
@@ -104,7 +104,7 @@ QifShape add_shape(QifDraft& draft, const record::Feature& asked, bool circle, d
   return shape;
 }
 
-/// Which points of a set belong to a shape; rows count from 0, nothing means all.
+/// The points of a set that belong to a shape; rows count from 0, none means all.
 struct PointRange {
   std::optional<int> set = {};
   std::optional<std::pair<std::size_t, std::size_t>> rows = {};
@@ -148,7 +148,7 @@ PointRange point_range(std::optional<int> set, const std::vector<std::size_t>& r
   return {set, std::pair{rows.front(), rows.back()}};
 }
 
-/// The axis that angles and deviations of the cloud are about, where there is a zone.
+/// The axis for angles and deviations of the cloud, where there is a zone.
 std::optional<fit::Axis> zone_axis(const evaluation::FeatureResult& feature) {
   if (feature.mz_cylinder) return feature.mz_cylinder->axis;
   if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
@@ -178,9 +178,9 @@ std::string normals_of(const evaluation::FeatureResult& feature, const fit::Axis
   return text;
 }
 
-/// Writes the points that were evaluated: means of repeated touches, as tip centres where the tip
-/// is known, with normals out of the material and deviations where there is a zone.
-/// @return The id of the set; nothing without points.
+/// Writes the evaluated points: means of repeated touches, as tip centres where the tip is known,
+/// with normals out of the material, and with deviations where there is a zone.
+/// @return The id of the set; none without points.
 std::optional<int> add_points(QifDraft& draft, const evaluation::FeatureResult& feature) {
   if (feature.cloud.empty()) return {};
   const auto axis = zone_axis(feature);

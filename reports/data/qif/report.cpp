@@ -12,7 +12,7 @@
 namespace rondure::reports {
 namespace {
 
-/// A UUID of what the document is made from, so that the same record gives the same bytes.
+/// A UUID from the inputs of the document, so that the same record gives the same bytes.
 std::string document_id(const record::Header& header) {
   const std::string hex = record::sha256_hex(
       fmt::format("{}\n{}\n{}", header.run_id, header.started_utc, header.plan_sha256));
@@ -81,7 +81,7 @@ int add_definitions(QifDraft& draft, pugi::xml_node root, const record::Header& 
   return formal;
 }
 
-/// Fixture and machine, where the run had them.
+/// Fixture and machine, where the run had any.
 void add_resources(QifDraft& draft, pugi::xml_node root, const record::Header& header) {
   if (header.machine.empty() && header.fixture.empty()) return;
   const pugi::xml_node resources = add(root, "MeasurementResources");
@@ -173,7 +173,7 @@ std::string write_qif(const record::RunRecord& record, const evaluation::Evaluat
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     add_qif_characteristics(draft, add_qif_feature(draft, feature), feature);
   }
-  if (!draft.lists.measured_characteristics.first_child()) {  // these two must hold something
+  if (!draft.lists.measured_characteristics.first_child()) {  // these two must not be empty
     results.remove_child(characteristics);
     root.remove_child("Characteristics");
   }

@@ -6,7 +6,7 @@
 namespace rondure::reports {
 
 /// One inline drawing. Lengths are in its own units (CSS px at its natural width); classes are
-/// those of html/style.h; texts are escaped here.
+/// those of html/style.h; the functions escape their texts.
 class Svg {
  public:
   Svg(double width, double height, std::string_view css_class, std::string_view label);
@@ -19,21 +19,21 @@ class Svg {
   /// anchor: "start", "middle", "end".
   void text(double x, double y, std::string_view anchor, std::string_view css_class,
             std::string_view text);
-  /// Text that reads upwards, centred at (x, y): titles of vertical axes.
+  /// Text that reads upwards, centred at (x, y), for titles of vertical axes.
   void upward_text(double x, double y, std::string_view css_class, std::string_view text);
-  /// Marks of contact points and poses, centred at (x, y), r from the centre to the border.
+  /// Marks of contact points and poses, centred at (x, y), with r from the centre to the border.
   void triangle(double x, double y, double r, std::string_view css_class);
   void square(double x, double y, double r, std::string_view css_class);
   void diamond(double x, double y, double r, std::string_view css_class);
   void cross(double x, double y, double r, std::string_view css_class);
 
-  /// Description that a screen reader reads after the label.
+  /// Description that a screen reader gives after the label.
   void describe(std::string_view text);
-  /// Markup that was made elsewhere.
+  /// Adds markup from elsewhere unchanged.
   void add(std::string_view markup) { body_ += markup; }
 
   [[nodiscard]] std::string str() const { return body_ + "</svg>"; }
-  /// The drawing as a file of its own, with its style.
+  /// The drawing as a complete file, with its style.
   [[nodiscard]] std::string document(std::string_view style) const;
 
  private:
@@ -44,8 +44,8 @@ class Svg {
 struct Scale {
   double low = 0.0;
   double high = 1.0;
-  double from = 0.0;  ///< Where `low` is drawn.
-  double to = 1.0;    ///< Where `high` is drawn.
+  double from = 0.0;  ///< Place of `low` in the drawing.
+  double to = 1.0;    ///< Place of `high` in the drawing.
   bool decades = false;
 
   [[nodiscard]] double at(double value) const;

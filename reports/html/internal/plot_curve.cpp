@@ -26,7 +26,7 @@ constexpr double kChartRight = 16.0;
 constexpr double kChartTop = 12.0;
 constexpr double kChartBottom = 44.0;
 
-/// At most kMostPoints indices: of each piece those of its least and greatest value, in order.
+/// At most kMostPoints indices: for each piece those of its least and greatest value, in order.
 std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
   std::vector<std::size_t> out;
   const std::size_t count = values.size();
@@ -91,7 +91,7 @@ void polar_frame(Svg& svg) {
   draw_polar_axes(svg, {kPolarCentre, kMeanCircle + kPolarReach + 6.0, 5.0, 5.0, 133.0, 134.0});
 }
 
-/// Axes of an ordinary chart, with room round the values.
+/// Axes of an ordinary chart, with a margin round the values.
 struct ChartAxes {
   Scale x;
   Scale y;

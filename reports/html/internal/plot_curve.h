@@ -13,15 +13,16 @@ namespace rondure::reports {
 struct Curve {
   std::string name;
   std::string css_class = "profile";
-  std::vector<double> x;          ///< Polar: angles [rad]; else in the unit of the axis.
-  std::vector<double> y;          ///< Polar: deviations [um]; else in the unit of the axis.
-  std::vector<double> band = {};  ///< Of a chart: half width of a band about y; as many, or none.
-  bool marks_only = false;        ///< Of a chart: points without a line.
+  std::vector<double> x;  ///< Polar: angles [rad]; else in the unit of the axis.
+  std::vector<double> y;  ///< Polar: deviations [um]; else in the unit of the axis.
+  /// For a chart: half width of a band about y; one per point, or empty.
+  std::vector<double> band = {};
+  bool marks_only = false;  ///< For a chart: points without a line.
 };
 
 /// A polar plot of closed curves about a mean circle, all at one magnification, with a scale bar
 /// and the names of the lines. More than 1440 points are thinned to the extremes of equal pieces.
-/// @param closed  The last point joins the first; false for revolutions one after the other.
+/// @param closed  The last point joins the first; false for successive revolutions.
 [[nodiscard]] std::string polar_chart(std::string_view title, const std::vector<Curve>& curves,
                                       bool closed = true);
 
@@ -40,7 +41,7 @@ struct BarLimit {
   int last = 0;
   double value = 0.0;
 };
-/// The limits that the masks of characteristics set [um].
+/// The limits in the masks of characteristics [um].
 [[nodiscard]] std::vector<BarLimit> limits_of(const std::vector<record::Characteristic>& asked);
 [[nodiscard]] std::string bar_chart(std::string_view title, std::string_view x_title,
                                     std::string_view y_title, const std::vector<Bar>& bars,

@@ -4,9 +4,9 @@
 
 namespace rondure::reports {
 
-/// The one script of the page: turns the drawing in three dimensions, switches the theme, lets the
-/// keyboard into what scrolls. It loads nothing, keeps nothing, and the page is whole without it.
-/// The page's Content-Security-Policy names its digest, so no other script can run.
+/// The only script of the page: turns the drawing in three dimensions, switches the theme, makes
+/// scrolling boxes reachable by keyboard. It loads and stores nothing, and the page is complete
+/// without it. The page's Content-Security-Policy names its digest, so no other script can run.
 inline constexpr std::string_view kScript = R"js(//<![CDATA[
 'use strict';
 (() => {

@@ -14,14 +14,14 @@ namespace {
 constexpr double kSolidMean = 112.0;     ///< Radius at which the middle of the zone is drawn.
 constexpr double kSolidHalfZone = 16.0;  ///< Half the zone as drawn.
 constexpr double kLeastSolidHeight = 45.0;
-constexpr double kMostSolidHeight = 138.0;  ///< Of half the cylinder.
+constexpr double kMostSolidHeight = 138.0;  ///< For half the cylinder.
 constexpr int kSolidCellColumns = 72;
 constexpr int kSolidCellRows = 24;
 constexpr std::size_t kRingSteps = 120;  ///< 3 deg.
 constexpr std::size_t kMostSections = 24;
 
 struct Scales {
-  double middle_mm = 0.0;  ///< Height that is drawn at 0.
+  double middle_mm = 0.0;  ///< Height drawn at 0.
   double px_per_height_mm = 1.0;
   double px_per_deviation_mm = 1.0;
 

@@ -24,7 +24,7 @@ bool is_wide(std::uint32_t code) {
   return false;
 }
 
-/// Punctuation that no line begins with, and that none ends with.
+/// Punctuation that no line may begin with, and below that none may end with.
 bool closes(std::string_view letter) {
   constexpr std::string_view kMarks = "，。；：、）》”！？·%)],.;:";
   return kMarks.find(letter) != std::string_view::npos;
@@ -34,24 +34,23 @@ bool opens(std::string_view letter) {
   return kMarks.find(letter) != std::string_view::npos;
 }
 
-/// A piece that is never broken: a word, or a wide character with the punctuation that belongs to
-/// it.
+/// A piece that is never broken: a word, or a wide character with its punctuation.
 struct LinePiece {
   std::string text;
-  bool after_space = false;  ///< A space, or several, stood before it.
+  bool after_space = false;  ///< Follows one or several spaces.
 };
 
 std::vector<LinePiece> line_pieces(std::string_view text, LineBreaks breaks) {
   std::vector<LinePiece> out;
-  bool space = true;   // the text begins a line
-  bool joins = false;  // the next character belongs to the piece before it
+  bool space = true;   // start of the text: also the start of a line
+  bool joins = false;  // the next character belongs to the previous piece
   bool wide_before = false;
   while (!text.empty()) {
     const core::Utf8Character c = core::next_character(text);
     const std::string_view letter = text.substr(0, c.bytes);
     text.remove_prefix(c.bytes);
     if (letter == " ") {
-      if (space) out.push_back({"", !out.empty()});  // each space more stands for itself
+      if (space) out.push_back({"", !out.empty()});  // each additional space is a piece of its own
       space = true;
       continue;
     }

@@ -15,7 +15,7 @@ namespace {
 /// A piece of a line: a number, or the text between two numbers.
 struct Token {
   std::string_view text;
-  std::size_t at = 0;  ///< Where it begins in the line [bytes].
+  std::size_t at = 0;  ///< Its position in the line [bytes].
   std::optional<double> number;
 };
 
@@ -54,7 +54,7 @@ std::vector<Token> tokens_of(std::string_view line) {
   return tokens;
 }
 
-/// Whether two tokens say the same. Whole numbers (counts, digits of a digest) must match as text:
+/// Whether two tokens are equal. Whole numbers (counts, digits of a digest) must match as text:
 /// only a number with a point or an exponent was computed in floating point.
 bool same(const Token& a, const Token& b, double tolerance) {
   if (a.text == b.text) return true;
@@ -65,7 +65,7 @@ bool same(const Token& a, const Token& b, double tolerance) {
   return (computed(a) || computed(b)) && std::abs(*a.number - *b.number) <= tolerance;
 }
 
-/// Where two lines begin to differ, in either of them, or nothing.
+/// Positions in both lines where they begin to differ, or none.
 std::optional<std::pair<std::size_t, std::size_t>> first_difference(std::string_view expected,
                                                                     std::string_view found,
                                                                     double tolerance) {

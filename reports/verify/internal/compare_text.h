@@ -7,17 +7,17 @@
 
 namespace rondure::reports {
 
-// Pure functions for `rondure verify`: an export as rendered again from the journal (`expected`)
-// against the file on disk (`found`). Each gives the first difference in one sentence, or nothing
-// when the two are equal.
+// Pure functions for `rondure verify`: compare an export rendered again from the journal
+// (`expected`) with the file on disk (`found`). Each returns the first difference in one sentence,
+// or nothing when the two are equal.
 //
 // `tolerance` is absolute, in the unit of the numbers, >= 0. With 0 every byte must match. Above 0,
-// for reports that another kind of processor wrote, two numbers that differ by no more are equal,
+// for reports written on another kind of processor, two numbers that differ by no more are equal,
 // and all text between them must match.
 
 /// JSON: names the place by its JSON pointer, "/features/0/mz/deviation_um: the file says 7.43, the
-/// journal gives 7.42"; also missing and added keys, text that is not JSON any more, and equal
-/// values that are written differently. `expected` must be JSON.
+/// journal gives 7.42"; also finds missing and added keys, text that is no longer JSON, and equal
+/// values in different spelling. `expected` must be JSON.
 [[nodiscard]] std::optional<std::string> first_json_difference(std::string_view expected,
                                                                std::string_view found,
                                                                double tolerance);
@@ -32,7 +32,7 @@ namespace rondure::reports {
                                                                std::string_view found,
                                                                double tolerance);
 
-/// Fields of a CSV line as they stand there; a field in quotes may hold commas.
+/// Fields of a CSV line as written; a quoted field may contain commas.
 [[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
 
 }  // namespace rondure::reports

@@ -27,7 +27,7 @@ std::string saying(const SortedJson& expected, const SortedJson& found,
                      expected.dump(-1, ' ', false, kReplace).substr(0, 60));
 }
 
-/// Walks two documents side by side until the first difference.
+/// Compares two documents in parallel up to the first difference.
 std::optional<std::string> walk(const SortedJson& expected, const SortedJson& found,
                                 const std::string& pointer, double tolerance) {
   if (pointer == kSchemaVersion) return std::nullopt;
@@ -66,7 +66,7 @@ std::vector<CsvRow> rows_of(std::string_view text) {
   return rows;
 }
 
-/// Places of the columns that two header lines have in common.
+/// Indices of the columns that two header lines have in common.
 std::vector<std::pair<std::size_t, std::size_t>> common_columns(const CsvRow& expected,
                                                                 const CsvRow& found) {
   std::vector<std::pair<std::size_t, std::size_t>> common;
@@ -79,7 +79,7 @@ std::vector<std::pair<std::size_t, std::size_t>> common_columns(const CsvRow& ex
   return common;
 }
 
-/// Whether two fields say the same: as numbers, or as text.
+/// Whether two fields are equal: as numbers, or as text.
 bool same_field(std::string_view a, std::string_view b, double tolerance) {
   const auto x = core::parse_number(a);
   const auto y = core::parse_number(b);

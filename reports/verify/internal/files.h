@@ -10,30 +10,30 @@
 
 namespace rondure::reports {
 
-/// How the files of a run directory stand to the digests in SHA256SUMS.
+/// State of the files of a run directory relative to the digests in SHA256SUMS.
 struct ListedFiles {
   enum class State { kAsWritten, kChanged, kAbsent };
 
   bool list_found = false;             ///< There is a SHA256SUMS.
-  std::map<std::string, State> files;  ///< Those that it names.
+  std::map<std::string, State> files;  ///< The files that it names.
 
-  /// State of a file; nothing when the list does not name it.
+  /// State of a file; none when the list does not name it.
   [[nodiscard]] std::optional<State> state_of(const std::string& file) const;
 };
 
-/// Whether a name stands in a directory, also for a link that leads nowhere; never throws. What
-/// cannot be looked at counts as there, so that reading it gives the reason.
+/// Whether a directory has an entry of this name, including a dangling link; never throws. An entry
+/// that cannot be examined counts as present, so that reading it gives the reason.
 [[nodiscard]] bool stands_there(const std::filesystem::path& file);
 
 /// Compares every file that SHA256SUMS names with its digest.
-/// @param differences  Gets a line when the list itself is damaged.
-/// @return kFile when a file that is there cannot be read.
+/// @param differences  Receives a line when the list itself is damaged.
+/// @return kFile when an existing file cannot be read.
 [[nodiscard]] core::Result<ListedFiles> check_listed_files(const std::filesystem::path& directory,
                                                            std::vector<std::string>& differences);
 
-/// Checks the signature of SHA256SUMS with a public key, and that the list covers `files`: those
-/// that are there are listed, those that are listed are there.
-/// @param differences  Gets a line for each check that fails.
+/// Checks the signature of SHA256SUMS with a public key, and that the list and `files` agree:
+/// existing files are listed, and listed files exist.
+/// @param differences  Receives a line for each check that fails.
 /// @return kBadOption for a key of another kind, kFile for a file that cannot be read.
 [[nodiscard]] core::Result<void> check_signature(const std::filesystem::path& directory,
                                                  const std::string& public_key_pem,

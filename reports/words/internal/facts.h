@@ -21,14 +21,14 @@ namespace rondure::reports {
 /// What the certificate says, in one sentence.
 [[nodiscard]] core::Phrase sentence_of(const fit::Certificate& certificate);
 
-/// What a run that did not finish lacks, one sentence each.
+/// The missing parts of a run that did not finish, one sentence each.
 [[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,
                                                      const evaluation::Evaluation& evaluation);
 
 /// The name of the decision rule in words: "simple acceptance".
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
-/// The rule that the verdict follows, with its formula and the value that it judges; or why it is
-/// unknown: nothing where that reason is not known in the language of the report.
+/// The rule of the verdict, with its formula and the value that it judges; or why it is unknown.
+/// None where that reason is not known in the language of the report.
 [[nodiscard]] std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation);
 
 /// The rule in words, with its formula: "ISO 14253-1: conforms where y + 1 (hi - y) <= T, ...".

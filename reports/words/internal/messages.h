@@ -8,13 +8,14 @@
 
 namespace rondure::reports {
 
-/// The one place where messages become sentences.
+/// The only place where messages become sentences.
 ///
-/// @return  The sentence in the language of the report; nothing where words of another part of the
-///          program in it (a reason) are not known in that language. In English always a sentence.
+/// @return  The sentence in the language of the report; none where it contains words of another
+///     part of the program (a reason) that are not known in that language. In English always a
+///     sentence.
 [[nodiscard]] std::optional<std::string> in_words(const core::Message& message);
 
-/// The English sentence of a decision; of a journal before version 6 as it stands there.
+/// The English sentence of a decision; from a journal before version 6, as stored there.
 [[nodiscard]] std::string english_sentence(const record::Decision& decision);
 
 }  // namespace rondure::reports

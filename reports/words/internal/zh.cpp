@@ -6,14 +6,14 @@
 namespace rondure::reports {
 namespace {
 
-/// The number in the four bytes from `at`.
+/// The number in the four bytes starting at `at`.
 std::uint32_t number_at(std::size_t at) {
   const auto bytes = chinese_catalogue().subspan(at, 4);
   return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8U |
          static_cast<std::uint32_t>(bytes[2]) << 16U | static_cast<std::uint32_t>(bytes[3]) << 24U;
 }
 
-/// The text whose length and place stand at `at`.
+/// The text whose length and offset are stored at `at`.
 std::string_view text_at(std::size_t at) {
   const auto bytes = chinese_catalogue().subspan(number_at(at + 4), number_at(at));
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

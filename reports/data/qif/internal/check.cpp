@@ -24,7 +24,7 @@ std::optional<long> whole(std::string_view text) {
   return value;
 }
 
-/// Numbers between blanks; a piece that is none counts as NaN.
+/// Numbers separated by blanks; a piece that is not a number counts as NaN.
 std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> out;
   constexpr std::string_view kBlanks = " \t\r\n";
@@ -38,7 +38,7 @@ std::vector<double> numbers_in(std::string_view text) {
   return out;
 }
 
-/// End of the name that the target of a reference must have; empty: no reference.
+/// Required end of the name of a reference's target; empty: not a reference.
 std::string_view stem_of(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kStems = {
       {{"FeatureDefinitionId", "FeatureDefinition"},

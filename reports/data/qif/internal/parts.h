@@ -16,23 +16,23 @@ namespace rondure::reports {
 
 struct QifDraft;
 
-/// A new last child. Text passes clean(): XML 1.0 forbids most control characters even as entities,
-/// which pugixml would write.
+/// Adds a last child. Text passes clean(): XML 1.0 forbids most control characters even as
+/// entities, which pugixml would write.
 pugi::xml_node add(pugi::xml_node parent, const char* name);
 pugi::xml_node add(pugi::xml_node parent, const char* name, std::string_view text);
 pugi::xml_node add(pugi::xml_node parent, const char* name, int number);
 
-/// A new last child with the next id of the document, and that id.
+/// Adds a last child with the next id of the document, and returns it with that id.
 pugi::xml_node add_numbered(QifDraft& draft, pugi::xml_node parent, const std::string& name);
 [[nodiscard]] int id_of(const pugi::xml_node& node);
 
-/// A new attribute, its text cleaned in the same way.
+/// Adds an attribute, its text cleaned in the same manner.
 void set(pugi::xml_node node, const char* name, std::string_view text);
 
-/// The document as bytes: declaration, UTF-8, two spaces a level, LF.
+/// The document as bytes: declaration, UTF-8, two spaces per level, LF.
 [[nodiscard]] std::string bytes_of(const pugi::xml_document& document);
 
-/// Ids of one document: from 1, none twice. The writer's numbers, as QIF wants them (`idMax`).
+/// Issues the ids of one document: from 1, each once. QIF needs the highest (`idMax`).
 class QifIds {
  public:
   [[nodiscard]] int next() { return ++last_; }
@@ -42,7 +42,7 @@ class QifIds {
   int last_ = 0;
 };
 
-/// The lists of a document, made in the order of the schema and filled in any.
+/// The lists of a document, created in the order of the schema and filled in any order.
 struct QifLists {
   pugi::xml_node feature_definitions = {};
   pugi::xml_node feature_nominals = {};
@@ -55,20 +55,20 @@ struct QifLists {
   pugi::xml_node measured_characteristics = {};
 };
 
-/// A document while it is written.
+/// A document under construction.
 struct QifDraft {
   pugi::xml_document document = {};
   QifIds ids = {};
   QifLists lists = {};
   int software = 0;
-  std::optional<int> device = {};  ///< None where points came from a file.
-  std::string frame = {};          ///< Frame of the points of the present feature.
+  std::optional<int> device = {};  ///< None where the points came from a file.
+  std::string frame = {};          ///< Frame of the points of the current feature.
 };
 
 /// References in the order of record::Reference.
 inline constexpr std::size_t kReferences = 4;
 
-/// A cylinder or circle of the document, and what was associated with its points.
+/// A cylinder or circle of the document, and the fits to its points.
 struct QifShape {
   bool circle = false;
   int nominal = 0;
@@ -79,7 +79,7 @@ struct QifShape {
 /// The shapes of one feature of the plan; none for an analysis of series.
 struct QifFeature {
   std::optional<QifShape> whole = {};
-  std::vector<QifShape> sections = {};  ///< Of a cylinder: a circle for each layer.
+  std::vector<QifShape> sections = {};  ///< For a cylinder: one circle per layer.
 };
 
 /// Writes definition, nominal, item, point set and measurements of one feature.
@@ -98,7 +98,7 @@ struct QifStatus {
 
 /// A list with `n`, which finish_lists() sets.
 pugi::xml_node add_list(pugi::xml_node parent, const char* name);
-/// Sets `n` of all lists below a node and removes empty ones: QIF has no list of nothing.
+/// Sets `n` of all lists below a node and removes empty ones, which QIF does not allow.
 void finish_lists(pugi::xml_node node);
 
 /// "x y z" in the shortest text that reads back to the same doubles.
@@ -107,7 +107,7 @@ void finish_lists(pugi::xml_node node);
 void add_references(pugi::xml_node parent, const char* name, const std::vector<int>& ids);
 /// <SubstituteFeatureAlgorithm> of a reference.
 void add_algorithm(pugi::xml_node parent, record::Reference reference);
-/// <Attributes> with texts; those that are empty are left out.
+/// <Attributes> with texts; empty texts are omitted.
 void add_attributes(pugi::xml_node parent,
                     const std::vector<std::pair<const char*, std::string>>& texts);
 
