@@ -73,7 +73,7 @@ struct Phrase::Argument {
                                  const std::vector<Phrase::Argument>& arguments);
 
 namespace internal {
-/// What a format sees of an argument.
+/// The type of an argument that a format sees.
 template <class T>
 using Shown = std::conditional_t<std::is_same_v<T, Phrase>, std::string, std::decay_t<const T>>;
 }  // namespace internal

@@ -334,7 +334,7 @@ struct SimulationPlan {
 
 struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
-  record::Paper paper = record::Paper::kA4;  ///< Of the PDF.
+  record::Paper paper = record::Paper::kA4;  ///< Paper of the PDF.
   std::string archive;                       ///< Empty: archive.db beside the run directory.
 };
 

@@ -9,7 +9,7 @@ namespace rondure::record {
 /// A format of the files that are derived from a record.
 enum class Format { kHtml, kPdf, kJson, kCsv, kQif, kDmis };
 
-/// What report.pdf is printed on.
+/// Paper of report.pdf.
 enum class Paper { kA4, kLetter };
 
 constexpr auto words_of(Format) {

@@ -40,7 +40,7 @@ namespace rondure::reports {
                                       std::string_view english);
 /// in_sentence() that begins with an upper-case letter.
 [[nodiscard]] std::string opening_sentence(const core::Phrase& phrase);
-/// What stands before the sentence of an error: the title of its code; empty in English.
+/// Title before the sentence of an error: the title of its code; empty in English.
 [[nodiscard]] std::string titled(core::Code code);
 
 }  // namespace rondure::reports

@@ -18,8 +18,8 @@ struct RunArguments {
   std::string operator_name;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;    ///< Empty: as the plan says.
-  std::string language = "en";         ///< Of page and summary: "en" or "zh".
-  std::optional<record::Paper> paper;  ///< Of report.pdf; none: as the plan says.
+  std::string language = "en";         ///< Language of page and summary: "en" or "zh".
+  std::optional<record::Paper> paper;  ///< Paper of report.pdf; none: as the plan says.
   std::string archive;                 ///< Empty: as the plan says.
   std::string wire_log;                ///< Empty: none.
   bool quiet = false;

@@ -51,8 +51,8 @@ struct SimulateCmmArguments {
 struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;
-  std::string language = "en";         ///< Of page and summary: "en" or "zh".
-  std::optional<record::Paper> paper;  ///< Of report.pdf; none: as the plan says.
+  std::string language = "en";         ///< Language of page and summary: "en" or "zh".
+  std::optional<record::Paper> paper;  ///< Paper of report.pdf; none: as the plan says.
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
 

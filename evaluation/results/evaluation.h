@@ -84,7 +84,7 @@ struct CharacteristicResult {
   std::optional<StatedValue> value;  ///< None when it could not be evaluated.
   Verdict verdict = Verdict::kVoid;
   core::Phrase reason;                 ///< One sentence behind the verdict.
-  std::optional<RuleOutcome> outcome;  ///< What the rule made of it; none for void, not toleranced.
+  std::optional<RuleOutcome> outcome;  ///< Outcome of the rule; none for void, not toleranced.
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
 
   /// The value as measured, without its qualifying words: for computing, not for writing.

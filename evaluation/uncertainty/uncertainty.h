@@ -85,7 +85,7 @@ struct UncertaintyResult {
   /// Expected loss by sparse sampling: estimate (a) minus estimate (b) [mm]; <= 0. Hence
   /// uncorrected = estimate (b) + inflation + loss.
   std::optional<double> sampling_loss_mm;
-  core::Phrase spectrum_source;  ///< Of (b); empty without.
+  core::Phrase spectrum_source;  ///< Source of the spectrum of (b); empty without.
   FormFinding finding;
   std::vector<core::Phrase> notes;              ///< To be read beside the interval.
   std::vector<BudgetLine> budget;               ///< Ranked by spread, the largest first.

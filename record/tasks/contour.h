@@ -14,7 +14,7 @@ struct ContourPartTask {
   std::string name;
   std::string axes;  ///< Trace of the controller.
   std::string pin;   ///< Contour of the pin from the gauge.
-  std::string main;  ///< Of the neighbouring main journal; empty: none.
+  std::string main;  ///< File of the neighbouring main journal; empty: none.
 };
 
 /// How a feature of the type "contour" is evaluated, as plan and journal spell it: crank pins in

@@ -9,13 +9,13 @@
 
 namespace rondure::record {
 
-// What a journal holds of the conditions of a run, for its evaluation without the plan. The plan
+// The conditions of a run as its journal holds them, for its evaluation without the plan. The plan
 // has tighter limits; these keep nonsense out of the computation.
 
 /// Temperatures of the plan, at "environment/".
 struct EnvironmentSettings {
   std::optional<std::string> declared;  ///< There when the plan states limits, also for files.
-  std::optional<double> assumed_degC;   ///< Of part and scales when not measured.
+  std::optional<double> assumed_degC;   ///< Temperature of part and scales when not measured.
 };
 
 /// The fixture that carried the parts, at "fixture/".
@@ -27,8 +27,8 @@ struct FixtureSettings {
   double max_alpha_deg = 0.0;
   double min_beta_deg = 0.0;
   double max_beta_deg = 0.0;
-  std::optional<double> max_age_days;      ///< Of its calibration.
-  std::optional<double> max_residual_um;   ///< Of its calibration.
+  std::optional<double> max_age_days;      ///< Limit on its calibration.
+  std::optional<double> max_residual_um;   ///< Limit on its calibration.
   std::optional<std::string> calibration;  ///< The file, whole; none: the fixture is nominal.
 };
 

@@ -9,7 +9,7 @@
 
 namespace rondure::record {
 
-// What a journal holds of a touched cylinder or circle beside the members of Feature, for its
+// Settings of a touched cylinder or circle beside the members of Feature, for its
 // evaluation without the plan.
 
 /// How the surface is sampled; written only where it is scanned.
@@ -21,8 +21,8 @@ struct SamplingSettings {
 struct MergedPosesSettings {
   Merge merge = Merge::kJoint;
   int merged_poses = 2;                                    ///< That the plan asks for.
-  std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};   ///< Of the fixture, machine frame.
-  std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};  ///< Of the fixture, hoop frame.
+  std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};   ///< Axis of the fixture, machine frame.
+  std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};  ///< Offset of the fixture, hoop frame.
 };
 
 /// How the surface is brought to 20 degC; without an expansion it stays as measured.

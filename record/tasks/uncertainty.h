@@ -23,7 +23,7 @@ struct LobeInfluenceTask {
 
 struct ProbeInfluencesTask {
   std::optional<double> repeatability_um;  ///< None: from the repeats of the run.
-  double degrees_of_freedom = 0.0;         ///< Of the value above; 0: known exactly.
+  double degrees_of_freedom = 0.0;         ///< Those of the value above; 0: known exactly.
   double correlation_length_mm = 0.0;      ///< For a scan; 0: touches are independent.
   std::vector<LobeInfluenceTask> lobes;
   double form_limit_um = 0.0;
@@ -75,8 +75,8 @@ constexpr auto words_of(FormSpectrumTask::Amplitudes) {
       {{Amplitudes::kRelative, "relative"}, {Amplitudes::kAbsolute, "absolute"}});
 }
 
-/// What is declared about a measurement, as plan and journal spell it. A member initialiser is the
-/// default of its key.
+/// The influences declared of a measurement, as plan and journal spell it. A member initialiser is
+/// the default of its key.
 struct UncertaintyTask {
   double coverage_percent = 95.0;
   int least_trials = 2000;
@@ -217,10 +217,11 @@ void describe(Visitor& v, UncertaintyTask& p) {
   describe_groups(v, p);
 }
 
-/// What the journal of a run holds of `uncertainty` beside the keys of the plan.
+/// Settings of `uncertainty` in the journal of a run, beside the keys of the plan.
 struct DeclaredUncertainty {
-  std::optional<double> expansion_per_K;  ///< Of the part, for points that bring no temperatures.
-  std::vector<std::string> groups;        ///< Those declared, as describe_groups() names them.
+  std::optional<double>
+      expansion_per_K;  ///< Expansion of the part, for points that bring no temperatures.
+  std::vector<std::string> groups;  ///< Those declared, as describe_groups() names them.
 };
 
 /// Visitor of describe_groups(): the names of all groups, or of those that a task declares.
@@ -248,7 +249,7 @@ void describe(Visitor& v, DeclaredUncertainty& p) {
 [[nodiscard]] std::vector<Setting> settings_of_uncertainty(
     const UncertaintyTask& task, const std::optional<double>& expansion_per_K);
 
-/// What a run declares of its uncertainty.
+/// The uncertainty that a run declares.
 struct RecordedUncertainty {
   UncertaintyTask task;
   std::optional<double> expansion_per_K;

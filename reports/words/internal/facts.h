@@ -18,7 +18,7 @@ namespace rondure::reports {
 [[nodiscard]] std::string title_of(const evaluation::Section& section);
 /// How much the fixture adds to CYLt, in one sentence; where it is not known, with the reason.
 [[nodiscard]] core::Phrase share_in_words(const evaluation::MergedPoses& merged);
-/// What the certificate says, in one sentence.
+/// The statement of a certificate, in one sentence.
 [[nodiscard]] core::Phrase sentence_of(const fit::Certificate& certificate);
 
 /// The missing parts of a run that did not finish, one sentence each.
