@@ -9,8 +9,8 @@ namespace rondure::reports {
 /// A text of the catalogue zh.po in both languages. Format texts have the same arguments on both
 /// sides.
 struct Translation {
-  /// Empty: tr() and trf() request the text. kSentence: a format, or a part, of the sentences of
-  /// evaluation, which told() recognises. kCode: the English text is the name of a core::Code.
+  /// Empty: a text of tr(), trf() or core::phrase(). kCode: the English text is the name of a
+  /// core::Code.
   std::string_view context;
   std::string_view english;
   std::string_view chinese;
