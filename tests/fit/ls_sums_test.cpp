@@ -167,8 +167,8 @@ TEST(LsSums, StretchesHoldTheExtremesOfAMovedAxis) {
     const auto distance = [&](std::size_t i) { return moved.distance(points[i] - kOrigin); };
     const auto all = distance_range(n, distance);
     const auto some = distance_range(n, distance, &extremes, change);
-    EXPECT_EQ(all.low_mm, some.low_mm);
-    EXPECT_EQ(all.high_mm, some.high_mm);
+    EXPECT_EQ(all.low, some.low);
+    EXPECT_EQ(all.high, some.high);
   }
 }
 
