@@ -131,7 +131,7 @@ Plan simulated(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
   const record::UncertaintyTask& said = *plan.uncertainty;
   plan.simulation->probe.repeatability_um = *said.probe->repeatability_um;
   SimulatedMachinePlan& machine = plan.simulation->machine;
-  for (const LobeInfluencePlan& lobe : said.probe->lobes) {
+  for (const record::LobeInfluenceTask& lobe : said.probe->lobes) {
     machine.pretravel_lobes.push_back({lobe.order, lobe.amplitude_um, 360.0 * noise.uniform()});
   }
   if (said.machine) {
