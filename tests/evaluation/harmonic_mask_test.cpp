@@ -5,7 +5,7 @@
 
 #include "evaluation/internal/conformance.h"
 #include "reports/html/report.h"
-#include "synthetic.h"
+#include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
 
