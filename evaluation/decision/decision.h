@@ -97,7 +97,7 @@ struct RuleOutcome {
 /// the correction grows with the declared noise, and the party that benefits declares it.
 /// @param tolerance_mm  T, > 0.
 /// @return  The outcome; or kMeaning with the reason for a void verdict: no interval for the
-///     measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
+///          measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
 /// Sources: ISO 14253-1:2017; JCGM 106:2012, 7 to 9; ASME B89.7.3.1-2001.
 [[nodiscard]] core::Result<RuleOutcome> apply_rule(const DecisionRule& rule,
                                                    const KnownValue& value, double tolerance_mm);

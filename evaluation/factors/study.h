@@ -74,7 +74,7 @@ struct FactorStudy {
 /// combination that cannot be evaluated states the reason.
 ///
 /// @return The failure of the feature; kMeaning for a form other than cylindricity and roundness;
-///     kReferenceAbsent where the characteristic has no value.
+///         kReferenceAbsent where the characteristic has no value.
 /// Cost: docs/compare.md.
 [[nodiscard]] core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                                       const CharacteristicResult& characteristic);

@@ -14,7 +14,8 @@ namespace rondure::evaluation {
 /// section of a circle.
 struct Zone {
   double deviation_mm = 0.0;
-  double inner_radius_mm = 0.0;  ///< Of the surface when the tip is known, otherwise of the points.
+  /// Radius of the surface when the tip is known, otherwise of the points.
+  double inner_radius_mm = 0.0;
   double outer_radius_mm = 0.0;
   double mean_radius_mm = 0.0;      ///< Middle of the zone; of the surface or the points, as above.
   bool of_surface = false;          ///< The radii are corrected for the tip radius.
@@ -43,7 +44,7 @@ struct LeastSquares {
 /// of the one section of a circle.
 struct OneSided {
   double deviation_mm = 0.0;
-  double radius_mm = 0.0;              ///< Of the surface or the points, as for the zone.
+  double radius_mm = 0.0;              ///< Radius of the surface or the points, as for the zone.
   std::vector<fit::Contact> contacts;  ///< `index` is the row of FeatureResult::cloud.
   fit::Certificate certificate;
   std::optional<fit::DeviationRange> range;  ///< Only for a circle that is not unique.

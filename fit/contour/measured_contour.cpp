@@ -108,7 +108,7 @@ std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double
 
 /// Examines the content of a contour at uniform angles above the cut-off.
 /// @param resolved_upr  Undulations that the rows of the gauge resolve, half their number; below 4
-///     times the cut-off no statement is possible.
+///                      times the cut-off no statement is possible.
 FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
                          double resolved_upr) {
   const auto f = spectrum(deviation_mm);

@@ -28,7 +28,7 @@ struct FormGroup {
 /// Layout of the points of a cloud, as far as it determines which form they resolve.
 struct PointLayout {
   int layers = 1;
-  /// Of the layer with the fewest points, in one pass; of a helix, per turn.
+  /// Number in the layer with the fewest points, in one pass; for a helix, per turn.
   int points_per_layer = 0;
   bool layered = true;            ///< false: a helix, or scattered.
   bool regular = false;           ///< Even steps, all layers alike: the columns are orthogonal.

@@ -43,7 +43,7 @@ ErrorModel::ErrorModel(const FormCloud& cloud, const Influences& influences) {
     if (!columns_.middleCols(mode.column, width).isZero(0.0)) modes_.push_back(mode);
   }
   point_variance_ = VectorXd::Zero(n);
-  double doubt = 0.0;  // of the variance, squared
+  double doubt = 0.0;  // squared uncertainty of the variance
   for (const PointError& error : point_errors_) {
     const VectorXd variance = error.sigma_mm.cwiseAbs2();
     point_variance_ += variance;

@@ -26,7 +26,7 @@ namespace rondure::evaluation {
 /// Inputs for drawing the two variances of a residual.
 struct VarianceTerms {
   double stated_mm2 = 0.0;          ///< Declared noise, > 0.
-  double degrees_of_freedom = 0.0;  ///< Of the declared noise; 0: known exactly.
+  double degrees_of_freedom = 0.0;  ///< Degrees of freedom of the declared noise; 0: known exactly.
   double power_mm2 = 0.0;           ///< Mean square of the deviations.
   double floor_mm2 = 0.0;           ///< Least variance of unresolved form.
 };
