@@ -17,7 +17,7 @@ namespace rondure::evaluation {
 /// value.
 struct Defect {
   BrokenInvariant broken;
-  FeatureResult result;  ///< With everything that was computed for the feature.
+  FeatureResult result;  ///< Everything that was computed for the feature.
 };
 
 /// An evaluation, and the results that were removed from it.

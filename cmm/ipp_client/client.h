@@ -190,7 +190,7 @@ class IppMachine final : public Machine {
   bool tool_scans_ = true;                     ///< The active tool has Tool.ScanPar.
   bool point_known_ = false;                   ///< The point that the server means was verified.
   std::array<Eigen::Vector3d, 2> last_move_W_mm_ = {Eigen::Vector3d::Zero(),
-                                                    Eigen::Vector3d::Zero()};  ///< From, to.
+                                                    Eigen::Vector3d::Zero()};  ///< Start, end.
   std::int64_t next_touch_ = -1;  ///< Count of a simulator; -1: unknown.
   bool homed_ = false;
   std::atomic<bool> stopped_ = false;

@@ -65,8 +65,8 @@ struct KnownValue {
 
 /// Probabilities over all parts of the stated prior, for this measurement.
 struct GlobalRisks {
-  double false_acceptance_1 = 0.0;  ///< That a part does not conform and is accepted.
-  double false_rejection_1 = 0.0;   ///< That a part conforms and is rejected.
+  double false_acceptance_1 = 0.0;  ///< Probability that a part does not conform and is accepted.
+  double false_rejection_1 = 0.0;   ///< Probability that a part conforms and is rejected.
 };
 
 /// Result of applying a rule to a value.

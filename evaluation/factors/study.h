@@ -52,7 +52,7 @@ struct FactorStudy {
   std::string feature;
   record::Characteristic characteristic;
   std::string symbol;          ///< "CYLt"
-  std::string value;           ///< As reported, with its interval: "8.31 um [7.60, 9.40]".
+  std::string value;           ///< Value as reported, with its interval: "8.31 um [7.60, 9.40]".
   std::string operator_words;  ///< "MZCY; unfiltered; ..."
   double reported_mm = 0.0;
   std::array<std::vector<std::string>, 4> levels;  ///< Names of the levels, by factor.

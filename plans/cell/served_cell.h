@@ -31,7 +31,7 @@ class ServedCell final : public cmm::ipp::Backend {
  private:
   std::vector<FeaturePlan> features_;
   SimulatedCell cell_;
-  core::Pose pose_;  ///< As read back from the fixture.
+  core::Pose pose_;  ///< Pose as read back from the fixture.
 };
 
 /// The point meant by I++ DME commands, from `machine.point`.

@@ -21,8 +21,9 @@ struct VerifyOptions {
 
 /// Result of verify_run().
 struct Verification {
-  std::vector<std::string> differences;  ///< In words, place first; empty: everything agrees.
-  std::string what_was_compared;         ///< One sentence: part, serial, verdict, and how exactly.
+  /// Differences in words, place first; empty: everything agrees.
+  std::vector<std::string> differences;
+  std::string what_was_compared;  ///< Part, serial, verdict, and how exactly, in one sentence.
   /// Limits of the comparison that are no differences, one sentence each: another version, no list.
   std::vector<std::string> notes;
 };

@@ -16,7 +16,7 @@ double draw_one(Distribution distribution, core::KeyedNoise& noise) {
   return std::sqrt(3.0) * (2.0 * noise.uniform() - 1.0);
 }
 
-/// Removes motions of the whole part from the columns and drops columns smaller than rounding.
+/// Removes motions of the whole part from the columns; remainders at rounding level become zero.
 void keep_form(const Eigen::MatrixXd& rigid, std::vector<VectorXd>& columns) {
   for (VectorXd& column : columns) {
     const double before = column.norm();

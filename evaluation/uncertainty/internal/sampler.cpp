@@ -354,7 +354,7 @@ void FormModel::find_bands() {
   }
 }
 
-/// Columns that overlap too much to be drawn one after another.
+/// Finds the columns that overlap too much to be drawn one after another.
 void FormModel::find_joint() {
   joint_.assign(static_cast<std::size_t>(all_.cols()), false);
   if (orthogonal()) return;

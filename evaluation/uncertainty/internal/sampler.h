@@ -107,7 +107,7 @@ class FormModel {
   std::vector<std::size_t> flagged_;
   double residual_mm_ = 0.0;
   double power_mm2_ = 0.0;  ///< Mean square of the imputed deviations.
-  Eigen::VectorXd energy_;  ///< Per group.
+  Eigen::VectorXd energy_;  ///< Energy of each group.
   std::vector<std::size_t> kept_sources_;
   std::vector<KeptGroup> groups_;
   std::vector<FormBand> bands_;
