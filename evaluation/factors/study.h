@@ -40,7 +40,7 @@ struct FactorEffect {
   /// Least change over all levels that have a value, including the reported one (0).
   double least_change_mm = 0.0;
   double greatest_change_mm = 0.0;
-  /// Level with the largest change; the reported level if nothing changes.
+  /// Level of the change farthest from 0; the reported level means no change.
   std::size_t strongest = 0;
   std::size_t levels = 0;  ///< Number of levels that have a value.
 
