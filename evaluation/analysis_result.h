@@ -10,7 +10,7 @@
 namespace rondure::evaluation {
 
 /// The result of one analysis of a feature, as plain data: one struct per analysis. Judging and
-/// writing code visits the variant. README.md says how to add an analysis.
+/// writing code visits the variant. README.md explains how to add an analysis.
 struct AnalysisResult {
   std::variant<SpindleResult, WheelResult, ContourResult, RotaryResult> found;
 };

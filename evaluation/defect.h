@@ -17,7 +17,7 @@ namespace rondure::evaluation {
 /// value.
 struct Defect {
   BrokenInvariant broken;
-  FeatureResult result;  ///< With everything that was computed for the feature.
+  FeatureResult result;  ///< Everything that was computed for the feature.
 };
 
 /// An evaluation, and the results that were removed from it.
@@ -48,7 +48,7 @@ inline constexpr const char* kDefectFile = "defect.txt";
 
 /// Writes the dumps into `directory` as defect.txt; without a defect nothing is written.
 /// @return kInternal where the file cannot be written: it names the first defect, and the journal
-///     as the remaining evidence.
+///         as the remaining evidence.
 [[nodiscard]] core::Result<void> keep_defects(const std::vector<Defect>& defects,
                                               const record::Header& header,
                                               const std::filesystem::path& directory,

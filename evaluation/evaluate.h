@@ -10,8 +10,8 @@ namespace rondure::evaluation {
 /// invariants, decides. Uses no machine, clock or files; the same record gives the same bits.
 ///
 /// @return Always an evaluation: every fault of the data is stated in its feature, and so is a
-///     violated invariant (a defect of the program: no value, all characteristics void;
-///     evaluate_run() of defect.h keeps its numbers).
+///         violated invariant (a defect of the program: no value, all characteristics void;
+///         evaluate_run() of defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
 }  // namespace rondure::evaluation

@@ -35,7 +35,7 @@ struct MaskedHarmonic {
 
 /// The harmonic that is nearest to its limit, or farthest beyond it.
 /// @return kSampling when no section is dense, or when the mask reaches above the highest harmonic
-///     that the points of every section resolve.
+///         that the points of every section resolve.
 [[nodiscard]] core::Result<MaskedHarmonic> nearest_to_mask(const FeatureResult& feature,
                                                            const record::Characteristic& asked);
 

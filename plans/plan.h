@@ -302,7 +302,7 @@ struct SimulatedFixturePlan {
   std::array<double, 3> axis_point_error_um = {0.0, 0.0, 0.0};
   std::array<double, 3> axis_offset_error_um = {0.0, 0.0, 0.0};
   std::array<double, 3> base_offset_mm = {0.0, 0.0, 0.0};
-  std::array<double, 3> base_rotation_deg = {0.0, 0.0, 0.0};  ///< About x, then y, then z.
+  std::array<double, 3> base_rotation_deg = {0.0, 0.0, 0.0};  ///< Rotation about x, then y, then z.
   double zero_alpha_deg = 0.0;
   double zero_beta_deg = 0.0;
   double squareness_deg = 0.0;
@@ -312,8 +312,8 @@ struct SimulatedFixturePlan {
 
 /// Faults that interrupt a simulated run, once: a resumed run does not repeat them.
 struct SimulatedFaultsPlan {
-  int connection_lost_at_touch = 0;  ///< From 1, 0: never.
-  int fixture_stalls_at_move = 0;    ///< From 1, 0: never.
+  int connection_lost_at_touch = 0;  ///< Number of the touch, from 1; 0: never.
+  int fixture_stalls_at_move = 0;    ///< Number of the move, from 1; 0: never.
   double part_moved_um = 0.0;        ///< Shift of the part while the run is interrupted, ring x.
   /// Offset of alpha from the commanded angle after the interruption.
   double fixture_off_deg = 0.0;

@@ -25,7 +25,7 @@ struct SimulatedWheelPlan {
   int points = 12;
   double arc_from_deg = 0.0;
   double arc_to_deg = 360.0;
-  int chipped_point = 0;  ///< From 1; 0: none.
+  int chipped_point = 0;  ///< Number of the point, from 1; 0: none.
   double chip_um = 0.0;
 };
 

@@ -160,7 +160,7 @@ struct Header {
   std::string version;      ///< core::kVersion of the program that measured.
   std::string processor;    ///< Model and vector units; results are bit-identical on the same kind.
   std::string started_utc;  ///< ISO 8601.
-  std::string plan_file;    ///< As given on the command line, without folders.
+  std::string plan_file;    ///< Name as given on the command line, without folders.
   std::string plan_name;
   std::string plan_revision;
   std::string plan_text;  ///< The plan itself, byte for byte.
@@ -192,7 +192,7 @@ struct PoseVisit {
   int id = 0;       ///< 0-based, counts through the whole run.
   int feature = 0;  ///< Index into RunRecord::features.
   core::Pose commanded;
-  core::Pose reached;        ///< As read back from the fixture.
+  core::Pose reached;        ///< Pose as read back from the fixture.
   bool final_cloud = false;  ///< Marks the cloud that is evaluated; set by a later decision.
   double time_s = 0.0;       ///< Time of the machine clock.
 };
@@ -265,7 +265,7 @@ constexpr auto words_of(Series::Role) {
 /// A number of the hidden truth of a simulated analysis.
 struct TruthValue {
   int feature = 0;
-  std::string name;  ///< With its unit, e.g. "RONt_um".
+  std::string name;  ///< Name with unit, e.g. "RONt_um".
   double value = 0.0;
 };
 

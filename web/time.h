@@ -24,7 +24,7 @@ struct PredictedStage {
 /// @param first     Touches on record at the first touch of this program start.
 /// @param elapsed_s Time since then.
 /// @return  None without a model, before the pace is known (three touches), and after the last
-///     predicted touch.
+///          predicted touch.
 [[nodiscard]] std::optional<double> time_left_s(const std::vector<PredictedStage>& stages,
                                                 int first, int touches, double elapsed_s);
 

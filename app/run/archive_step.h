@@ -31,7 +31,7 @@ void keep_earlier_results(const record::ArchivePlace& place, const std::filesyst
 /// Pushes a sealed run whose reports are written. If that fails, the run is queued beside the run
 /// directory, with a message. Does not change the exit status of the run.
 /// @return  Whether there was anything to do: false when the archive already held the run, or there
-///     is no archive.
+///          is no archive.
 bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
                  const record::RunRecord& record, const evaluation::Evaluation& evaluation);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a run directory stands where a plan is expected.
+/// Whether a run directory is named in place of a plan.
 bool names_directory(const RunArguments& arguments) {
   std::error_code ignored;
   return fs::is_directory(arguments.plan, ignored);

@@ -60,8 +60,8 @@ std::string row_of(const plans::Plan& plan, const ForecastStage& stage) {
              stage.time_s);
 }
 
-/// First of the identical stages of a grid search: its clouds, and the spheres on the ring before
-/// each.
+/// Number of identical stages of a grid search from `first` on: its clouds, and the spheres on the
+/// ring before each.
 std::size_t alike_from(const std::vector<ForecastStage>& stages, std::size_t first) {
   std::size_t end = first;
   const auto searches = [](const ForecastStage& stage) {

@@ -48,7 +48,7 @@ struct ContourImport {
 /// differences are the errors); angle_deg and deviation_um of pin and main journal.
 ///
 /// @return The errors of parse_series_csv(), with file and line; kMissingKey when both sets of axis
-///     columns, or a column of the gauge, are missing.
+///         columns, or a column of the gauge, are missing.
 [[nodiscard]] core::Result<ContourImport> read_contour_part(
     const ContourFiles& files, const std::vector<ContourColumn>& mapping);
 

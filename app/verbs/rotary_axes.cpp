@@ -28,7 +28,7 @@ struct RotaryAxisResult {
   std::string name;
   std::string method;
   fit::RotaryStudy study;
-  std::optional<fit::RotaryModel> model;  ///< Absent with too few stations; a warning says so.
+  std::optional<fit::RotaryModel> model;  ///< Absent with too few stations; a warning states this.
   Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();  ///< Point whose uncertainty is stated.
 };
 
@@ -372,7 +372,7 @@ core::Result<void> add_row(const record::BallRow& row, const RotaryAxesArguments
 /// Reads the files and sorts their rows by axis and station, in the order of measurement. A ball
 /// that recurs in the reference pose starts its next measurement.
 /// @return The errors of parse_ball_csv(); kBadOption when the direction of an axis is unknown, is
-///     not three numbers, or is given for several axes.
+///         not three numbers, or is given for several axes.
 core::Result<std::vector<NamedAxis>> read_rotary_axes(const RotaryAxesArguments& arguments) {
   std::vector<NamedAxis> out;
   for (const std::string& file : arguments.files) {

@@ -390,7 +390,7 @@ int wheel(const WheelArguments& arguments) {
       return refuse(written.error());
     }
   }
-  // The wheel result stands even where the surface cannot be ground with it.
+  // The measurement of the wheel is valid even where the surface cannot be ground with it.
   const int status = answer(found, arguments.json, [&] { return wheel_table(*evaluation, *task); });
   return evaluation->refused ? refuse(*evaluation->refused) : status;
 }

@@ -17,7 +17,7 @@ namespace rondure::cmm {
 struct AsciiProbeSettings {
   std::string name;
   wire::SerialSettings line;
-  std::string request;  ///< With its line end.
+  std::string request;  ///< Request, with its line end.
   /// Extended regular expression of a reply without its line end. Group 1: the number, with sign;
   /// group 2, where there is one: its unit, "mm", "um" or "in".
   std::string reply;

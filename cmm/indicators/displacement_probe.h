@@ -31,7 +31,7 @@ class DisplacementProbe {
 };
 
 /// The error kBadOption for indicators that are to follow a rotating part: read one after the
-/// other, they cannot, and the message says why in numbers.
+/// other, they cannot, and the message gives the reason in numbers.
 /// @param rate_Hz     Readings per second wanted of each indicator, > 0.
 /// @param indicators  Number of indicators, >= 1.
 [[nodiscard]] core::Error refuse_tracking(const IndicatorTraits& traits, double rate_Hz,

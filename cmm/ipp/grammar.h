@@ -50,7 +50,7 @@ inline constexpr Tag kUnsolicited = {true, 0};
 /// Parses a tag: five digits, not all 0, or E and four digits; nothing for any other text.
 [[nodiscard]] std::optional<Tag> read_tag(std::string_view text);
 
-/// An argument of a command, or a piece of data of a response.
+/// An argument of a command, or an item of data in a response.
 struct Item {
   enum class Kind {
     kNumber,  ///< 1.5
@@ -127,8 +127,8 @@ struct Refusal {
 /// event command and vice versa. Only spaces after the last parenthesis are tolerated.
 /// @param line  Any bytes, without CR LF.
 /// @return  The command; or 0001, 0002 (tag), 0007 (a character outside ASCII 32..126), 0008 (too
-///     long, too deep), 0502 (form of the arguments), 0507 (no such method), 0509 (a malformed
-///     number). O(length) time and memory; throws only bad_alloc.
+///          long, too deep), 0502 (form of the arguments), 0507 (no such method), 0509 (a malformed
+///          number). O(length) time and memory; throws only bad_alloc.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(std::string_view line);
 /// As above; 0007 for a line that ends with LF alone.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(const RawLine& line);
@@ -171,7 +171,7 @@ struct Response {
 /// number of one to four digits in an error, any spaces, numbers with more digits than allowed,
 /// data of any form (`raw`).
 /// @return  The response; or kSyntax when there is no tag and response character, a character
-///     outside ASCII 32..126, a line above kMaxLineLength, or an error report without number.
+///          outside ASCII 32..126, a line above kMaxLineLength, or an error report without number.
 [[nodiscard]] core::Result<Response> parse_response(std::string_view line);
 
 }  // namespace rondure::cmm::ipp

@@ -10,7 +10,7 @@ namespace rondure::cmm::ipp {
 
 /// Length of the numbers that are sent.
 enum class NumberForm {
-  kSixteenDigits,  ///< As the protocol allows.
+  kSixteenDigits,  ///< At most 16 digits, as the protocol allows.
   /// Including sign, point and exponent, for servers that refuse longer numbers.
   kSixteenCharacters,
 };

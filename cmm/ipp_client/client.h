@@ -70,7 +70,7 @@ class IppMachine final : public Machine {
 
   /// Connects, opens a session and identifies the server. Nothing moves.
   /// @return  kMachine when there is no answer, when it is not from an I++ DME 1.x or 2.x machine,
-  ///     or when the machine reports a fault.
+  ///          or when the machine reports a fault.
   [[nodiscard]] static core::Result<std::unique_ptr<IppMachine>> open(
       Connect connect, const IppMachineOptions& options);
 
@@ -127,8 +127,8 @@ class IppMachine final : public Machine {
   [[nodiscard]] core::Result<void> check_tool();
   /// Reads the tip radius that the machine uses; the radius from the plan if it reports none.
   [[nodiscard]] core::Result<void> read_tool_radius();
-  /// Sends the number of the next touch to a simulator, so that touches of other programs do not
-  /// shift its noise.
+  /// Sends the number of the next touch to a simulator, so that additional touches do not shift its
+  /// noise.
   [[nodiscard]] core::Result<void> number_touch(std::int64_t id);
   [[nodiscard]] core::Result<void> send_speeds();
   [[nodiscard]] core::Result<void> read_speed_limits();
@@ -190,7 +190,7 @@ class IppMachine final : public Machine {
   bool tool_scans_ = true;                     ///< The active tool has Tool.ScanPar.
   bool point_known_ = false;                   ///< The point that the server means was verified.
   std::array<Eigen::Vector3d, 2> last_move_W_mm_ = {Eigen::Vector3d::Zero(),
-                                                    Eigen::Vector3d::Zero()};  ///< From, to.
+                                                    Eigen::Vector3d::Zero()};  ///< Start, end.
   std::int64_t next_touch_ = -1;  ///< Count of a simulator; -1: unknown.
   bool homed_ = false;
   std::atomic<bool> stopped_ = false;

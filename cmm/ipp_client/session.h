@@ -43,7 +43,7 @@ using Outcome = tl::expected<T, Failure>;
 struct SessionOptions {
   std::chrono::milliseconds answer_limit{5000};  ///< For & after a command, and for AbortE.
   bool abort_works = true;  ///< false: a server whose AbortE is broken; motions run to their end.
-  NumberForm numbers = NumberForm::kSixteenDigits;  ///< In commands.
+  NumberForm numbers = NumberForm::kSixteenDigits;  ///< Form of numbers in commands.
 };
 
 /// The client side of an I++ DME connection: commands with their tags, answers sorted by tag.

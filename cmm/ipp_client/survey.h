@@ -62,7 +62,7 @@ struct Survey {
 /// (ClearAllErrors) and recorded.
 /// @param limit  Time limit for one answer.
 /// @return  kMachine when no answer arrives in time, when it is not an I++ DME answer, or when the
-///     server serves another client.
+///          server serves another client.
 [[nodiscard]] core::Result<Survey> survey(std::unique_ptr<wire::LineTransport> line,
                                           std::chrono::milliseconds limit);
 

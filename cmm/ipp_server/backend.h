@@ -13,8 +13,8 @@ namespace rondure::cmm::ipp {
 
 /// A direction of the part, and its target direction in the machine. Unit vectors.
 struct Alignment {
-  Eigen::Vector3d part = Eigen::Vector3d::UnitZ();     ///< In the body frame of the table.
-  Eigen::Vector3d machine = Eigen::Vector3d::UnitZ();  ///< In the machine frame.
+  Eigen::Vector3d part = Eigen::Vector3d::UnitZ();  ///< Direction in the body frame of the table.
+  Eigen::Vector3d machine = Eigen::Vector3d::UnitZ();  ///< Target in the machine frame.
 };
 
 /// The equipment of a server: a machine, and a table that turns the part, if there is one.

@@ -69,7 +69,7 @@ Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client,
                        const ServiceOptions& options) {
   const double limit_s = std::chrono::duration<double>(options.silence_limit).count();
   double looked_s = now_s();
-  double active_s = looked_s;  // of the client's last line or motion
+  double active_s = looked_s;  // time of the client's last line or motion
   while (!options.stop_requested()) {
     const auto said = serve_once(client, server);
     if (!said) return {said.error().what, nullptr};

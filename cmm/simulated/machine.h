@@ -153,8 +153,8 @@ class SimulatedMachine final : public Machine {
                                                const ScanCircleCommand& command, int index);
 
   SimulatedMachineOptions options_;
-  std::optional<PartSurface> part_;       ///< At 20 degC.
-  std::optional<PartSurface> warm_part_;  ///< At its temperature.
+  std::optional<PartSurface> part_;       ///< Part at 20 degC.
+  std::optional<PartSurface> warm_part_;  ///< Part at its temperature.
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
   std::vector<ReferenceSphere> spheres_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();

@@ -72,8 +72,8 @@ struct KnownValue {
 
 /// Probabilities over all parts of the stated prior, for this measurement.
 struct GlobalRisks {
-  double false_acceptance_1 = 0.0;  ///< That a part does not conform and is accepted.
-  double false_rejection_1 = 0.0;   ///< That a part conforms and is rejected.
+  double false_acceptance_1 = 0.0;  ///< Probability that a part does not conform and is accepted.
+  double false_rejection_1 = 0.0;   ///< Probability that a part conforms and is rejected.
 };
 
 /// Result of applying a rule to a value.
@@ -104,7 +104,7 @@ struct RuleOutcome {
 /// the correction grows with the declared noise, and the party that benefits declares it.
 /// @param tolerance_mm  T, > 0.
 /// @return  The outcome; or kMeaning with the reason for a void verdict: no interval for the
-///     measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
+///          measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
 /// Sources: ISO 14253-1:2017; JCGM 106:2012, 7 to 9; ASME B89.7.3.1-2001.
 [[nodiscard]] core::Result<RuleOutcome> apply_rule(const DecisionRule& rule,
                                                    const KnownValue& value, double tolerance_mm);

@@ -47,7 +47,7 @@ enum class PointSubset {
 
 /// The points of an evaluated feature.
 /// @return The failure of the feature; kNoPoints where RONt is asked for and the layers are not
-///     known.
+///         known.
 [[nodiscard]] core::Result<FactorPoints> factor_points(const FeatureResult& result,
                                                        record::Form form);
 
@@ -64,7 +64,7 @@ enum class PointSubset {
 /// The peak to valley deviation about a reference [mm]: CYLt of all points, RONt of the worst
 /// layer. The optimum is proven locally only.
 /// @return kTooFewPoints for fewer than 6 points (4 in a section), whose zone is 0 for any part;
-///     the errors of the fits.
+///         the errors of the fits.
 [[nodiscard]] core::Result<double> deviation_mm(const FactorPoints& points,
                                                 record::Reference reference);
 

@@ -40,7 +40,7 @@ struct FactorShares {
 ///
 /// @param reported  The combination that is always kept; its value must exist.
 /// @return Nothing when all values of the block are equal (to 1e-12 of their unit or of their
-///     size). O(values x levels).
+///         size). O(values x levels).
 /// Source: D. C. Montgomery, "Design and Analysis of Experiments", chapter 5.
 [[nodiscard]] std::optional<FactorShares> factor_shares(const FactorTable& table,
                                                         std::span<const std::size_t> reported);

@@ -40,7 +40,7 @@ struct FactorEffect {
   /// Least change over all levels that have a value, including the reported one (0).
   double least_change_mm = 0.0;
   double greatest_change_mm = 0.0;
-  /// Level with the largest change; the reported level if nothing changes.
+  /// Level of the change farthest from 0; the reported level means no change.
   std::size_t strongest = 0;
   std::size_t levels = 0;  ///< Number of levels that have a value.
 
@@ -52,7 +52,7 @@ struct FactorStudy {
   std::string feature;
   record::Characteristic characteristic;
   std::string symbol;          ///< "CYLt"
-  std::string value;           ///< As reported, with its interval: "8.31 um [7.60, 9.40]".
+  std::string value;           ///< Value as reported, with its interval: "8.31 um [7.60, 9.40]".
   std::string operator_words;  ///< "MZCY; unfiltered; ..."
   double reported_mm = 0.0;
   std::array<std::vector<std::string>, 4> levels;  ///< Names of the levels, by factor.
@@ -74,7 +74,7 @@ struct FactorStudy {
 /// combination that cannot be evaluated states the reason.
 ///
 /// @return The failure of the feature; kMeaning for a form other than cylindricity and roundness;
-///     kReferenceAbsent where the characteristic has no value.
+///         kReferenceAbsent where the characteristic has no value.
 /// Cost: docs/compare.md.
 [[nodiscard]] core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                                       const CharacteristicResult& characteristic);

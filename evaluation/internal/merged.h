@@ -22,7 +22,7 @@ struct MergedCloud {
 /// Transforms the touches of each pose to the body frame with the inverse of the fixture's motion
 /// and, if the plan asks for it, with the pose errors that fit::pose_joint() finds.
 /// @return kNoPoints when not all poses were measured; for a joint merge the errors of
-///     pose_joint().
+///         pose_joint().
 /// Source: methods, cylindricity section 3.2 and rotary axes section 8.
 [[nodiscard]] core::Result<MergedCloud> merged_cloud(const record::RunRecord& record, int feature,
                                                      const std::optional<fit::ProbeTip>& probe);

@@ -78,7 +78,7 @@ struct Prediction {
 /// @param expected  An error-free record: places, repeats and times of the touches, settings.
 /// @param feature   Index into its features.
 /// @return  kBadOption; `why` states what prevents an interval. Same input, same bits, on one kind
-///     of processor. 28 points: 0.1 s for (a), 0.4 s for (b) on two cores.
+///          of processor. 28 points: 0.1 s for (a), 0.4 s for (b) on two cores.
 /// Source: docs/uncertainty.md, "Before the first touch".
 [[nodiscard]] core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
                                                const record::Characteristic& asked,

@@ -14,7 +14,8 @@ namespace rondure::evaluation {
 /// section of a circle.
 struct Zone {
   double deviation_mm = 0.0;
-  double inner_radius_mm = 0.0;  ///< Radius of the surface if the tip is known, else of the points.
+  /// Radius of the surface when the tip is known, otherwise of the points.
+  double inner_radius_mm = 0.0;
   double outer_radius_mm = 0.0;
   double mean_radius_mm = 0.0;      ///< Middle of the zone; of the surface or the points, as above.
   bool of_surface = false;          ///< The radii are corrected for the tip radius.

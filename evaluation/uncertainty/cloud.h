@@ -47,7 +47,7 @@ struct FormCloud {
 ///
 /// @param points_mm       Tip centres, machine frame. For a section, its plane is fitted to them.
 /// @param near_direction  Approximate direction of the axis; for a section, its normal (z if
-///     absent).
+///                        absent).
 /// @return  The errors of fit::ls_cylinder(), fit::ls_circle().
 [[nodiscard]] core::Result<FormCloud> form_cloud(
     FormKind kind, std::span<const Eigen::Vector3d> points_mm,

@@ -92,7 +92,7 @@ void ModeCollector::probe(const ProbeInfluences& probe) {
   begin("probe-lobing");
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
     if (lobe.amplitude_mm == 0.0) continue;
-    // The position is read after the contact, along the approach; only motion across the stylus
+    // Pre-travel shifts the reading along the approach; only its component across the stylus
     // counts.
     const auto wave = [&](std::size_t i, double shift) {
       const Vector3d& n = normals_[i];

@@ -215,7 +215,7 @@ FormFinding finding_of(const FormChains& chains, std::size_t points) {
   return out;
 }
 
-constexpr double kMostFlagged = 0.2;  // of the points of a cloud
+constexpr double kMostFlagged = 0.2;  // fraction of the points of a cloud
 // quantile of the inflation that the declared errors can produce
 constexpr double kErrorLimit = 0.975;
 constexpr double kReadLimit = 4.0;     // standard deviations of the readings of the model

@@ -103,9 +103,9 @@ struct UncertaintyResult {
 /// the whole surface.
 ///
 /// @param cloud       >= 4 (section) or 6 (cylinder) points that determine position and size;
-///     measured, or nominal with deviations from elsewhere.
+///                    measured, or nominal with deviations from elsewhere.
 /// @param spectrum    For (b); with no terms the spectrum that the cloud shows, which must then be
-///     dense; none: no statement about the whole surface.
+///                    dense; none: no statement about the whole surface.
 /// @return  kTooFewPoints, kNotFinite (row), kRank, kBadOption; kSampling (too sparse for its own
 ///          spectrum); kMeaning (no noise known); kOutliers, kInconsistent (the data contradict the
 ///          model or the declaration: a void, with its reason). Same input, same bits, at any

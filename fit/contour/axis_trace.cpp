@@ -16,9 +16,10 @@
 namespace rondure::fit {
 namespace {
 
-constexpr double kMargin = 0.2;       ///< Margin beside the turn, for the ends of the spline [rad].
-constexpr double kMissingStep = 1.6;  ///< As a multiple of the neighbouring steps.
-constexpr double kLargeX = 0.5;       ///< mm
+constexpr double kMargin = 0.2;  ///< Margin beside the turn, for the ends of the spline [rad].
+/// Least step at a missing sample, as a multiple of the neighbouring steps.
+constexpr double kMissingStep = 1.6;
+constexpr double kLargeX = 0.5;  ///< mm
 constexpr double kLargeC = 0.5 * core::kDegree;
 constexpr double kLargeMeanX = 0.1;  ///< mm
 

@@ -19,7 +19,7 @@ constexpr double kLargestGap = 1.0 * core::kDegree;
 constexpr double kMissingGap = 1.6;
 constexpr double kFilteredRms = 0.01 * core::kMicrometre;
 constexpr double kFilteredShare = 0.01;
-constexpr double kFilterTraceFrom = 3.0;  ///< As a multiple of the cut-off.
+constexpr double kFilterTraceFrom = 3.0;  ///< Start of the range, as a multiple of the cut-off.
 constexpr double kRoundOff = 1e-8;        ///< Amplitude that rounding to 0.001 um leaves [mm].
 constexpr double kLeastLine = 20.0;       ///< Least number of harmonics in the line.
 constexpr double kLeastRange = 0.05 * core::kMicrometre;
@@ -108,7 +108,7 @@ std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double
 
 /// Examines the content of a contour at uniform angles above the cut-off.
 /// @param resolved_upr  Undulations that the rows of the gauge resolve, half their number; below 4
-///     times the cut-off no statement is possible.
+///                      times the cut-off no statement is possible.
 FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
                          double resolved_upr) {
   const auto f = spectrum(deviation_mm);

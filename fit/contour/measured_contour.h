@@ -45,11 +45,11 @@ struct MeasuredContour {
 /// @param angle_rad     Gauge angles, in one direction, one turn, n >= 16.
 /// @param deviation_mm  Radii or their deviations from any constant.
 /// @return kMeaning (different lengths, direction not +-1), kTooFewPoints, kNotFinite (row),
-///         kAngleOrder (row) where the angle goes back, kNotFullSection for a gap above 1 deg;
-///         contour_error()'s. Warnings: kSparse for missing samples below 1 deg, kFilteredTwice
-///         for a contour that seems filtered and is filtered again, kUndersampled for an unfiltered
-///         one of more rows than samples that holds more than 0.01 um rms beyond them, kUnits for a
-///         contour below 0.05 um or above 1 mm.
+///         kAngleOrder (row) where the angle decreases, kNotFullSection for a gap above 1 deg; the
+///         errors of contour_error(). Warnings: kSparse for missing samples below 1 deg,
+///         kFilteredTwice for a contour that seems filtered and is filtered again, kUndersampled
+///         for an unfiltered one of more rows than samples that contains more than 0.01 um rms
+///         beyond them, kUnits for a contour below 0.05 um or above 1 mm.
 /// Source: methods, contour sections 4, 7 and 9.
 [[nodiscard]] core::Result<MeasuredContour> measured_contour(
     std::span<const double> angle_rad, std::span<const double> deviation_mm,

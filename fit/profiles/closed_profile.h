@@ -24,7 +24,8 @@ struct AngularProfile {
   std::size_t merged = 0;         ///< Values that shared an angle (1e-9 rad) with another value.
   std::size_t reversals = 0;      ///< Steps against the prevailing direction of the input.
   double turns = 0.0;             ///< Revolutions of the input.
-  double largest_gap_rad = 0.0;   ///< Between neighbours, including the last and the first.
+  /// Largest gap between neighbours, including the last and the first.
+  double largest_gap_rad = 0.0;
 
   /// Equal steps to 1e-6 of a step: no interpolation is needed.
   [[nodiscard]] bool uniform() const;

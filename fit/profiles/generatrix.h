@@ -32,7 +32,7 @@ struct GeneratrixStraightness {
 struct Taper {
   double slope = 0.0;        ///< Radius per length along the axis direction; > 0: widening.
   double diameter_mm = 0.0;  ///< Change of the diameter over the length of the data, signed [mm].
-  double cone_angle_rad = 0.0;  ///< Between opposite generatrices, signed: 2 atan(slope).
+  double cone_angle_rad = 0.0;  ///< Angle between opposite generatrices, signed: 2 atan(slope).
 };
 
 /// Computes the taper of points about an axis.

@@ -33,12 +33,12 @@ struct RoundnessEvaluation {
   bool interpolated = false;  ///< Resampled by a periodic cubic spline.
   double resampling_error_mm = 0.0;
   int filter_iterations = 0;
-  AngularProfile measured;        ///< In order of angle, before the filter.
+  AngularProfile measured;        ///< Profile in order of angle, before the filter.
   std::vector<double> theta_rad;  ///< Angles evaluated; contacts are rows of these.
   std::vector<double> r_mm;  ///< The filtered profile there (points: relative to the LS circle).
   std::vector<Roundness> values;        ///< One for each reference that exists, in order.
   std::vector<CircleReference> absent;  ///< Requested, but not existing; see `warnings`.
-  HarmonicTable harmonics;              ///< Before the filter.
+  HarmonicTable harmonics;              ///< Harmonics before the filter.
   std::vector<core::Error> warnings;
 };
 

@@ -11,7 +11,7 @@ namespace rondure::fit {
 /// The extent to which a minimum zone, or a one-sided reference, is proven to be optimal.
 struct Certificate {
   enum class Kind {
-    kNone,  ///< Nothing is proven; `reason` says why.
+    kNone,  ///< Nothing is proven; `reason` explains why.
     /// A strict local minimum: multipliers >= 0, no point outside, growth in all directions.
     kLocal,
     kGlobal,  ///< No better zone exists within `scope`.

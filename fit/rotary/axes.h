@@ -86,7 +86,7 @@ struct RotaryStudy {
   double s0 = 1.0;  ///< A-posteriori factor of all stations; covariances hold max(1, s0)^2.
   int dof = 0;      ///< Degrees of freedom of s0.
   RotaryTable table;
-  std::optional<AxisOffset> offset;  ///< Absent below 45 deg of arc; a warning says so.
+  std::optional<AxisOffset> offset;  ///< Absent below 45 deg of arc; a warning states this.
   /// Whether 0 and 360 deg were compared, which needs stations a full turn apart.
   bool periodicity_checked = false;
   std::vector<core::Error> warnings;

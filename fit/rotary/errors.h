@@ -21,7 +21,7 @@ struct RotaryAxis {
 
 /// The six errors of a rotary axis at one angle. In addition to the nominal rotation, the body is
 /// shifted by t and rotated by w about the origin of the axis:
-/// p_actual = exp([w]x) R(angle) p0 + t,    p relative to the origin of the axis.
+///   p_actual = exp([w]x) R(angle) p0 + t,    p relative to the origin of the axis.
 struct RotaryErrors {
   Eigen::Vector3d t_mm = Eigen::Vector3d::Zero();   ///< Errors along x, y, z (EX, EY, EZ) [mm].
   Eigen::Vector3d w_rad = Eigen::Vector3d::Zero();  ///< Errors about x, y, z (EA, EB, EC) [rad].

@@ -11,8 +11,8 @@ namespace rondure::fit {
 
 /// Part and motion in the direction of one probe, found by turning the part against the spindle.
 struct StepSeparation {
-  UniformProfile part;                       ///< Without harmonics 0 and 1.
-  std::vector<double> motion_mm;             ///< In the direction of the probe, same samples.
+  UniformProfile part;            ///< Profile without harmonics 0 and 1.
+  std::vector<double> motion_mm;  ///< Motion in the direction of the probe, same samples.
   std::vector<RecoveredHarmonic> harmonics;  ///< 2..highest; `transfer` is 1/gain.
   std::vector<int> unrecovered;  ///< Harmonics not separated; they remain in the motion.
 };

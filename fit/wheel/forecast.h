@@ -38,7 +38,7 @@ struct ResidualForm {
 /// Data of a wheel that are known when its path is computed.
 struct ForecastInput {
   double radius_mm = 0.0;                   ///< Radius of the path, taken as true.
-  double radius_uncertainty_mm = 0.0;       ///< Its standard uncertainty.
+  double radius_uncertainty_mm = 0.0;       ///< Standard uncertainty of `radius_mm`.
   std::optional<double> nominal_radius_mm;  ///< Radius that an uncompensated path would use.
   double repeatability_mm = 0.0;  ///< Repeatability of the machine: the limit of any compensation.
   double touch_off_mm = 0.0;      ///< x0

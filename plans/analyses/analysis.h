@@ -14,7 +14,7 @@
 #include "record/run_record.h"
 
 // Features whose data are series, not touches: checks their plans and obtains their data. README.md
-// says how to add one.
+// explains how to add one.
 
 namespace rondure::plans {
 

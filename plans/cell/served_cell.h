@@ -17,7 +17,7 @@ namespace rondure::plans {
 class ServedCell final : public cmm::ipp::Backend {
  public:
   /// @param plan  Must have `machine`, `fixture`, `probe` and `simulation`, and a feature to touch;
-  ///     the first of these is mounted.
+  ///              the first of these is mounted.
   ServedCell(const Plan& plan, std::uint64_t seed);
 
   [[nodiscard]] cmm::Machine& machine() override { return cell_.machine(); }
@@ -31,7 +31,7 @@ class ServedCell final : public cmm::ipp::Backend {
  private:
   std::vector<FeaturePlan> features_;
   SimulatedCell cell_;
-  core::Pose pose_;  ///< As read back from the fixture.
+  core::Pose pose_;  ///< Pose as read back from the fixture.
 };
 
 /// The point meant by I++ DME commands, from `machine.point`.

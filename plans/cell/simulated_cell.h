@@ -79,7 +79,7 @@ class SimulatedCell final : public Cell {
   fixture::SimulatedFixture fixture_;  ///< Turns the part in software.
   cmm::SimulatedMachine machine_;
   std::optional<cmm::PartSurface> surface_;
-  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
+  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< Spheres on the table, machine frame.
   std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
   /// Spheres that show the pose of the ring, body frame.
   std::vector<cmm::ReferenceSphere> ring_spheres_;
@@ -88,7 +88,7 @@ class SimulatedCell final : public Cell {
   /// Shift of the part during the interruption.
   Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();
   std::uint64_t turns_ = 0;  ///< Turns of the fixture since its homing.
-  core::Pose last_turn_;     ///< As commanded.
+  core::Pose last_turn_;     ///< Pose commanded last.
 };
 
 }  // namespace rondure::plans

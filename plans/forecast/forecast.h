@@ -54,7 +54,7 @@ struct Forecast {
 /// form error at its nominal place. Nothing moves, nothing is written. A real part is displaced:
 /// `guided` then needs one or two more poses, each with one more cloud.
 /// @return  kUnreachable or kSampling with the pointer of the feature; a forecast without stages
-///     for a plan whose points all come from files.
+///          for a plan whose points all come from files.
 [[nodiscard]] core::Result<Forecast> forecast(const Plan& plan);
 
 }  // namespace rondure::plans

@@ -17,7 +17,7 @@ enum class Body { kFeature, kSection, kShoulder, kRing, kRim, kTable, kSphere, k
 /// The part of the tool that meets an obstacle.
 enum class Limb { kBall, kShaft, kHolder };
 
-/// Distance that the tool keeps on a move.
+/// Distances that the tool keeps on a move.
 enum class Phase {
   kTravel,  ///< The clearance, from all obstacles.
   kNear,    ///< Beside the surface to be touched: from the part, only the approach if that is less.

@@ -24,8 +24,8 @@ struct Run {
 /// writes each touch into the journal before the next command goes to the machine.
 ///
 /// @return An error when nothing has moved and nothing was written (unreachable target in the start
-///     pose, directory in use); otherwise the run, whose journal states how it ended. After a fault
-///     the tip was retracted, unless the machine itself had stopped on a collision.
+///         pose, directory in use); otherwise the run, whose journal states how it ended. After a
+///         fault the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
 
 /// Differences between a recorded run, interrupted or finished, and a run of this plan with these
@@ -52,9 +52,9 @@ using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 /// @param options  An absent `seed`, `serial` or `operator_name` is taken from the recorded run.
 /// @param held  The journal of that directory, read once.
 /// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and
-///     the new value), of the points files, version, seed, serial number or operator; kJournal for
-///     a sealed run; the errors of Journal::reopen(). In these cases nothing has moved and the
-///     journal is unchanged.
+///          the new value), of the points files, version, seed, serial number or operator; kJournal
+///          for a sealed run; the errors of Journal::reopen(). In these cases nothing has moved and
+///          the journal is unchanged.
 [[nodiscard]] RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options,
                                         record::HeldJournal held);
 

@@ -44,8 +44,8 @@ struct ArchiveResult {
   std::string reference;              ///< "MZCY", "LSCI", ...
   std::string filter;                 ///< "unfiltered".
   std::string sampling;               ///< "4 x 7 points; mean of 5 touches a point".
-  std::optional<double> value;        ///< In `unit`; empty when it could not be evaluated.
-  std::optional<double> upper_limit;  ///< In `unit`; empty when not toleranced.
+  std::optional<double> value;        ///< Value in `unit`; empty when it could not be evaluated.
+  std::optional<double> upper_limit;  ///< Limit in `unit`; empty when not toleranced.
   std::string unit = "mm";
   std::string verdict;  ///< "conforms", "does not conform", "undecided", "void", "not toleranced".
   std::string certificate;  ///< Certificate of the reference: "global", "local", "none".

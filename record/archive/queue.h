@@ -44,9 +44,9 @@ class ArchiveQueue {
 
 /// Limits of a delivery.
 struct DeliveryOptions {
-  int attempts = 3;                           ///< For one run; >= 1.
-  double pause_s = 0.3;                       ///< Before the second attempt [s]; doubles each time.
-  double give_up_after_s = 5.0;               ///< No attempt and no further run after this time.
+  int attempts = 3;              ///< For one run; >= 1.
+  double pause_s = 0.3;          ///< Pause before the second attempt [s]; doubles each time.
+  double give_up_after_s = 5.0;  ///< No attempt and no further run after this time.
   std::function<bool()> stop_requested = {};  ///< Called before every attempt; may be empty.
 };
 

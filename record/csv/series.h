@@ -29,9 +29,9 @@ struct ColumnName {
 ///
 /// @param name  The file's name for `where` ("name:line").
 /// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column
-///     whose unit differs from that of the wanted column with the same name; kSyntax, kNotFinite,
-///     kNoPoints as parse_points_csv(); kBadOption for a name in `names` that is not wanted.
-///     O(bytes).
+///          whose unit differs from that of the wanted column with the same name; kSyntax,
+///          kNotFinite, kNoPoints as parse_points_csv(); kBadOption for a name in `names` that is
+///          not wanted. O(bytes).
 [[nodiscard]] core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,
                                                     std::span<const WantedColumn> wanted,
                                                     std::span<const ColumnName> names = {});

@@ -76,7 +76,7 @@ class Journal {
   /// Completes seal() for a run that died after its commit: moves the log into the file and lists
   /// the digest. Does nothing when the digest is listed already.
   /// @pre  The caller holds the lock of the directory and has read the journal: a journal with
-  ///     faults_of() must not get a new digest, and a foreign log must not be moved into it.
+  ///       faults_of() must not get a new digest, and a foreign log must not be moved into it.
   /// @return  Errors of seal() and of read_checksums().
   [[nodiscard]] static core::Result<void> finish_seal(const std::filesystem::path& directory);
 
@@ -128,7 +128,7 @@ struct HeldJournal {
 /// journal without tables, whose creation was interrupted. Removes such a leftover, so that the run
 /// can start there.
 /// @return  false in every other case; kFile when another process is at work in the directory, or
-///     when it cannot be read.
+///          when it cannot be read.
 [[nodiscard]] core::Result<bool> clear_unstarted_run(const std::filesystem::path& directory);
 
 }  // namespace rondure::record

@@ -22,7 +22,7 @@ using record::Form;
 /// Text of the record for a comment. DMIS is ASCII, and a `$` may continue a line: other bytes and
 /// `$` become "?".
 std::string remark(std::string_view text) {
-  constexpr std::size_t kLongest = 200;  // of a name; longer texts are cut
+  constexpr std::size_t kLongest = 200;  // bytes of a name; longer texts are cut
   std::string out;
   for (const char c : printable(text)) {
     const auto byte = static_cast<unsigned char>(c);

@@ -52,8 +52,8 @@ struct Export {
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
 /// @return The files written; kBadOption for an unknown format; kInternal when report.qif would
-///     fail check_qif(); kFile with the system's reason, or when report.pdf cannot be printed,
-///     which is tried last; kSyntax for an invalid SHA256SUMS.
+///         fail check_qif(); kFile with the system's reason, or when report.pdf cannot be printed,
+///         which is tried last; kSyntax for an invalid SHA256SUMS.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
     const record::RunRecord& record, const evaluation::Evaluation& evaluation,

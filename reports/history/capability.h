@@ -33,7 +33,7 @@ struct ControlLimits {
 ///
 /// @param values_mm  In the order of time, > 0.
 /// @return  kTooFewPoints below kLeastForLimits, kOutOfRange for a value that is not positive,
-///     kRank when all values are equal. O(n). Source: ISO 7870-2:2013, individuals chart.
+///          kRank when all values are equal. O(n). Source: ISO 7870-2:2013, individuals chart.
 [[nodiscard]] core::Result<ControlLimits> control_limits(std::span<const double> values_mm);
 
 /// One-sided index of how far the values stay below an upper limit, relative to their spread.
@@ -58,8 +58,8 @@ struct Capability {
 /// The lower bound is a generalised confidence limit (S. Weerahandi, J. Am. Stat. Assoc. 88, 1993).
 ///
 /// @return  kTooFewPoints below kLeastForIndex, kOutOfRange for a value that is not positive, kRank
-///     when all values are equal, kNotConverged when the model does not fit and there are too few
-///     values for their own percentiles. O(n log n).
+///          when all values are equal, kNotConverged when the model does not fit and there are too
+///          few values for their own percentiles. O(n log n).
 [[nodiscard]] core::Result<Capability> upper_capability(std::span<const double> values_mm,
                                                         double limit_mm);
 

@@ -28,7 +28,6 @@ inline constexpr std::chrono::milliseconds kPrintTime = std::chrono::minutes(2);
 /// printed from.
 /// @param html  The page from write_html().
 /// @return  The bytes, which differ from call to call; kFile when there is no Chromium, or when it
-///     fails, is killed or takes longer than `time_limit`.
 ///          fails, is killed or takes longer than `time_limit`.
 [[nodiscard]] core::Result<std::string> print_pdf(
     const record::Header& header, std::string_view html, Paper paper,

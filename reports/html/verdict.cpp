@@ -96,7 +96,7 @@ std::string value_cell(const evaluation::StatedValue& value) {
   return html;
 }
 
-/// A probability estimated from trials, with a resolution of at least one trial.
+/// A probability estimated from trials, with a resolution no finer than one trial.
 std::string percent(double share_1, double trials) {
   const double finest = std::pow(10.0, std::ceil(std::log10(100.0 / trials)));  // in percent
   if (share_1 * trials < 0.5) return trf("below {:g} %", finest);

@@ -12,8 +12,7 @@
 namespace rondure::reports {
 namespace {
 
-/// Radius of the inner circle in the drawing, relative to the outer one.
-constexpr double kInner = 0.62;
+constexpr double kInner = 0.62;  ///< Radius of the inner circle in the drawing, whose edge is at 1.
 constexpr double kOuter = 0.97;
 
 /// A field of dots. Characters are twice as high as wide: an ASCII character is one dot wide and

@@ -119,7 +119,7 @@ using core::printable;
 using core::signed_um;
 using core::tiny_um;
 
-constexpr std::size_t kValueColumn = 15;  ///< Where the values of labelled lines start.
+constexpr std::size_t kValueColumn = 15;  ///< Start of the values in labelled lines.
 
 /// Appends a line of the summary; `head` has kValueColumn columns or less.
 void add_wrapped(std::string& out, std::string_view head, std::string_view text) {

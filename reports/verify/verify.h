@@ -21,8 +21,9 @@ struct VerifyOptions {
 
 /// Result of verify_run().
 struct Verification {
-  std::vector<std::string> differences;  ///< In words, place first; empty: everything agrees.
-  std::string what_was_compared;         ///< One sentence: part, serial, verdict, and how exactly.
+  /// Differences in words, place first; empty: everything agrees.
+  std::vector<std::string> differences;
+  std::string what_was_compared;  ///< Part, serial, verdict, and how exactly, in one sentence.
   /// Limits of the comparison that are no differences, one sentence each: another version, no list.
   std::vector<std::string> notes;
 };
@@ -31,16 +32,15 @@ struct Verification {
 /// of its tables, the SHA-256 of the files (SHA256SUMS), every stored result, and every export in
 /// the directory. Changes nothing, and does not evaluate a journal that was changed after it was
 /// written.
-/// written.
+///
 /// Bits must be equal for the version and the kind of processor that measured. On another
 /// processor, where the last bit of sin and atan2 differs, numbers may differ by 1e-9. When another
 /// version measured, numbers that both versions give are compared within 1e-9, and only SHA256SUMS
-/// covers the wording of reports. The sentence states which comparison was made.
-/// reports is left to SHA256SUMS. The sentence says which.
+/// covers the wording of reports. `what_was_compared` states which comparison was made.
+///
 /// Without a key this finds accidents: anybody who can write into the directory can also write new
 /// digests. With a key it finds forgery, too: a file that the list names must then exist, and a
 /// file that is read must be on the list.
-/// one that is read must be on the list.
 ///
 /// @return kFile or kJournal when the journal or an export cannot be read, kBadOption for a key of
 /// another kind.

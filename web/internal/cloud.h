@@ -19,7 +19,7 @@ struct LiveCloud {
 };
 
 /// @return  kNoPoints and the other codes of a fit: the touches do not define the feature yet;
-///     kBadOption: an analysis, which has no cloud.
+///          kBadOption: an analysis, which has no cloud.
 [[nodiscard]] core::Result<LiveCloud> evaluate_so_far(const record::RunRecord& record,
                                                       const record::PoseVisit& visit);
 

@@ -26,7 +26,7 @@ struct LiveRequest {
 /// Reason for the refusal of a request.
 struct Refusal {
   int status = 403;
-  std::string why;  ///< One sentence.
+  std::string why;  ///< Reason, in one sentence.
 };
 
 /// 128 random bits from the system as 32 hexadecimal digits; empty when the system provides none.

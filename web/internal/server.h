@@ -23,9 +23,9 @@ struct LiveHandlers {
 /// Serves the live page at 127.0.0.1, from threads of its own that block signals and yield the
 /// processor to the run. GET never changes anything.
 ///
-/// GET /  GET /live.css  GET /live.js    the page
-/// GET /live?since=VERSION&client=NAME   the changes since that version
-/// POST /stop                            stops the run, unless refuse_stop() refuses
+///   GET /  GET /live.css  GET /live.js    the page
+///   GET /live?since=VERSION&client=NAME   the changes since that version
+///   POST /stop                            stops the run, unless refuse_stop() refuses
 class LiveServer {
  public:
   /// @param port      0: any free one.

@@ -24,7 +24,7 @@ struct Contact {
 /// @param tip_radius_mm  > 0.
 /// @param max_travel_mm  Largest travel of the tip, >= 0.
 /// @return  The contact; kCollision when the sphere overlaps the part at its start by more than
-///     1e-9 mm, kNoTouch when it meets nothing, kNotConverged if the solver fails.
+///          1e-9 mm, kNoTouch when it meets nothing, kNotConverged if the solver fails.
 [[nodiscard]] core::Result<Contact> first_contact(const PartSurface& surface,
                                                   const Eigen::Vector3d& start_P_mm,
                                                   const Eigen::Vector3d& direction_P,

@@ -27,7 +27,7 @@ std::optional<double> conformance(const UncertaintyStatement& known,
   if (!prior) {
     return static_cast<double>(first_above - values.begin()) / static_cast<double>(values.size());
   }
-  constexpr double kLeastWeighted = 50.0;  // fewer values give no probability worth stating
+  constexpr double kLeastWeighted = 50.0;  // fewer values give no meaningful probability
   double sum = 0.0;
   double squares = 0.0;
   double within = 0.0;

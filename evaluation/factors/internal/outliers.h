@@ -30,7 +30,7 @@ struct WithoutOutliers {
   std::size_t left_out = 0;
 };
 /// @return kOutliers when more than a quarter of the points (of a section) would be removed, since
-///     that is form; or the errors of the least-squares fit.
+///         that is form; or the errors of the least-squares fit.
 [[nodiscard]] core::Result<WithoutOutliers> without_outliers(const FactorPoints& points,
                                                              OutlierRule rule);
 

@@ -34,7 +34,7 @@ core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
 }
 
 /// Computes Deviation::unseen_rad.
-/// @param a_turn  Number of points on a turn if they were evenly spread.
+/// @param a_turn  Number of points on one turn if they were evenly spread.
 double unseen(std::vector<double> angles_rad, std::size_t a_turn) {
   if (angles_rad.size() < 3) return 0.0;
   std::sort(angles_rad.begin(), angles_rad.end());

@@ -59,7 +59,7 @@ std::vector<double> sorted_angles(const FormCloud& cloud, const Rows& rows) {
   return angles;
 }
 
-/// The largest gap and where it ends, in sorted angles of a turn.
+/// The largest gap and its end, in sorted angles within one turn.
 std::pair<double, double> largest_gap(const std::vector<double>& angles) {
   double gap = angles.front() + core::kTwoPi - angles.back();
   double end = angles.front();

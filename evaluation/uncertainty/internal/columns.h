@@ -15,7 +15,7 @@ namespace rondure::evaluation {
 
 /// Columns that enter or leave the model together: cos and sin of one undulation times one degree.
 struct FormGroup {
-  double undulations = 0.0;           ///< On an arc half waves, counted as undulations of a turn.
+  double undulations = 0.0;           ///< Undulations; on an arc half waves, counted per full turn.
   int harmonic = 0;                   ///< Undulations; on an arc, half waves along it.
   int degree = 0;                     ///< Degree along the axis.
   std::vector<Eigen::Index> columns;  ///< Column indices; one or two.
@@ -28,7 +28,7 @@ struct FormGroup {
 /// Layout of the points of a cloud, as far as it determines which form they resolve.
 struct PointLayout {
   int layers = 1;
-  /// Points of the layer with the fewest, in one pass; of a helix, per turn.
+  /// Number in the layer with the fewest points, in one pass; for a helix, per turn.
   int points_per_layer = 0;
   bool layered = true;            ///< false: a helix, or scattered.
   bool regular = false;           ///< Even steps, all layers alike: the columns are orthogonal.
@@ -97,7 +97,7 @@ class FormColumns {
   void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
 
   PointLayout layout_;
-  Eigen::VectorXd angle_;  ///< On an arc the fraction of it, times pi.
+  Eigen::VectorXd angle_;  ///< Angle; on an arc its fraction of the arc, times pi.
   Eigen::VectorXd height_mm_;
   Eigen::VectorXd root_weight_;
   double middle_mm_ = 0.0;
@@ -106,7 +106,7 @@ class FormColumns {
   Eigen::MatrixXd recurrence_;  ///< Shift and scale of each polynomial.
   Eigen::MatrixXd along_;       ///< Polynomials at the points, weighted.
   Eigen::MatrixXd rigid_;
-  Eigen::MatrixXd rigid_map_;  ///< From 1, cos, sin, q cos, q sin to rigid_.
+  Eigen::MatrixXd rigid_map_;  ///< Map from 1, cos, sin, q cos, q sin to rigid_.
   std::vector<Column> columns_;
   std::vector<FormGroup> groups_;
   int most_undulations_ = 0;

@@ -16,7 +16,7 @@ double draw_one(Distribution distribution, core::KeyedNoise& noise) {
   return std::sqrt(3.0) * (2.0 * noise.uniform() - 1.0);
 }
 
-/// Removes motions of the whole part from the columns and drops columns smaller than rounding.
+/// Removes motions of the whole part from the columns; remainders at rounding level become zero.
 void keep_form(const Eigen::MatrixXd& rigid, std::vector<VectorXd>& columns) {
   for (VectorXd& column : columns) {
     const double before = column.norm();
@@ -43,7 +43,7 @@ ErrorModel::ErrorModel(const FormCloud& cloud, const Influences& influences) {
     if (!columns_.middleCols(mode.column, width).isZero(0.0)) modes_.push_back(mode);
   }
   point_variance_ = VectorXd::Zero(n);
-  double doubt = 0.0;  // of the variance, squared
+  double doubt = 0.0;  // squared uncertainty of the variance
   for (const PointError& error : point_errors_) {
     const VectorXd variance = error.sigma_mm.cwiseAbs2();
     point_variance_ += variance;

@@ -32,7 +32,7 @@ struct PointError {
   std::size_t influence = 0;
   Distribution distribution = Distribution::kNormal;
   Eigen::VectorXd sigma_mm;         ///< Standard deviation, one per point.
-  double degrees_of_freedom = 0.0;  ///< Those of `sigma_mm`; 0: known exactly.
+  double degrees_of_freedom = 0.0;  ///< Degrees of freedom of `sigma_mm`; 0: known exactly.
   /// Correlation of each point's error with that of the previous point; empty: independent.
   Eigen::VectorXd likeness_1 = {};
 };

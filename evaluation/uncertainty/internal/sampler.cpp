@@ -29,10 +29,10 @@ constexpr double kSpotCandidate = 3.3;  // standard deviations
 constexpr double kNoUnresolved = 0.35;  // probability that all form is resolved
 constexpr int kVariances = 48;          // steps of the unresolved variance
 constexpr int kNoiseSteps = 15;         // for noise that is not known exactly
-constexpr double kOverlap = 0.3;        // of two columns; above it they are drawn together
-constexpr double kModeOverlap = 0.05;   // of a column with a systematic error, squared
+constexpr double kOverlap = 0.3;       // overlap of two columns above which they are drawn together
+constexpr double kModeOverlap = 0.05;  // squared overlap of a column with a systematic error
 constexpr double kSpectrumRest = 0.05;  // no surface consists of a few declared terms alone
-constexpr double kMostValues = 4e7;     // of the matrix of columns: 320 MB
+constexpr double kMostValues = 4e7;     // values in the matrix of columns: 320 MB
 
 VectorXd point_variances(const ErrorModel& errors) {
   const VectorXd given = errors.point_variance_mm2();
@@ -354,7 +354,7 @@ void FormModel::find_bands() {
   }
 }
 
-/// Columns that overlap too much to be drawn one after another.
+/// Finds the columns that overlap too much to be drawn one after another.
 void FormModel::find_joint() {
   joint_.assign(static_cast<std::size_t>(all_.cols()), false);
   if (orthogonal()) return;

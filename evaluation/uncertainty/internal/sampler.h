@@ -26,7 +26,7 @@ namespace rondure::evaluation {
 /// Inputs for drawing the two variances of a residual.
 struct VarianceTerms {
   double stated_mm2 = 0.0;          ///< Declared noise, > 0.
-  double degrees_of_freedom = 0.0;  ///< Those of the declared noise; 0: known exactly.
+  double degrees_of_freedom = 0.0;  ///< Degrees of freedom of the declared noise; 0: known exactly.
   double power_mm2 = 0.0;           ///< Mean square of the deviations.
   double floor_mm2 = 0.0;           ///< Least variance of unresolved form.
 };
@@ -107,7 +107,7 @@ class FormModel {
   std::vector<std::size_t> flagged_;
   double residual_mm_ = 0.0;
   double power_mm2_ = 0.0;  ///< Mean square of the imputed deviations.
-  Eigen::VectorXd energy_;  ///< Per group.
+  Eigen::VectorXd energy_;  ///< Energy of each group.
   std::vector<std::size_t> kept_sources_;
   std::vector<KeptGroup> groups_;
   std::vector<FormBand> bands_;

@@ -191,7 +191,7 @@ void JointModel::evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> 
     const auto& pose = poses_[static_cast<std::size_t>(k)];
     const Eigen::Map<const Eigen::Matrix<double, 6, 1>> u(pose.prior.data());
     const Eigen::Vector3d w = u.tail<3>().cwiseProduct(x.segment<3>(pose_column(k) + 3));
-    // p = E^-1 tip: a shift moves it by -exp(-w), a turn by exp(-w) [arm]x J(-w).
+    // p = E^-1 tip: a shift moves it by -exp(-w), a rotation by exp(-w) [arm]x J(-w).
     const Eigen::RowVector3d out_W = at.out_P.transpose() * at.turn_PW;
     row.segment<3>(pose_column(k)) = -out_W.cwiseProduct(u.head<3>().transpose());
     row.segment<3>(pose_column(k) + 3) =

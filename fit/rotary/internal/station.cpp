@@ -25,7 +25,7 @@ struct Equations {
   std::vector<Matrix36> rows;     ///< One per ball.
   std::vector<Matrix3d> weights;  ///< Inverse covariances.
   Matrix6 inverse = Matrix6::Zero();
-  Matrix6 back = Matrix6::Identity();  ///< From the unknowns to (t; w) at the origin.
+  Matrix6 back = Matrix6::Identity();  ///< Map from the unknowns to (t; w) at the origin.
 
   /// Change of the unknowns per discrepancy of ball i.
   [[nodiscard]] Eigen::Matrix<double, 6, 3> gain(std::size_t i) const {

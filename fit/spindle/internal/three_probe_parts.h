@@ -24,7 +24,7 @@ struct ProbeSamples {
   std::vector<double> alpha_rad;               ///< Work angle in the first revolution.
   std::vector<double> beta_rad;
   std::vector<double> theta_rad;  ///< theta of every reading used.
-  double largest_gap_rad = 0.0;   ///< Between neighbouring readings in theta.
+  double largest_gap_rad = 0.0;   ///< Largest gap between neighbouring readings in theta.
 };
 
 /// A.6: checks, unwraps, interpolates and averages the readings.

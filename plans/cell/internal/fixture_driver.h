@@ -15,7 +15,7 @@ namespace rondure::plans {
 
 /// Opens the driver of such a fixture; nothing turns.
 /// @return  kMachine when the fixture is not plugged in, is busy, may not be opened, or does not
-///     answer; kBadOption for a fixture set by hand without CellOptions::set_by_hand.
+///          answer; kBadOption for a fixture set by hand without CellOptions::set_by_hand.
 [[nodiscard]] core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(
     const FixturePlan& plan, const CellOptions& options);
 

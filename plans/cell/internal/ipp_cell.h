@@ -75,7 +75,7 @@ class IppCell final : public Cell {
   std::int64_t feature_ = 0;           ///< Index of the measured feature.
   std::int64_t sent_feature_ = -1;     ///< Last index sent to the simulator.
   std::int64_t turns_ = 0;             ///< Turns of the fixture since its homing.
-  core::Pose last_turn_;               ///< As commanded.
+  core::Pose last_turn_;               ///< Pose commanded last.
 };
 
 }  // namespace rondure::plans

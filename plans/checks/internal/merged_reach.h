@@ -19,7 +19,7 @@ inline constexpr std::size_t kLeastTargets = 4;
 /// Checks a feature of the strategy "merged", with the part at the position stated in the plan:
 /// every pose reaches kLeastTargets, and every target is reached in one of the poses.
 /// @return kUnreachable with the pointer of the key to change, and the missing targets. Nothing
-///     moves.
+///         moves.
 [[nodiscard]] core::Result<void> check_merged_reach(const Plan& plan, std::size_t index);
 
 }  // namespace rondure::plans

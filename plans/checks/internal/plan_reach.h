@@ -12,7 +12,7 @@ namespace rondure::plans {
 /// The targets of a touched feature, if the tool can reach all of them in the start pose, with the
 /// part at the position stated in the plan.
 /// @return kSampling or kUnreachable with the pointer of the feature's sampling; names the first
-///     unreachable target, the number of others, the cause and the remedy. Nothing moves.
+///         unreachable target, the number of others, the cause and the remedy. Nothing moves.
 [[nodiscard]] core::Result<std::vector<Target>> reachable_targets(const Plan& plan,
                                                                   std::size_t index);
 

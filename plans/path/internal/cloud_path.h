@@ -25,7 +25,7 @@ class CloudPath {
  public:
   /// @param targets   At least one.
   /// @param proposed  Order of touching, as indices; used unless the targets' own order is shorter,
-  ///     which is checked for up to 2000 targets.
+  ///                  which is checked for up to 2000 targets.
   CloudPath(const Scene& scene, const Placement& placement, const PathGeometry& geometry,
             double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed);
 

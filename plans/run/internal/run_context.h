@@ -35,7 +35,7 @@ struct TouchStep {
 struct ScanStep {
   cmm::ScanCircleCommand command;  ///< Its ids are set later.
   record::Touch row;  ///< Row of its points; values that differ among them are set later.
-  Polyline entry_W;   ///< As for a touch at its first point.
+  Polyline entry_W;   ///< Path as for a touch at its first point.
   Polyline way_W;
 };
 

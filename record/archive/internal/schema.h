@@ -24,7 +24,7 @@ struct Dialect {
 /// The statements that create an archive.
 [[nodiscard]] std::vector<std::string> archive_statements(const Dialect& dialect);
 
-/// A number that stands for a name in an index: PostgreSQL cannot index text longer than 2.7 kB.
+/// A number that represents a name in an index: PostgreSQL cannot index text longer than 2.7 kB.
 /// Two names may share a number, so the names of the rows found are compared as well.
 [[nodiscard]] std::int64_t key_of(std::string_view name);
 

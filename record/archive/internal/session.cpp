@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::Code;
 
-/// The message of libpq in one line, without the sentence that SOCI puts before it.
+/// The message of libpq in one line, without the sentence that SOCI adds in front.
 std::string words_of_server(const std::string& message) {
   constexpr std::string_view kOfSoci = "Cannot establish connection to the database.";
   std::string words;

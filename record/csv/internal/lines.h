@@ -40,7 +40,7 @@ namespace rondure::record {
                                                        std::string_view column,
                                                        std::string_view unit);
 
-/// The unit that a column's name ends with ("um" of "H1_um"), or "".
+/// The unit at the end of a column's name ("um" in "H1_um"), or "".
 [[nodiscard]] std::string_view unit_of_column(std::string_view name);
 
 /// The error for a field of the header that names none of the columns: kWrongUnit when one of them
@@ -60,9 +60,10 @@ namespace rondure::record {
 /// @param header   Takes the header line; returns core::Result<void>.
 /// @param row      Takes a row and its line number; returns core::Result<void>.
 /// @param no_rows  Takes whether the table has a header; returns the sentence for a table without
-///     rows.
+///                 rows.
 /// @param plain    Fast reader, tried first at each row: takes the text from the start of the row,
-///     and returns the bytes of the row with its line end, or 0 for a line that `row` must read.
+///                 and returns the bytes of the row with its line end, or 0 for a line that `row`
+///                 must read.
 /// @return  The error of `header` or `row` with its place, kSyntax for UTF-16, kNoPoints.
 template <class Header, class Row, class NoRows, class Plain>
 core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,

@@ -7,7 +7,7 @@ namespace {
 
 /// A table in the form of the versions `since` to `until`.
 /// @param columns  The columns after the id, separated by ", ". Each is `not null`, unless it ends
-///     with a question mark.
+///                 with a question mark.
 Table table(std::string_view name, std::string_view columns, std::int64_t since = 1,
             std::int64_t until = kSchemaVersion, std::string_view id_check = "") {
   std::string sql = "create table ";

@@ -13,8 +13,8 @@ namespace rondure::reports {
 struct Curve {
   std::string name;
   std::string css_class = "profile";
-  std::vector<double> x;  ///< Polar: angles [rad]; else in the unit of the axis.
-  std::vector<double> y;  ///< Polar: deviations [um]; else in the unit of the axis.
+  std::vector<double> x;  ///< Polar: angles [rad]; otherwise in the unit of the axis.
+  std::vector<double> y;  ///< Polar: deviations [um]; otherwise in the unit of the axis.
   /// For a chart: half width of a band about y; one per point, or empty.
   std::vector<double> band = {};
   bool marks_only = false;  ///< For a chart: points without a line.

@@ -60,7 +60,7 @@ struct SolidCamera {
 struct SolidSeen {
   double x = 0.0;
   double y = 0.0;
-  bool faces = true;  ///< On the half of the cylinder that faces the reader.
+  bool faces = true;  ///< The place is on the half of the cylinder that faces the reader.
 };
 [[nodiscard]] SolidSeen seen(const SolidCamera& camera, double angle_deg, double radius,
                              double height);

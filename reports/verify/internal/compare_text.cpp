@@ -255,7 +255,7 @@ std::optional<std::string> first_csv_difference(std::string_view expected, std::
   if (expected == found) return std::nullopt;
   const auto left = lines_of(expected);
   const auto right = lines_of(found);
-  std::vector<std::string_view> names;  // of the columns: none before the header line
+  std::vector<std::string_view> names;  // names of the columns; empty before the header line
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
     if (names.empty() && !left[i].starts_with('#')) names = csv_fields(left[i]);
     if (auto difference = row_difference(left[i], right[i], names, tolerance)) {
