@@ -68,13 +68,14 @@ TEST(MessageWords, SayInChineseHowMuchTheFixtureAdds) {
   merged.solved.emplace();
   merged.solved->u_naive_mm = 1.5e-3;
   const LanguageScope chinese(Language::kChinese);
-  EXPECT_TRUE(share_in_words(merged).starts_with(
-      "各位姿仅按运动学合并：其声明的不确定度使 CYLt 变化 1.500 um（均方根）"))
-      << share_in_words(merged);
+  EXPECT_TRUE(
+      in_words(share_in_words(merged))
+          ->starts_with("各位姿仅按运动学合并：其声明的不确定度使 CYLt 变化 1.500 um（均方根）"))
+      << share_in_words(merged).english();
   merged.joint = true;
   merged.solved->naive_mm = 8.25e-3;
-  EXPECT_TRUE(share_in_words(merged).starts_with("仅按夹具运动学将得到 CYLt 8.250 um："))
-      << share_in_words(merged);
+  EXPECT_TRUE(in_words(share_in_words(merged))->starts_with("仅按夹具运动学将得到 CYLt 8.250 um："))
+      << share_in_words(merged).english();
 }
 
 TEST(MessageWords, OfAnOldJournalAreItsOwnSentences) {
