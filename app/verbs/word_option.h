@@ -1,14 +1,23 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "record/words.h"
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
 namespace rondure::app {
+
+/// Adds an option that takes one of these words and hands it to `take`.
+CLI::Option* add_word(CLI::App& verb, const std::string& name,
+                      const std::vector<std::string>& words,
+                      std::function<void(const std::string&)> take, const std::string& meaning);
 
 /// Adds an option whose words spell an enum.
 /// @param value  Set to the enumerator of the word; also an optional one.
@@ -20,14 +29,10 @@ CLI::Option* add_words(CLI::App& verb, const std::string& name, Value& value,
   for (const auto& word : words_of(Enum{})) {
     if (std::find(but.begin(), but.end(), word.value) == but.end()) words.emplace_back(word.text);
   }
-  return verb
-      .add_option_function<std::string>(
-          name,
-          [&value](const std::string& word) {
-            if (const auto named = record::value_named<Enum>(word)) value = *named;
-          },
-          meaning)
-      ->check(CLI::IsMember(words));
+  const auto take = [&value](const std::string& word) {
+    if (const auto named = record::value_named<Enum>(word)) value = *named;
+  };
+  return add_word(verb, name, words, take, meaning);
 }
 
 }  // namespace rondure::app
