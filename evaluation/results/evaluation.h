@@ -58,7 +58,7 @@ struct PoseValue {
   bool final_pose = false;
 };
 
-/// Placeholder for a reference that was not requested.
+/// The value of a reference that was not requested.
 [[nodiscard]] inline tl::unexpected<core::Error> not_fitted() {
   return core::fail(core::Code::kReferenceAbsent, "it was not fitted");
 }
