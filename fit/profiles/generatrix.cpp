@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/internal/hull_distance.h"
 
 namespace rondure::fit {
 namespace {
@@ -38,24 +37,6 @@ std::vector<Eigen::Vector2d> turned(PlanePoints points, const Eigen::Vector2d& m
     out.emplace_back((v.x() + slope * v.y()) * scale, (v.y() - slope * v.x()) * scale);
   }
   return out;
-}
-
-/// Least distance of two parallels that hold the points between them. One of them passes through an
-/// edge of the hull, the other through the corner farthest from that edge.
-double least_zone(PlanePoints points) {
-  const auto hull = convex_hull(points);
-  const std::size_t n = hull.size();
-  if (n < 3) return 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t far = 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d& a = hull[i];
-    const Eigen::Vector2d& b = hull[(i + 1) % n];
-    // The farthest corner advances round the hull with the edge.
-    while (twice_area(a, b, hull[(far + 1) % n]) > twice_area(a, b, hull[far])) far = (far + 1) % n;
-    least = std::min(least, twice_area(a, b, hull[far]) / (b - a).norm());
-  }
-  return least;
 }
 
 core::Error no_length() {
@@ -90,7 +71,7 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   std::vector<double> deviations;
   for (const Eigen::Vector2d& p : frame) deviations.push_back(p.y());
   out.ls = form_parameters(deviations);
-  out.zone_mm = least_zone(frame);
+  out.zone_mm = least_width(frame);
   return out;
 }
 
