@@ -44,4 +44,38 @@ struct RunOut {
 /// @return kNoPoints, kNotFinite (row).
 [[nodiscard]] core::Result<double> axial_run_out_mm(SpacePoints points_mm, const Axis& datum);
 
+/// Circular axial run-out (ISO 1101): at each radius the range of the heights along the datum axis,
+/// over the points whose distance from it is that radius to `near_mm`.
+/// @param radii_mm  One or more stated radii of circles on the face; > 0.
+/// @return The run-out of each radius; kNoPoints (no radius, no point), kNotFinite (row), kSampling
+///         for a radius with fewer than 3 points.
+/// Source: methods, drawing section 5.
+[[nodiscard]] core::Result<RunOut> circular_axial_run_out(SpacePoints points_mm, const Axis& datum,
+                                                          std::span<const double> radii_mm,
+                                                          double near_mm = 0.1);
+
+/// Circular run-out normal to the surface of a cone: the radial one times the cosine of the nominal
+/// half angle (ISO 1101).
+/// @return as radial_run_out(); kBadOption for an angle outside 0..90 deg.
+[[nodiscard]] core::Result<RunOut> conical_run_out(
+    std::span<const std::vector<Eigen::Vector3d>> sections_mm, const Axis& datum,
+    double half_angle_rad);
+
+/// Parallelism of an axis to an axis, perpendicularity of an axis to a plane (ISO 1101, zone with
+/// diameter sign): diameter of the least circle round the points of the median line, seen along the
+/// datum. The zone is free to move, so that it is not above the coaxiality.
+/// @param median_mm  Centres of at least two sections.
+/// @param datum      Direction of the datum axis, or normal of the datum plane; of length 1.
+/// @return kNoPoints, kNotFinite (row), kRank (one centre).
+[[nodiscard]] core::Result<double> orientation_of_axis_mm(SpacePoints median_mm,
+                                                          const Eigen::Vector3d& datum);
+
+/// Parallelism of a plane or of an axis to a plane, perpendicularity of a plane to an axis (ISO
+/// 1101): distance of the two planes with the given normal that enclose the points.
+/// @param points_mm  Points of the plane, or of the median line of the axis.
+/// @param normal     Normal of the zone; of length 1.
+/// @return kNoPoints, kNotFinite (row).
+[[nodiscard]] core::Result<double> orientation_of_plane_mm(SpacePoints points_mm,
+                                                           const Eigen::Vector3d& normal);
+
 }  // namespace rondure::fit

@@ -4,12 +4,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fit/geometry/internal/hull_distance.h"
 
 namespace rondure::fit {
 namespace {
@@ -136,6 +138,22 @@ std::vector<Eigen::Vector2d> convex_hull(PlanePoints points_mm) {
     std::ranges::reverse(sorted);
   }
   return hull;
+}
+
+double least_width(PlanePoints points_mm) {
+  const auto hull = convex_hull(points_mm);
+  const std::size_t n = hull.size();
+  if (n < 3) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t far = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d& a = hull[i];
+    const Eigen::Vector2d& b = hull[(i + 1) % n];
+    // The farthest corner advances round the hull with the edge.
+    while (twice_area(a, b, hull[(far + 1) % n]) > twice_area(a, b, hull[far])) far = (far + 1) % n;
+    least = std::min(least, twice_area(a, b, hull[far]) / (b - a).norm());
+  }
+  return least;
 }
 
 bool meets_hull(PlanePoints hull_mm, const Eigen::Vector2d& center_mm, double half_side_mm) {

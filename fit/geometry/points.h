@@ -45,6 +45,11 @@ void sample_points(SpacePoints points_mm, std::span<Eigen::Vector3d> out_mm);
 /// Corners of the convex hull, counter-clockwise. O(n log n).
 [[nodiscard]] std::vector<Eigen::Vector2d> convex_hull(PlanePoints points_mm);
 
+/// Least distance of two parallel lines that hold the points between them, over all directions; 0
+/// for points on one line. Exact: one of the lines passes through a side of the hull. O(n log n).
+/// Source: M. E. Houle, G. T. Toussaint, IEEE Trans. PAMI 10 (1988) 761-765.
+[[nodiscard]] double least_width(PlanePoints points_mm);
+
 /// Whether a square (half side 0: a point) may overlap a hull; false only if a side of the hull
 /// separates them.
 [[nodiscard]] bool meets_hull(PlanePoints hull_mm, const Eigen::Vector2d& center_mm,

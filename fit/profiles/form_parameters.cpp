@@ -36,4 +36,13 @@ core::Result<FormParameters> cylindricity_parameters(std::span<const Eigen::Vect
   return form_parameters(deviations);
 }
 
+core::Result<FormParameters> flatness_parameters(std::span<const Eigen::Vector3d> points_mm,
+                                                 const Plane& plane) {
+  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  std::vector<double> deviations;
+  deviations.reserve(points_mm.size());
+  for (const Eigen::Vector3d& p : points_mm) deviations.push_back(height_mm(plane, p));
+  return form_parameters(deviations);
+}
+
 }  // namespace rondure::fit

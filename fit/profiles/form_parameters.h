@@ -6,12 +6,13 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/plane.h"
 
 namespace rondure::fit {
 
 /// Parameters of a set of local deviations from a reference (ISO 12180-1, 12181-1, 12780-1, where
-/// RON, CYL or STR precedes the letter). Peak, valley and rms are defined about the least-squares
-/// reference.
+/// RON, CYL or STR precedes the letter; FLT for a plane, ISO 12781-1). Peak, valley and rms are
+/// defined about the least-squares reference.
 struct FormParameters {
   double total_mm = 0.0;   ///< t: peak to valley.
   double peak_mm = 0.0;    ///< p: greatest deviation out of the material, >= 0.
@@ -33,5 +34,11 @@ struct FormParameters {
 [[nodiscard]] core::Result<FormParameters> cylindricity_parameters(
     std::span<const Eigen::Vector3d> points_mm, const Axis& axis, double radius_mm,
     bool inside = false);
+
+/// Computes FLTt, FLTp, FLTv, FLTq about a plane whose normal points out of the material; all four
+/// are defined about the least-squares plane (ISO 12781-1).
+/// @return kNoPoints, kNotFinite (row).
+[[nodiscard]] core::Result<FormParameters> flatness_parameters(
+    std::span<const Eigen::Vector3d> points_mm, const Plane& plane);
 
 }  // namespace rondure::fit

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/internal/hull_distance.h"
 
 namespace rondure::fit {
 namespace {
@@ -40,28 +41,31 @@ std::vector<Eigen::Vector2d> turned(PlanePoints points, const Eigen::Vector2d& m
   return out;
 }
 
-/// Least distance of two parallels that hold the points between them. One of them passes through an
-/// edge of the hull, the other through the corner farthest from that edge.
-double least_zone(PlanePoints points) {
-  const auto hull = convex_hull(points);
-  const std::size_t n = hull.size();
-  if (n < 3) return 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t far = 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d& a = hull[i];
-    const Eigen::Vector2d& b = hull[(i + 1) % n];
-    // The farthest corner advances round the hull with the edge.
-    while (twice_area(a, b, hull[(far + 1) % n]) > twice_area(a, b, hull[far])) far = (far + 1) % n;
-    least = std::min(least, twice_area(a, b, hull[far]) / (b - a).norm());
-  }
-  return least;
-}
-
 core::Error no_length() {
   return {core::Code::kRank,
           "all points stand at one position along the axis; straightness and "
           "taper need at least two sections"};
+}
+
+constexpr double kSameGeneratrix = 0.5 * core::kDegree;
+
+std::optional<double> slope_of(const Generatrix& line) {
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < line.heights_mm.size(); ++i) {
+    points.emplace_back(line.heights_mm[i], line.distances_mm[i]);
+  }
+  if (points.empty()) return std::nullopt;
+  return ls_slope(points, mean_point(points));
+}
+
+/// Range of the distances of a generatrix from a line on the opposite side, whose distances grow
+/// with `slope`: there its own distances count as negative.
+double range_from_line(const Generatrix& line, double slope) {
+  Extremes out;
+  for (std::size_t i = 0; i < line.heights_mm.size(); ++i) {
+    out.take(line.distances_mm[i] + slope * line.heights_mm[i]);
+  }
+  return out.width() / std::hypot(1.0, slope);
 }
 
 }  // namespace
@@ -90,7 +94,7 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   std::vector<double> deviations;
   for (const Eigen::Vector2d& p : frame) deviations.push_back(p.y());
   out.ls = form_parameters(deviations);
-  out.zone_mm = least_zone(frame);
+  out.zone_mm = least_width(frame);
   return out;
 }
 
@@ -104,6 +108,66 @@ core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis) {
   if (!slope) return core::fail(no_length());
   const double length = extremes_of(points, [](const auto& p) { return p.x(); }).width();
   return Taper{*slope, 2.0 * *slope * length, 2.0 * std::atan(*slope)};
+}
+
+core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis& axis) {
+  if (layers_mm.empty()) return core::fail(core::Code::kNoPoints, "there is no layer");
+  for (const auto& layer : layers_mm) {
+    if (auto checked = check_points(layer); !checked) return core::fail(checked.error());
+  }
+  const auto frame = across(axis.direction);
+  const auto angle_of = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector2d q = frame.transpose() * (p - axis.point_mm);
+    return std::atan2(q.y(), q.x());
+  };
+  std::vector<Generatrix> out;
+  for (const Eigen::Vector3d& first : layers_mm.front()) {
+    Generatrix line;
+    line.angle_rad = angle_of(first);
+    for (std::size_t j = 0; j < layers_mm.size(); ++j) {
+      const auto& layer = layers_mm[j];
+      const auto apart = [&](const Eigen::Vector3d& p) {
+        return std::abs(std::remainder(angle_of(p) - line.angle_rad, core::kTwoPi));
+      };
+      const auto nearest = std::ranges::min_element(layer, {}, apart);
+      if (apart(*nearest) > kSameGeneratrix) {
+        return core::fail(
+            core::Code::kSampling,
+            fmt::format("layer {} has no point within 0.5 deg of {:.3f} deg, the "
+                        "nearest is {:.3f} deg off: begin all layers at one angle "
+                        "(stagger 0), or scan",
+                        j, core::degrees(line.angle_rad), core::degrees(apart(*nearest))));
+      }
+      line.heights_mm.push_back((*nearest - axis.point_mm).dot(axis.direction));
+      line.distances_mm.push_back(distance_mm(axis, *nearest));
+    }
+    out.push_back(std::move(line));
+  }
+  return out;
+}
+
+core::Result<std::vector<OppositeGeneratrices>> opposite_generatrices(
+    std::span<const Generatrix> lines, double length_mm) {
+  std::vector<OppositeGeneratrices> out;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      const Generatrix& first = lines[i];
+      const Generatrix& second = lines[j];
+      const double turn =
+          std::remainder(second.angle_rad - first.angle_rad - 0.5 * core::kTwoPi, core::kTwoPi);
+      if (std::abs(turn) > kSameGeneratrix) continue;
+      const auto slope = slope_of(first);
+      const auto opposite = slope_of(second);
+      if (!slope || !opposite) return core::fail(no_length());
+      out.push_back({first.angle_rad, 0.5 * std::abs(*slope + *opposite) * length_mm,
+                     std::max(range_from_line(second, *slope), range_from_line(first, *opposite))});
+    }
+  }
+  if (!out.empty()) return out;
+  return core::fail(core::Code::kSampling,
+                    fmt::format("no two of the {} generatrices are opposite each other to 0.5 deg: "
+                                "touch an even number of points a layer",
+                                lines.size()));
 }
 
 }  // namespace rondure::fit

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/sections.h"
 #include "fit/profiles/form_parameters.h"
 
 namespace rondure::fit {
@@ -38,5 +40,39 @@ struct Taper {
 /// Computes the taper of points about an axis.
 /// @return kNoPoints, kNotFinite (row), kRank (all points in one section).
 [[nodiscard]] core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis);
+
+/// The points of one generatrix: those of all layers at one angle about the axis, as measured.
+struct Generatrix {
+  double angle_rad = 0.0;            ///< In the frame of across() [rad].
+  std::vector<double> heights_mm;    ///< Along the axis, from its point [mm].
+  std::vector<double> distances_mm;  ///< From the axis [mm].
+};
+
+/// Collects the generatrices of touched layers that begin at the same angle.
+/// @param axis  Least-squares axis of the feature.
+/// @return One for each point of the first layer, in its order; kNoPoints (no layer), kNotFinite
+///         (row), kSampling if a layer has no point within 0.5 deg of an angle (staggered layers).
+/// Source: methods, drawing section 4.2.
+[[nodiscard]] core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm,
+                                                                 const Axis& axis);
+
+/// Two opposite generatrices in a plane through the axis.
+struct OppositeGeneratrices {
+  double angle_rad = 0.0;  ///< Of the first of the two.
+  /// Local cylinder taper (ISO 12180-1): half the change of the local diameter over the length,
+  /// from the least-squares lines [mm].
+  double taper_mm = 0.0;
+  /// Greatest range of the distances of one generatrix from the line of the other, over both
+  /// choices of the datum line [mm].
+  double parallelism_mm = 0.0;
+};
+
+/// Taper and parallelism in every plane through the axis that holds two generatrices opposite each
+/// other to 0.5 deg. The cylinder taper is the greatest of the local ones.
+/// @param length_mm  Extent of the feature along the axis; > 0.
+/// @return One for each plane, by the first generatrix; kSampling if no two are opposite, kRank.
+/// Source: methods, drawing section 4.4.
+[[nodiscard]] core::Result<std::vector<OppositeGeneratrices>> opposite_generatrices(
+    std::span<const Generatrix> lines, double length_mm);
 
 }  // namespace rondure::fit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include <Eigen/LU>
 
 #include "core/numbers.h"
+#include "core/statistics.h"
+#include "core/units.h"
 
 namespace rondure::fit {
 namespace {
@@ -54,21 +57,34 @@ core::Result<void> check(std::span<const double> x, std::span<const double> r,
   return {};
 }
 
-/// Length that each point represents: half the gaps to its neighbours; at an end, the whole gap.
-std::vector<double> cells(std::span<const double> x) {
-  const std::size_t n = x.size();
-  std::vector<double> out(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double before = i > 0 ? x[i] - x[i - 1] : x[1] - x[0];
-    const double after = i + 1 < n ? x[i + 1] - x[i] : x[n - 1] - x[n - 2];
-    out[i] = 0.5 * (before + after);
-  }
+/// Limit of the gaps that belong to the profile; larger ones are windows.
+constexpr double kWindowGap = 1.5;
+
+std::vector<double> gaps_of(std::span<const double> x) {
+  std::vector<double> out;
+  for (std::size_t i = 1; i < x.size(); ++i) out.push_back(x[i] - x[i - 1]);
   return out;
 }
 
-double greatest_gap(std::span<const double> x) {
+/// The greatest gap that is not a window.
+double profile_gap(const std::vector<double>& gaps, bool windows) {
+  const double most = windows ? kWindowGap * core::median(gaps) * (1.0 + 1e-9)
+                              : std::numeric_limits<double>::infinity();
   double out = 0.0;
-  for (std::size_t i = 1; i < x.size(); ++i) out = std::max(out, x[i] - x[i - 1]);
+  for (const double gap : gaps) out = std::max(out, gap <= most ? gap : 0.0);
+  return out;
+}
+
+/// Length that each point represents: half the gaps to its neighbours; at an end, the whole gap.
+std::vector<double> cells(std::vector<double> gaps, bool windows) {
+  if (windows) {
+    const double most = kWindowGap * core::median(gaps);
+    for (double& gap : gaps) gap = std::min(gap, most);
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i <= gaps.size(); ++i) {
+    out.push_back(0.5 * (gaps[i > 0 ? i - 1 : 0] + gaps[std::min(i, gaps.size() - 1)]));
+  }
   return out;
 }
 
@@ -76,9 +92,13 @@ double greatest_gap(std::span<const double> x) {
 template <int Terms>
 class LocalMean {
  public:
-  LocalMean(std::span<const double> x, std::span<const double> r, double cutoff, double alpha,
-            double reach)
-      : x_(x), r_(r), cells_(cells(x)), width_(alpha * cutoff), reach_(reach * cutoff) {}
+  LocalMean(std::span<const double> x, std::span<const double> r, const OpenFilterOptions& options,
+            double alpha, double reach)
+      : x_(x),
+        r_(r),
+        cells_(cells(gaps_of(x), options.windows)),
+        width_(alpha * options.cutoff),
+        reach_(reach * options.cutoff) {}
 
   [[nodiscard]] double at(double position) const {
     Eigen::Matrix<double, Terms, Terms> moments = Eigen::Matrix<double, Terms, Terms>::Zero();
@@ -109,7 +129,7 @@ template <int Terms>
 void fill(std::span<const double> x, std::span<const double> r, const OpenFilterOptions& options,
           OpenProfile& out) {
   const bool wide = Terms == 3;
-  const LocalMean<Terms> mean(x, r, options.cutoff, wide ? kWide : kGaussian,
+  const LocalMean<Terms> mean(x, r, options, wide ? kWide : kGaussian,
                               wide ? kWideReach : kNarrowReach);
   for (const double position : out.position) out.r_mm.push_back(mean.at(position));
 }
@@ -121,7 +141,7 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
                                       const OpenFilterOptions& options) {
   if (auto checked = check(position, r_mm, options); !checked) return core::fail(checked.error());
   OpenProfile out;
-  const double gap = greatest_gap(position);
+  const double gap = profile_gap(gaps_of(position), options.windows);
   out.sampling_overridden = 7.0 * gap > options.cutoff * (1.0 + 1e-9);
   if (out.sampling_overridden && !options.override_sampling) {
     return core::fail(
@@ -156,6 +176,41 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
       break;
   }
   return out;
+}
+
+core::Result<std::vector<double>> filter_with_windows(const AngularProfile& profile,
+                                                      double cutoff_upr) {
+  if (!std::isfinite(cutoff_upr) || cutoff_upr < 1.0) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("the cut-off is {} UPR; at least 1 is needed", cutoff_upr));
+  }
+  OpenFilterOptions options;
+  options.cutoff = core::kTwoPi / cutoff_upr;
+  options.windows = true;
+  // The profile once more on both sides, as far as the weights reach, and at least the neighbour
+  // across the seam, which bounds the length that the first and the last point represent.
+  const double reach = kNarrowReach * options.cutoff;
+  const std::size_t n = profile.theta_rad.size();
+  std::vector<double> x;
+  std::vector<double> r;
+  const auto append = [&](std::size_t i, double turn) {
+    x.push_back(profile.theta_rad[i] + turn);
+    r.push_back(profile.r_mm[i]);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at = profile.theta_rad[i] - core::kTwoPi;
+    if (i + 1 == n || at >= profile.theta_rad.front() - reach) append(i, -core::kTwoPi);
+  }
+  const std::size_t first = x.size();
+  for (std::size_t i = 0; i < n; ++i) append(i, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at = profile.theta_rad[i] + core::kTwoPi;
+    if (i == 0 || at <= profile.theta_rad.back() + reach) append(i, core::kTwoPi);
+  }
+  const auto mean = filter_open(x, r, options);
+  if (!mean) return core::fail(mean.error());
+  const auto begin = mean->r_mm.begin() + static_cast<std::ptrdiff_t>(first);
+  return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(n));
 }
 
 }  // namespace rondure::fit

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "fit/profiles/closed_profile.h"
 
 namespace rondure::fit {
 
@@ -25,6 +26,10 @@ struct OpenFilterOptions {
   double cutoff = 0.8;  ///< Wavelength in the unit of the positions; > 0.
   OpenEnds ends = OpenEnds::kLine;
   bool override_sampling = false;  ///< Filter also with fewer than 7 points per cut-off.
+  /// Gaps above 1.5 times the median one are windows left out of the profile (keyway, oil hole):
+  /// they do not count for the sampling, and a point beside one represents no more of it than half
+  /// of 1.5 median gaps. Otherwise the two points would stand for the whole window.
+  bool windows = false;
 };
 
 /// Mean line of an open profile.
@@ -51,5 +56,14 @@ struct OpenProfile {
 [[nodiscard]] core::Result<OpenProfile> filter_open(std::span<const double> position,
                                                     std::span<const double> r_mm,
                                                     const OpenFilterOptions& options);
+
+/// Filters a closed profile with windows left out, at any angles: the local line of filter_open()
+/// on the circle, where the angles wrap; the cut-off is 2 pi / UPR. Without a window, at uniform
+/// angles, it equals the Gaussian of filter_closed().
+/// @return Values at the angles of the profile; kBadOption (cut-off), kSampling (a gap within the
+///         profile above 2 pi / (7 UPR)). O(n) times the points within four cut-offs.
+/// Source: methods, drawing section 7.
+[[nodiscard]] core::Result<std::vector<double>> filter_with_windows(const AngularProfile& profile,
+                                                                    double cutoff_upr);
 
 }  // namespace rondure::fit

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "fit/least_squares/circle.h"
+#include "fit/profiles/generatrix.h"
+#include "fit/profiles/profile_filter.h"
 
 namespace rondure::fit {
 namespace {
@@ -93,6 +96,88 @@ TEST(OpenProfile, RefusesGapsThatHideAnUndulationUnlessOverridden) {
   EXPECT_EQ(back.error().code, core::Code::kBadOption);
   EXPECT_NE(back.error().what.find("row 50"), std::string::npos);
   EXPECT_EQ(filter_open(Values{0, 1}, Values{0, 1}, {0.8}).error().code, core::Code::kTooFewPoints);
+}
+
+// Expected numbers of the profiles with windows: methods, drawing section 12 (W8, W9).
+
+Values generatrix_of_the_specification() {
+  return values(positions(41, 1.0), [](double z) {
+    return 0.002 * z / 40.0 + 0.003 * std::sin(core::kTwoPi * z / 25.0) +
+           0.001 * std::sin(core::kTwoPi * z / 3.0 + 0.5);
+  });
+}
+
+TEST(OpenProfile, FiltersAGeneratrixBeforeItsStraightnessIsTaken) {
+  const Values z = positions(41, 1.0);
+  const Values r = generatrix_of_the_specification();
+  const auto raw = generatrix_straightness(z, r);
+  ASSERT_TRUE(raw.has_value());
+  EXPECT_NEAR(raw->ls.total_mm, 0.007541207042, 1e-12);
+  EXPECT_NEAR(raw->zone_mm, 0.007349284296, 1e-12);
+  const auto line = filter_open(z, r, {8.0});
+  ASSERT_TRUE(line.has_value());
+  EXPECT_NEAR(line->r_mm[0], 0.000535961571, 1e-12);
+  EXPECT_NEAR(line->r_mm[20], -0.001664907839, 1e-12);
+  EXPECT_NEAR(line->r_mm[40], 0.000747955645, 1e-12);
+  const auto filtered = generatrix_straightness(z, line->r_mm);
+  EXPECT_NEAR(filtered->ls.total_mm, 0.005765490675, 1e-12);
+  EXPECT_NEAR(filtered->zone_mm, 0.005577732496, 1e-12);
+  EXPECT_NEAR(filtered->ls_slope, 0.00003436447581, 1e-14);
+}
+
+TEST(OpenProfile, LetsNoPointStandForAWindow) {
+  Values z = positions(41, 1.0);
+  Values r = generatrix_of_the_specification();
+  z.erase(z.begin() + 17, z.begin() + 24);
+  r.erase(r.begin() + 17, r.begin() + 24);
+  OpenFilterOptions options{8.0};
+  EXPECT_EQ(filter_open(z, r, options).error().code, core::Code::kSampling);
+  options.windows = true;
+  const auto line = filter_open(z, r, options);
+  ASSERT_TRUE(line.has_value());
+  EXPECT_FALSE(line->sampling_overridden);
+  EXPECT_NEAR(line->r_mm[16], -0.001012355070, 1e-12);
+  EXPECT_NEAR(line->r_mm[17], 0.000966553139, 1e-12);
+  const auto straight = generatrix_straightness(z, line->r_mm);
+  EXPECT_NEAR(straight->ls.total_mm, 0.004853152471, 1e-12);
+  EXPECT_NEAR(straight->zone_mm, 0.004604884871, 1e-12);
+}
+
+AngularProfile dense_section(std::size_t from, std::size_t to) {
+  Values theta;
+  Values r;
+  for (std::size_t i = 0; i < 360; ++i) {
+    if (i >= from && i < to) continue;
+    const double t = core::kTwoPi * static_cast<double>(i) / 360.0;
+    theta.push_back(t);
+    r.push_back(20.0 + 0.004 * std::cos(2 * t - 0.3) + 0.003 * std::cos(3 * t - 1.1) +
+                0.0015 * std::cos(7 * t + 0.4) + 0.0008 * std::cos(40 * t) +
+                0.0005 * std::cos(120 * t - 0.2));
+  }
+  return *ordered_profile(theta, r);
+}
+
+TEST(ClosedProfileWithWindows, EqualsTheGaussianWhereThereIsNone) {
+  const AngularProfile profile = dense_section(0, 0);
+  const auto line = filter_with_windows(profile, 50.0);
+  const auto gaussian = filter_closed(profile.r_mm, {});
+  ASSERT_TRUE(line && gaussian);
+  for (std::size_t i = 0; i < 360; ++i) EXPECT_NEAR((*line)[i], gaussian->r_mm[i], 1e-10);
+}
+
+TEST(ClosedProfileWithWindows, KeepsTheEndsBesideAWindow) {
+  const AngularProfile profile = dense_section(100, 111);
+  const auto line = filter_with_windows(profile, 50.0);
+  ASSERT_TRUE(line.has_value());
+  EXPECT_NEAR((*line)[99], 19.996910033426, 1e-11);
+  EXPECT_NEAR((*line)[100], 19.996527621279, 1e-11);
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < line->size(); ++i) {
+    points.push_back((*line)[i] * Eigen::Vector2d(std::cos(profile.theta_rad[i]),
+                                                  std::sin(profile.theta_rad[i])));
+  }
+  EXPECT_NEAR(ls_circle(points)->deviation_mm, 0.015048350530, 1e-11);
+  EXPECT_EQ(filter_with_windows(profile, 60.0).error().code, core::Code::kSampling);
 }
 
 }  // namespace

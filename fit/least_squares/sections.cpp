@@ -1,0 +1,64 @@
+#include "fit/least_squares/sections.h"
+
+#include <fmt/format.h>
+
+#include "core/statistics.h"
+#include "fit/geometry/column_extremes.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr double kThickest = 0.5;  // mm; tilts up to 1 deg of a section of 25 mm stay below
+
+core::Result<Section> section_across(SpacePoints layer_mm, const Axis& axis) {
+  Section out;
+  const auto frame = across(axis.direction);
+  for (const Eigen::Vector3d& p : layer_mm) {
+    out.points_mm.emplace_back(frame.transpose() * (p - axis.point_mm));
+    out.heights_mm.push_back((p - axis.point_mm).dot(axis.direction));
+  }
+  const auto circle = ls_circle(out.points_mm);
+  if (!circle) return core::fail(circle.error());
+  const double thickness = extremes_of(out.heights_mm, [](double h) { return h; }).width();
+  if (thickness > kThickest) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("its points spread {:.3f} mm along the axis, a section at most "
+                                  "{:g} mm: measure layers square to the axis",
+                                  thickness, kThickest));
+  }
+  out.circle = *circle;
+  out.center_mm =
+      axis.point_mm + frame * circle->center_mm + core::mean(out.heights_mm) * axis.direction;
+  return out;
+}
+
+}  // namespace
+
+core::Result<std::vector<Section>> sections_across(Layers layers_mm, const Axis& axis) {
+  if (layers_mm.empty()) {
+    return core::fail(core::Code::kNoPoints, "there is no layer; sections need at least one");
+  }
+  std::vector<Section> out;
+  for (std::size_t i = 0; i < layers_mm.size(); ++i) {
+    auto section = section_across(layers_mm[i], axis);
+    if (!section) {
+      return core::fail(section.error().code, fmt::format("layer {}: {}", i, section.error().what));
+    }
+    out.push_back(std::move(*section));
+  }
+  return out;
+}
+
+std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections) {
+  std::vector<Eigen::Vector3d> out;
+  for (const Section& section : sections) out.push_back(section.center_mm);
+  return out;
+}
+
+std::vector<Eigen::Vector3d> all_points(Layers layers_mm) {
+  std::vector<Eigen::Vector3d> out;
+  for (const auto& layer : layers_mm) out.insert(out.end(), layer.begin(), layer.end());
+  return out;
+}
+
+}  // namespace rondure::fit

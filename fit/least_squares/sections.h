@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/geometry/axis.h"
+#include "fit/least_squares/circle.h"
+
+namespace rondure::fit {
+
+/// The points of a feature, one element for each planned layer.
+using Layers = std::span<const std::vector<Eigen::Vector3d>>;
+
+/// A layer projected along an axis, with its least-squares circle.
+struct Section {
+  std::vector<Eigen::Vector2d> points_mm;  ///< From the axis, in the frame of across() [mm].
+  std::vector<double> heights_mm;          ///< Along the axis, from its point [mm].
+  LsCircle circle;                         ///< In the frame of `points_mm`.
+  /// Centre of the circle at the mean height, in the frame of the data: a point of the extracted
+  /// median line [mm].
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+};
+
+/// Projects each layer along the axis and fits its circle.
+/// @return The sections in the order of the layers; kNoPoints (no layer), the errors of ls_circle()
+///         and kSampling for a layer thicker than 0.5 mm along the axis, whose circle would be that
+///         of several sections; `what` names the layer.
+/// Source: methods, drawing section 1.
+[[nodiscard]] core::Result<std::vector<Section>> sections_across(Layers layers_mm,
+                                                                 const Axis& axis);
+
+/// The centres of sections.
+[[nodiscard]] std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections);
+
+/// All points of the layers in order.
+[[nodiscard]] std::vector<Eigen::Vector3d> all_points(Layers layers_mm);
+
+}  // namespace rondure::fit

@@ -1,0 +1,73 @@
+#include "fit/sizes/global_sizes.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "fit/zone/fit.h"
+
+namespace rondure::fit {
+namespace {
+
+/// A radius of a zone, if its search converged.
+template <class Place>
+core::Result<double> settled(const core::Result<ZoneFit<Place>>& zone, double radius_mm) {
+  if (!zone) return core::fail(zone.error());
+  if (zone->ending != ZoneEnding::kConverged) {
+    return core::fail(core::Code::kNotConverged,
+                      "the search for a global size did not reach its optimum");
+  }
+  return radius_mm;
+}
+
+/// @param fit  Fits the zone with the given weights.
+template <class Fit>
+core::Result<GlobalSizes> sizes_of(double ls_radius_mm, const Material& material, const Fit& fit) {
+  const auto least = fit(kMinimumCircumscribed);
+  const auto outer = settled(least, least ? least->outer_radius_mm : 0.0);
+  if (!outer) return core::fail(outer.error());
+  const auto zone = fit(kMinimumZone);
+  const auto middle =
+      settled(zone, zone ? 0.5 * (zone->outer_radius_mm + zone->inner_radius_mm) : 0.0);
+  if (!middle) return core::fail(middle.error());
+  GlobalSizes out;
+  out.gg_mm = material.diameter_mm(ls_radius_mm);
+  out.gn_mm = material.diameter_mm(*outer);
+  out.gc_mm = material.diameter_mm(*middle);
+  const auto largest = fit(kMaximumInscribed);
+  out.gx_mm = settled(largest, largest ? largest->inner_radius_mm : 0.0).map([&](double radius) {
+    return material.diameter_mm(radius);
+  });
+  return out;
+}
+
+}  // namespace
+
+core::Result<void> check_material(const Material& material) {
+  if (std::isfinite(material.tip_radius_mm) && material.tip_radius_mm >= 0.0) return {};
+  return core::fail(core::Code::kBadOption,
+                    fmt::format("the tip radius is {} mm; a finite number not below 0 is needed",
+                                material.tip_radius_mm));
+}
+
+core::Result<GlobalSizes> global_sizes(SpacePoints points_mm, const Material& material,
+                                       const std::optional<Eigen::Vector3d>& near_direction) {
+  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  const auto ls = ls_cylinder(points_mm, near_direction);
+  if (!ls) return core::fail(ls.error());
+  CylinderZoneFitter fitter;
+  return sizes_of(ls->radius_mm, material, [&](const ZoneWeights& weights) {
+    return fitter.fit(points_mm, ls->axis.direction, weights);
+  });
+}
+
+core::Result<GlobalSizes> global_sizes(PlanePoints points_mm, const Material& material) {
+  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  const auto ls = ls_circle(points_mm);
+  if (!ls) return core::fail(ls.error());
+  CircleZoneFitter fitter;
+  return sizes_of(ls->radius_mm, material,
+                  [&](const ZoneWeights& weights) { return fitter.fit(points_mm, weights); });
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,111 @@
+#include "fit/sizes/local_sizes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/statistics.h"
+#include "core/units.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr double kOpposite = 0.5 * core::kDegree;
+
+/// A point of a section in polar coordinates about the section circle.
+struct PolarPoint {
+  double angle = 0.0;  // in [-pi, pi]
+  double radius = 0.0;
+  std::size_t row = 0;
+};
+
+std::vector<PolarPoint> by_angle(const Section& section) {
+  std::vector<PolarPoint> out;
+  for (std::size_t i = 0; i < section.points_mm.size(); ++i) {
+    const Eigen::Vector2d v = section.points_mm[i] - section.circle.center_mm;
+    out.push_back({std::atan2(v.y(), v.x()), v.norm(), i});
+  }
+  std::ranges::sort(out, {}, &PolarPoint::angle);
+  return out;
+}
+
+/// Appends the pairs of a section. The partner of a point lies half a turn ahead of it, so that
+/// points of the first half turn find every pair once.
+void append_pairs(const Section& section, std::size_t number, const Material& material,
+                  std::vector<LocalSize>& out) {
+  const auto points = by_angle(section);
+  const double half_turn = 0.5 * core::kTwoPi;
+  for (const PolarPoint& p : points) {
+    auto partner =
+        std::ranges::lower_bound(points, p.angle + half_turn - kOpposite, {}, &PolarPoint::angle);
+    for (; partner != points.end() && partner->angle <= p.angle + half_turn + kOpposite;
+         ++partner) {
+      out.push_back({p.radius + partner->radius - 2.0 * material.sign() * material.tip_radius_mm,
+                     number, p.row, partner->row});
+    }
+  }
+}
+
+}  // namespace
+
+core::Result<std::vector<LocalSize>> two_point_sizes(std::span<const Section> sections,
+                                                     const Material& material) {
+  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  std::vector<LocalSize> out;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    most = std::max(most, sections[i].points_mm.size());
+    append_pairs(sections[i], i, material, out);
+  }
+  if (!out.empty()) return out;
+  return core::fail(core::Code::kSampling,
+                    fmt::format("none of the {} sections, of up to {} points, has two points "
+                                "opposite each other to 0.5 deg: measure an even number of points "
+                                "at equal angles, or a scan",
+                                sections.size(), most));
+}
+
+core::Result<std::vector<LocalSize>> two_point_sizes(const UniformProfile& profile,
+                                                     const Material& material) {
+  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  const std::size_t half = profile.r_mm.size() / 2;
+  if (half == 0 || profile.r_mm.size() % 2 != 0) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("{} points at uniform angles have no opposite ones: an even "
+                                  "number is needed",
+                                  profile.r_mm.size()));
+  }
+  std::vector<LocalSize> out;
+  for (std::size_t i = 0; i < half; ++i) {
+    out.push_back(
+        {profile.r_mm[i] + profile.r_mm[i + half] - 2.0 * material.sign() * material.tip_radius_mm,
+         0, i, i + half});
+  }
+  return out;
+}
+
+RankSizes rank_sizes(std::span<const LocalSize> sizes) {
+  assert(!sizes.empty());
+  std::vector<double> values;
+  for (const LocalSize& size : sizes) values.push_back(size.size_mm);
+  const auto [least, greatest] = std::ranges::minmax(values);
+  RankSizes out;
+  out.sx_mm = greatest;
+  out.sn_mm = least;
+  out.sd_mm = 0.5 * (greatest + least);
+  out.sr_mm = greatest - least;
+  out.count = values.size();
+  out.sm_mm = core::median(values);
+  // Relative to one of them, so that the sum keeps the digits of their differences.
+  for (double& value : values) value -= least;
+  const double mean = core::mean(values);
+  for (double& value : values) value -= mean;
+  out.sa_mm = least + mean;
+  out.sq_mm = core::root_mean_square(values);
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,244 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/decompositions.h"
+#include "fit/geometry/column_extremes.h"
+#include "fit/zone/ending.h"
+#include "fit/zone/internal/quadratic_program.h"
+
+namespace rondure::fit {
+
+/// One bound of a coupled zone, over the rows [begin, end): an upper one, whose greatest value is
+/// to be small, or a lower one, whose least value is to be great.
+struct CoupledBound {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  bool upper = true;
+
+  [[nodiscard]] double sign() const { return upper ? 1.0 : -1.0; }
+};
+
+/// A measure of a point with its derivatives in the unknowns of a place.
+struct MeasuredRow {
+  double value = 0.0;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+};
+
+/// A contact of a coupled zone.
+struct CoupledContact {
+  std::size_t row = 0;
+  std::size_t bound = 0;
+  double multiplier = 0.0;  ///< Those of one bound sum to 1.
+};
+
+template <class Model>
+struct CoupledZone {
+  Model model;
+  Eigen::VectorXd bounds;
+  std::vector<CoupledContact> contacts;
+  ZoneEnding ending = ZoneEnding::kLimit;  ///< kConverged: a local minimum to second order.
+};
+
+/// Minimises the sum of upper bounds minus the sum of lower ones over a place that all share: a
+/// common datum (a radius for each feature), a zone of several features, the zone of a cone.
+///
+/// Every step linearises the measures and solves a quadratic programme with a proximal term; its
+/// reach grows with success. The contacts of a step then start Newton's method on the equations of
+/// the optimum, which ends the search where all points obey the bounds, the multipliers are >= 0
+/// and no direction along the contacts descends.
+///
+/// Model: kUnknowns; size(); value(row); row(row) -> MeasuredRow; moved(step) -> Model;
+/// strayed(from); scale_mm(). All unknowns are in mm.
+///
+/// Source: methods, drawing sections 3.3 and 9.2.
+template <class Model>
+class CoupledDescent {
+ public:
+  CoupledDescent(const Model& start, std::vector<CoupledBound> bounds)
+      : bounds_(std::move(bounds)), state_{start, {}, {}, ZoneEnding::kLimit}, start_(start) {}
+
+  CoupledZone<Model> run() {
+    constexpr int kSteps = 200;
+    // A longer reach would round the step by more than the distances are.
+    constexpr double kFarthest = 10.0;
+    constexpr double kNearest = 1e-13;
+    state_.bounds = bounds_of(state_.model);
+    double reach = 1.0;
+    for (int i = 0; i < kSteps && reach > kNearest; ++i) {
+      const auto step = proximal_step(reach);
+      if (!step.solved) break;
+      if (polish(step)) {
+        state_.ending = ZoneEnding::kConverged;
+        return state_;
+      }
+      const Model next = state_.model.moved(step.x.head(kPlace));
+      const Eigen::VectorXd there = bounds_of(next);
+      if (value_of(there) < value_of(state_.bounds)) {
+        state_.model = next;
+        state_.bounds = there;
+        reach = std::min(4.0 * reach, kFarthest);
+        if (!state_.model.strayed(start_)) continue;
+        state_.ending = ZoneEnding::kStrayed;
+        return state_;
+      }
+      reach *= 0.25;
+    }
+    return state_;
+  }
+
+ private:
+  static constexpr Eigen::Index kPlace = Model::kUnknowns;
+
+  [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(bounds_.size()); }
+
+  [[nodiscard]] Eigen::VectorXd bounds_of(const Model& model) const {
+    Eigen::VectorXd out(count());
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      Extremes values;
+      for (std::size_t i = bounds_[k].begin; i < bounds_[k].end; ++i) values.take(model.value(i));
+      out(static_cast<Eigen::Index>(k)) = bounds_[k].upper ? values.high : values.low;
+    }
+    return out;
+  }
+
+  [[nodiscard]] double value_of(const Eigen::VectorXd& bounds) const {
+    double out = 0.0;
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      out += bounds_[k].sign() * bounds(static_cast<Eigen::Index>(k));
+    }
+    return out;
+  }
+
+  [[nodiscard]] double round_off() const {
+    return 64.0 * std::numeric_limits<double>::epsilon() * state_.model.scale_mm();
+  }
+
+  /// The step (place, bounds) that minimises the linearised value plus its square / (2 reach).
+  QuadraticStep proximal_step(double reach) {
+    rows_.clear();
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      for (std::size_t i = bounds_[k].begin; i < bounds_[k].end; ++i) rows_.push_back({i, k, 0.0});
+    }
+    const Eigen::Index unknowns = kPlace + count();
+    Eigen::MatrixXd normals =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), unknowns);
+    Eigen::VectorXd limits(normals.rows());
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const auto at = static_cast<Eigen::Index>(r);
+      const auto bound = static_cast<Eigen::Index>(rows_[r].bound);
+      const double sign = bounds_[rows_[r].bound].sign();
+      const auto [value, gradient] = state_.model.slope(rows_[r].row);
+      normals.row(at).head(kPlace) = -sign * gradient.transpose();
+      normals(at, kPlace + bound) = sign;
+      limits(at) = -sign * (state_.bounds(bound) - value);
+    }
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(unknowns);
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      gradient(kPlace + static_cast<Eigen::Index>(k)) = bounds_[k].sign();
+    }
+    const Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(unknowns, unknowns) / reach;
+    return solve_quadratic_program(hessian, gradient, normals, limits, round_off());
+  }
+
+  /// Newton's method on the contacts of a step. Changes the state only if it ends at a minimum.
+  bool polish(const QuadraticStep& step) {
+    constexpr int kRounds = 30;
+    CoupledZone<Model> at = state_;
+    at.contacts.clear();
+    for (std::size_t i = 0; i < step.active.size(); ++i) {
+      at.contacts.push_back(rows_[step.active[i]]);
+      at.contacts.back().multiplier = step.multipliers[i];
+    }
+    double last = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < kRounds; ++round) {
+      const double size = newton_step(at);
+      if (!(size <= state_.model.scale_mm())) return false;
+      const bool rests = size <= 1e-14 * state_.model.scale_mm() ||
+                         (size <= 1e-11 * state_.model.scale_mm() && size >= 0.5 * last);
+      if (rests) return accept(at);
+      last = size;
+    }
+    return false;
+  }
+
+  /// @return The size of the step in the place; not a number if the equations are singular.
+  double newton_step(CoupledZone<Model>& at) const {
+    const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
+    const Eigen::Index primal = kPlace + count();
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(primal + contacts, primal + contacts);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(primal + contacts);
+    right.segment(kPlace, count()).setOnes();
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
+      const MeasuredRow row = at.model.row(c.row);
+      const double sign = bounds_[c.bound].sign();
+      const auto bound = static_cast<Eigen::Index>(c.bound);
+      system.topLeftCorner(kPlace, kPlace) += c.multiplier * sign * row.hessian;
+      system.block(0, primal + i, kPlace, 1) = sign * row.gradient;
+      system(kPlace + bound, primal + i) = 1.0;
+      system.block(primal + i, 0, 1, kPlace) = -row.gradient.transpose();
+      system(primal + i, kPlace + bound) = 1.0;
+      right(primal + i) = row.value - at.bounds(bound);
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(system);
+    if (!factors.isInvertible()) return std::numeric_limits<double>::quiet_NaN();
+    const Eigen::VectorXd step = factors.solve(right);
+    at.model = at.model.moved(step.head(kPlace));
+    at.bounds += step.segment(kPlace, count());
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      at.contacts[static_cast<std::size_t>(i)].multiplier = step(primal + i);
+    }
+    return step.head(kPlace).cwiseAbs().maxCoeff();
+  }
+
+  bool accept(CoupledZone<Model>& at) {
+    for (const CoupledContact& c : at.contacts) {
+      if (!(c.multiplier >= 0.0)) return false;
+    }
+    const Eigen::VectorXd exact = bounds_of(at.model);
+    if (!((exact - at.bounds).cwiseAbs().maxCoeff() <= round_off())) return false;
+    if (!(value_of(exact) <= value_of(state_.bounds) + round_off()) || !curves_up(at)) return false;
+    at.bounds = exact;
+    state_ = at;
+    return true;
+  }
+
+  /// Whether the value does not fall in any direction that keeps all contacts.
+  [[nodiscard]] bool curves_up(const CoupledZone<Model>& at) const {
+    const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
+    const Eigen::Index primal = kPlace + count();
+    Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(primal, contacts);
+    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(primal, primal);
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
+      const MeasuredRow row = at.model.row(c.row);
+      normals.col(i).head(kPlace) = -row.gradient;
+      normals(kPlace + static_cast<Eigen::Index>(c.bound), i) = 1.0;
+      curvature.topLeftCorner(kPlace, kPlace) +=
+          c.multiplier * bounds_[c.bound].sign() * row.hessian;
+    }
+    if (contacts >= primal) return true;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals);
+    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(primal, primal);
+    const Eigen::MatrixXd along = all.rightCols(primal - contacts);
+    const Eigen::MatrixXd reduced = along.transpose() * curvature * along;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(reduced);
+    return principal.eigenvalues()(0) > 0.0;
+  }
+
+  std::vector<CoupledBound> bounds_;
+  CoupledZone<Model> state_;
+  Model start_;
+  std::vector<CoupledContact> rows_;
+};
+
+}  // namespace rondure::fit

@@ -1,0 +1,146 @@
+#include "fit/datums/datum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "core/units.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/plane.h"
+#include "fit/least_squares/sections.h"
+#include "fit/references/min_zone_plane.h"
+#include "tests/fit/drawing_cases.h"
+
+// Expected numbers: methods, drawing sections 10 and 12.
+
+namespace rondure::fit {
+namespace {
+
+using test::all_of;
+using Space = std::vector<Eigen::Vector3d>;
+const Eigen::Vector3d kOutward = Eigen::Vector3d::UnitZ();
+
+Space own_median_line(const test::Layers& layers) {
+  const auto cylinder = ls_cylinder(all_of(layers));
+  EXPECT_TRUE(cylinder.has_value());
+  return median_line(*sections_across(layers, cylinder->axis));
+}
+
+TEST(Orientation, OfABoreToACrownedPlaneDependsOnTheCandidatePlane) {
+  const Space plane = test::w5_plane();
+  const Space median = own_median_line(test::w5_bore());
+  const auto value = [&](const Eigen::Vector3d& normal) {
+    return *orientation_of_axis_mm(median, normal.normalized());
+  };
+  EXPECT_NEAR(value(min_zone_plane(plane, kOutward)->outer.normal), 0.003710729147, 1e-10);
+  EXPECT_NEAR(value(ls_plane(plane, kOutward)->plane.normal), 0.003748467537, 1e-10);
+  struct Candidate {
+    std::size_t a, b, c;
+    double expected;
+  };
+  for (const auto& [a, b, c, expected] : {Candidate{6, 7, 10, 0.002242204163},
+                                          {7, 8, 10, 0.002089391254},
+                                          {4, 6, 7, 0.005737736993},
+                                          {4, 7, 8, 0.005679762505}}) {
+    EXPECT_NEAR(value((plane[b] - plane[a]).cross(plane[c] - plane[a])), expected, 1e-10);
+  }
+}
+
+TEST(Orientation, IsFreeOfThePlaceAndNeverAboveTheCoaxiality) {
+  Space median = own_median_line(test::w3_c());
+  const Axis datum;
+  const double before = *orientation_of_axis_mm(median, datum.direction);
+  EXPECT_LE(before, *coaxiality_mm(median, datum));
+  for (auto& p : median) p += Eigen::Vector3d(3.0, -5.0, 100.0);
+  EXPECT_NEAR(*orientation_of_axis_mm(median, datum.direction), before, 1e-12);
+  EXPECT_NEAR(*orientation_of_axis_mm(median, -datum.direction), before, 1e-12);
+  median.resize(1);
+  EXPECT_EQ(orientation_of_axis_mm(median, datum.direction).error().code, core::Code::kRank);
+}
+
+TEST(ConicalRunOut, IsMeasuredNormalToTheSurface) {
+  const auto cone = test::w7();
+  const Axis datum;
+  const auto square = radial_run_out(cone, datum);
+  const auto normal = conical_run_out(cone, datum, 10.0 * core::kDegree);
+  ASSERT_TRUE(square && normal);
+  const double along[] = {0.014828059499, 0.020171907096, 0.026521961212};
+  const double across_axis[] = {0.015056806218, 0.020483091278, 0.026931105214};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(normal->sections_mm[i], along[i], 1e-10);
+    EXPECT_NEAR(square->sections_mm[i], across_axis[i], 1e-10);
+  }
+  EXPECT_EQ(normal->greatest, 2U);
+  EXPECT_EQ(conical_run_out(cone, datum, 2.0).error().code, core::Code::kBadOption);
+}
+
+/// The perfect shaft of the specification with its axis along z: a circle of the diameter C.
+Space journal_section(double z, int count) {
+  Space out;
+  const double x = 0.0048 + 2e-5 * (z - 101.0);
+  const double y = 0.0031 - 4e-5 * (z - 101.0);
+  for (int i = 0; i < count; ++i) {
+    const double t = core::kTwoPi * i / count;
+    const double r = 20.0 + 0.0016 * std::cos(2.0 * t - 0.2) + 0.006 * (z - 101.0) / 22.0;
+    out.emplace_back(x + r * std::cos(t), y + r * std::sin(t), z);
+  }
+  return out;
+}
+
+Space face_circle(double radius, int count) {
+  Space out;
+  const double q = radius / 30.0;
+  for (int i = 0; i < count; ++i) {
+    const double t = core::kTwoPi * i / count;
+    out.emplace_back(
+        radius * std::cos(t), radius * std::sin(t),
+        0.0021 * q * std::cos(t - 0.9) - 0.0042 * q * q + 0.0012 * q * q * std::cos(2.0 * t));
+  }
+  return out;
+}
+
+TEST(RunOut, OfTheVirtualShaftIsItsTruth) {
+  const Axis datum;
+  constexpr int kDense = 36000;
+  const std::vector<Space> sections = {journal_section(90.0, kDense),
+                                       journal_section(101.0, kDense),
+                                       journal_section(112.0, kDense)};
+  const auto circular = radial_run_out(sections, datum);
+  ASSERT_TRUE(circular.has_value());
+  EXPECT_NEAR(circular->sections_mm[0], 12.8322472237e-3, 1e-9);
+  EXPECT_NEAR(circular->sections_mm[1], 12.5850773204e-3, 1e-9);
+  EXPECT_NEAR(circular->sections_mm[2], 12.3793349373e-3, 1e-9);
+  EXPECT_EQ(circular->greatest, 0U);
+  Space all;
+  for (const auto& section : sections) all.insert(all.end(), section.begin(), section.end());
+  EXPECT_NEAR(*total_radial_run_out_mm(all, datum), 18.9668157826e-3, 1e-9);
+  EXPECT_NEAR(*coaxiality_mm(median_line(*sections_across(sections, datum)), datum),
+              11.5772190098e-3, 1e-9);
+  Space face;
+  for (int step = 0; step <= 150; ++step) {
+    const Space circle = face_circle(15.0 + 0.1 * step, 3600);
+    face.insert(face.end(), circle.begin(), circle.end());
+  }
+  const auto axial = circular_axial_run_out(face, datum, std::vector<double>{15.0, 30.0}, 1e-3);
+  ASSERT_TRUE(axial.has_value());
+  EXPECT_NEAR(axial->sections_mm[0], 2.3586891559e-3, 1e-8);
+  EXPECT_NEAR(axial->sections_mm[1], 5.7029433643e-3, 1e-8);
+  EXPECT_EQ(axial->greatest, 1U);
+  EXPECT_NEAR(*axial_run_out_mm(face, datum), 7.2588387416e-3, 1e-8);
+  EXPECT_NEAR(*orientation_of_plane_mm(face, datum.direction), *axial_run_out_mm(face, datum),
+              1e-15);
+}
+
+TEST(RunOut, OfAFaceNeedsCirclesAboutTheDatum) {
+  const Space face = face_circle(15.0, 12);
+  const auto missing = circular_axial_run_out(face, Axis{}, std::vector<double>{15.0, 20.0});
+  EXPECT_EQ(missing.error().code, core::Code::kSampling);
+  EXPECT_NE(missing.error().what.find("20 mm"), std::string::npos);
+  EXPECT_EQ(circular_axial_run_out(face, Axis{}, {}).error().code, core::Code::kNoPoints);
+}
+
+}  // namespace
+}  // namespace rondure::fit
