@@ -12,6 +12,7 @@
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/schema/json_text.h"
 #include "record/archive/place.h"
+#include "record/tasks/form_facts.h"
 
 namespace rondure::plans {
 namespace {
@@ -335,8 +336,7 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
                     name_of(feature.type), name_of(c.form)));
   }
   if (!analysis && masked) check_dense(feature, c, feature_where, where, findings);
-  const bool has_reference =
-      c.form == record::Form::kCylindricity || c.form == record::Form::kRoundness;
+  const bool has_reference = record::facts_of(c.form).about.has_value();
   if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
     findings.meaning(
         Code::kMeaning, where + "/reference",
