@@ -249,10 +249,10 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
     out.reason = core::phrase("reported only");
     return;
   }
-  const double tolerance_mm = *out.characteristic.tolerance_mm;
+  const Limits limits{.lower_mm = {}, .upper_mm = out.characteristic.tolerance_mm};
   KnownValue known{out.value->value_mm(), std::nullopt};
   if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
-  auto outcome = apply_rule(*rule, known, tolerance_mm);
+  auto outcome = apply_rule(*rule, known, limits);
   if (!outcome) {
     const core::Phrase& why = out.value->uncertainty().why();
     out.reason = outcome.error().said();
@@ -261,7 +261,7 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   }
   out.verdict = outcome->verdict;
   out.reason = outcome->sentence;
-  out.risks = global_risks(*rule, known, *outcome, tolerance_mm);
+  out.risks = global_risks(*rule, known, *outcome, limits);
   out.outcome = *std::move(outcome);
 }
 
