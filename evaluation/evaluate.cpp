@@ -396,21 +396,27 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   out.probe = evaluate_probe(record);
   const FixtureFacts facts = fixture_facts(record);
   out.fixture = facts.use;
+  // A verdict may need other features, such as a datum: all are evaluated before one is judged.
   for (std::size_t i = 0; i < record.features.size(); ++i) {
+    const int index = static_cast<int>(i);
     if (record::is_analysis(record.features[i].shape)) {
-      auto feature = evaluate_analysis(record, static_cast<int>(i), out.probe);
-      decide_analysis(record, out.rule, feature);
-      out.features.push_back(std::move(feature));
+      out.features.push_back(evaluate_analysis(record, index, out.probe));
       continue;
     }
-    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe, facts.kinematics);
+    auto feature = evaluate_feature(record, index, out.probe, facts.kinematics);
     if (auto broken = check(feature)) {
       checked.defects.push_back({*std::move(broken), std::move(feature)});
       feature = without_values(checked.defects.back());
     }
-    decide(record, out.rule, out.probe, feature);
-    apply_calibration(out.fixture, feature);
     out.features.push_back(std::move(feature));
+  }
+  for (FeatureResult& feature : out.features) {
+    if (record::is_analysis(feature.feature.shape)) {
+      decide_analysis(record, out.rule, feature);
+    } else {
+      decide(record, out.rule, out.probe, feature);
+      apply_calibration(out.fixture, feature);
+    }
   }
   out.verdict = overall(out.features);
   return checked;

@@ -18,6 +18,7 @@
 #include "plans/zaber_plan.h"
 #include "record/report_words.h"
 #include "record/run_record.h"
+#include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/decision_rule.h"
 #include "record/tasks/rotary_axes.h"
@@ -224,21 +225,6 @@ struct PoseSearchPlan {
   int repeats = 5;             ///< Touches of each point of the final cloud.
 };
 
-struct HarmonicLimitPlan {
-  int from = 2;
-  int to = 50;
-  double amplitude_um = 0.0;
-};
-
-struct CharacteristicPlan {
-  std::string id;
-  record::Form form = record::Form::kCylindricity;
-  std::optional<record::Reference> reference;
-  std::optional<double> tolerance_um;
-  std::string drawing_zone;
-  std::vector<HarmonicLimitPlan> harmonic_limits = {};  ///< For the form "harmonic-limits".
-};
-
 /// The name of a column in a file that uses another one.
 struct ColumnPlan {
   std::string column;   ///< Name in the analysis, e.g. "H1_um".
@@ -265,7 +251,7 @@ struct FeaturePlan {
   std::optional<record::ContourTask> contour;     ///< As spindle.
   std::optional<record::RotaryTask> rotary_axes;  ///< As spindle.
   std::optional<SourcePlan> source;
-  std::vector<CharacteristicPlan> characteristics;
+  std::vector<record::CharacteristicTask> characteristics;
 };
 
 struct LobePlan {

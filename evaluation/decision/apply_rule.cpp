@@ -18,50 +18,91 @@ tl::unexpected<core::Error> no_verdict(core::Phrase why) {
 }
 
 /// Acceptance and rejection limits of a rule, on the scale of the compared value.
-struct Limits {
+struct Zones {
   double compared_mm = 0.0;
-  double acceptance_mm = 0.0;
-  double rejection_mm = 0.0;
+  Limits acceptance;
+  Limits rejection;
 };
 
-Verdict verdict_of(const Limits& limits) {
-  if (limits.compared_mm <= limits.acceptance_mm) return Verdict::kConforms;
-  return limits.compared_mm > limits.rejection_mm ? Verdict::kDoesNotConform : Verdict::kUndecided;
+Verdict verdict_of(const Zones& zones) {
+  if (zones.acceptance.hold(zones.compared_mm)) return Verdict::kConforms;
+  return zones.rejection.hold(zones.compared_mm) ? Verdict::kUndecided : Verdict::kDoesNotConform;
 }
 
-/// The greatest estimate at which the probability of conformance is at least `least`, found by
-/// shifting the distribution.
+/// The value nearest to a limit at which the probability of conformance is still at least `least`,
+/// found by shifting the distribution.
+/// @param limit_mm   The limit.
+/// @param inside_mm  A value that surely conforms; with two limits, the middle between them.
+/// @param beyond_mm  A value beyond the limit that surely does not.
 double limit_at(const UncertaintyStatement& known, const std::optional<Prior>& prior,
-                double tolerance_mm, double least) {
-  const double span_mm = known.values_mm.back() - known.values_mm.front() + tolerance_mm;
-  double low_mm = tolerance_mm - 2.0 * span_mm;  // surely conforms
-  double high_mm = tolerance_mm + 2.0 * span_mm;
+                const Limits& limits, double limit_mm, double inside_mm, double beyond_mm,
+                double least) {
+  const bool upper = beyond_mm > inside_mm;
   for (int i = 0; i < 40; ++i) {
-    const double middle_mm = 0.5 * (low_mm + high_mm);
-    const auto p = conformance(known, prior, middle_mm - known.estimate_mm, tolerance_mm);
+    const double middle_mm = 0.5 * (inside_mm + beyond_mm);
+    const auto p = conformance(known, prior, middle_mm - known.estimate_mm, limits);
     // Where the prior gives the distribution no weight, the middle of the distribution decides on
     // which side of the limit the part lies.
-    const bool enough = p ? *p >= least : middle_mm < tolerance_mm;
-    (enough ? low_mm : high_mm) = middle_mm;
+    const bool enough = p ? *p >= least : upper ? middle_mm < limit_mm : middle_mm > limit_mm;
+    (enough ? inside_mm : beyond_mm) = middle_mm;
   }
-  return low_mm;
+  return inside_mm;
 }
 
-Limits limits_of(const DecisionRule& rule, const KnownValue& value, double tolerance_mm) {
+/// The values at which the probability of conformance reaches `least`. Where even the middle of two
+/// limits does not, both are that middle.
+Limits limits_at(const UncertaintyStatement& known, const std::optional<Prior>& prior,
+                 const Limits& limits, double least) {
+  const double spread_mm = known.values_mm.back() - known.values_mm.front();
+  const auto& [lower_mm, upper_mm] = limits;
+  Limits out;
+  if (lower_mm && upper_mm) {
+    const double inside_mm = 0.5 * (*lower_mm + *upper_mm);
+    const double span_mm = spread_mm + (*upper_mm - *lower_mm);
+    out.lower_mm =
+        limit_at(known, prior, limits, *lower_mm, inside_mm, *lower_mm - 2.0 * span_mm, least);
+    out.upper_mm =
+        limit_at(known, prior, limits, *upper_mm, inside_mm, *upper_mm + 2.0 * span_mm, least);
+    return out;
+  }
+  const double limit_mm = upper_mm ? *upper_mm : *lower_mm;
+  const double span_mm = spread_mm + std::abs(limit_mm);
+  const double low_mm = limit_mm - 2.0 * span_mm;
+  const double high_mm = limit_mm + 2.0 * span_mm;
+  if (upper_mm) {
+    out.upper_mm = limit_at(known, prior, limits, limit_mm, low_mm, high_mm, least);
+  } else {
+    out.lower_mm = limit_at(known, prior, limits, limit_mm, high_mm, low_mm, least);
+  }
+  return out;
+}
+
+/// Limits with a band on the inner side of each; < 0: on the outer side.
+Limits narrowed(Limits limits, double lower_band_mm, double upper_band_mm) {
+  if (limits.lower_mm) *limits.lower_mm += lower_band_mm;
+  if (limits.upper_mm) *limits.upper_mm -= upper_band_mm;
+  return limits;
+}
+
+Zones zones_of(const DecisionRule& rule, const KnownValue& value, const Limits& limits) {
   using Kind = DecisionRule::Kind;
-  Limits out{value.measured_mm, tolerance_mm, tolerance_mm};
+  Zones out{value.measured_mm, limits, limits};
   if (!rule.needs_interval()) return out;
   const UncertaintyStatement& known = *value.statement;
   out.compared_mm = known.estimate_mm;
   if (rule.kind == Kind::kIso14253) {
-    out.acceptance_mm -= rule.guard_factor * (known.high_mm - known.estimate_mm);
-    out.rejection_mm += rule.guard_factor * (known.estimate_mm - known.low_mm);
+    const double above_mm = rule.guard_factor * (known.high_mm - known.estimate_mm);
+    const double below_mm = rule.guard_factor * (known.estimate_mm - known.low_mm);
+    out.acceptance = narrowed(limits, below_mm, above_mm);
+    out.rejection = narrowed(limits, -above_mm, -below_mm);
   } else if (rule.kind == Kind::kGuardBand) {
-    out.acceptance_mm -= rule.acceptance_guard_1 * known.expanded_mm();
-    out.rejection_mm += rule.rejection_guard_1 * known.expanded_mm();
+    const double inner_mm = rule.acceptance_guard_1 * known.expanded_mm();
+    const double outer_mm = rule.rejection_guard_1 * known.expanded_mm();
+    out.acceptance = narrowed(limits, inner_mm, inner_mm);
+    out.rejection = narrowed(limits, -outer_mm, -outer_mm);
   } else if (rule.kind == Kind::kJcgm106) {
-    out.acceptance_mm = limit_at(known, rule.prior, tolerance_mm, 1.0 - rule.consumer_risk_1);
-    out.rejection_mm = limit_at(known, rule.prior, tolerance_mm, rule.producer_risk_1);
+    out.acceptance = limits_at(known, rule.prior, limits, 1.0 - rule.consumer_risk_1);
+    out.rejection = limits_at(known, rule.prior, limits, rule.producer_risk_1);
   }
   return out;
 }
@@ -72,43 +113,100 @@ std::string in_digits(const KnownValue& value, double length_mm) {
   return fixed(micrometres(length_mm), decimals);
 }
 
+/// The limit that a value is nearest to, or farthest beyond, with those of the rule beside it.
+struct NearestLimit {
+  bool upper = true;
+  double limit_mm = 0.0;
+  double acceptance_mm = 0.0;
+  double rejection_mm = 0.0;
+};
+
+NearestLimit nearest_limit(const Limits& limits, const Zones& zones) {
+  const bool upper = limits.upper_mm &&
+                     (!limits.lower_mm ||
+                      *limits.upper_mm - zones.compared_mm <= zones.compared_mm - *limits.lower_mm);
+  if (upper) return {true, *limits.upper_mm, *zones.acceptance.upper_mm, *zones.rejection.upper_mm};
+  return {false, *limits.lower_mm, *zones.acceptance.lower_mm, *zones.rejection.lower_mm};
+}
+
+/// A limit of a size in um: a drawing states it to the nanometre at most.
+std::string in_limit_digits(double limit_mm) { return fixed(micrometres(limit_mm), 3); }
+
+core::Phrase side_of(const NearestLimit& limit) {
+  return limit.upper ? core::phrase("upper") : core::phrase("lower");
+}
+
 /// "7.958 um is within the tolerance of 12 um by 4.042 um".
 core::Phrase simple_sentence(const core::Phrase& text, const KnownValue& value,
-                             const Limits& limits, double tolerance_mm) {
-  const bool within = limits.compared_mm <= tolerance_mm;
-  return core::phrase("{} is {} the tolerance of {:g} um by {} um", text,
-                      within ? core::phrase("within") : core::phrase("above"),
-                      micrometres(tolerance_mm),
-                      in_digits(value, std::abs(tolerance_mm - limits.compared_mm)));
+                             const Limits& limits, const Zones& zones) {
+  const NearestLimit limit = nearest_limit(limits, zones);
+  const std::string by = in_digits(value, std::abs(limit.limit_mm - zones.compared_mm));
+  if (!limits.lower_mm) {
+    return core::phrase(
+        "{} is {} the tolerance of {:g} um by {} um", text,
+        limits.hold(zones.compared_mm) ? core::phrase("within") : core::phrase("above"),
+        micrometres(limit.limit_mm), by);
+  }
+  return core::phrase(
+      "{} is {} the {} limit of {} um by {} um", text,
+      limits.hold(zones.compared_mm) ? core::phrase("within") : core::phrase("beyond"),
+      side_of(limit), in_limit_digits(limit.limit_mm), by);
 }
 
-core::Phrase corrected_value(const KnownValue& value, const Limits& limits) {
-  return core::phrase("the corrected value {} um", in_digits(value, limits.compared_mm));
+core::Phrase corrected_value(const KnownValue& value, const Zones& zones) {
+  return core::phrase("the corrected value {} um", in_digits(value, zones.compared_mm));
 }
 
-core::Phrase guarded_sentence(const KnownValue& known, const Limits& limits, double tolerance_mm,
+/// The sentence about a value with a lower limit, which names the limit that it is nearest to.
+core::Phrase guarded_between(const KnownValue& known, const Zones& zones, const NearestLimit& limit,
+                             Verdict verdict) {
+  const core::Phrase value = corrected_value(known, zones);
+  const std::string acceptance = in_digits(known, limit.acceptance_mm);
+  const std::string rejection = in_digits(known, limit.rejection_mm);
+  const std::string stated = in_limit_digits(limit.limit_mm);
+  if (verdict == Verdict::kConforms) {
+    return core::phrase(
+        "{} is within the acceptance limit of {} um ({} limit {} um, guard band {} um)", value,
+        acceptance, side_of(limit), stated,
+        in_digits(known, std::abs(limit.limit_mm - limit.acceptance_mm)));
+  }
+  if (verdict == Verdict::kDoesNotConform) {
+    return core::phrase(
+        "{} is beyond the rejection limit of {} um ({} limit {} um, guard band {} um)", value,
+        rejection, side_of(limit), stated,
+        in_digits(known, std::abs(limit.rejection_mm - limit.limit_mm)));
+  }
+  return core::phrase(
+      "{} lies between the acceptance limit of {} um and the rejection limit of {} um about the {} "
+      "limit of {} um: neither is proven",
+      value, acceptance, rejection, side_of(limit), stated);
+}
+
+core::Phrase guarded_sentence(const KnownValue& known, const Limits& limits, const Zones& zones,
                               Verdict verdict) {
-  const core::Phrase value = corrected_value(known, limits);
-  const std::string acceptance = in_digits(known, limits.acceptance_mm);
-  const std::string rejection = in_digits(known, limits.rejection_mm);
+  const NearestLimit limit = nearest_limit(limits, zones);
+  if (limits.lower_mm) return guarded_between(known, zones, limit, verdict);
+  const core::Phrase value = corrected_value(known, zones);
+  const std::string acceptance = in_digits(known, limit.acceptance_mm);
+  const std::string rejection = in_digits(known, limit.rejection_mm);
   if (verdict == Verdict::kConforms) {
     return core::phrase(
         "{} is within the acceptance limit of {} um (tolerance {:g} um, guard "
         "band {} um)",
-        value, acceptance, micrometres(tolerance_mm),
-        in_digits(known, tolerance_mm - limits.acceptance_mm));
+        value, acceptance, micrometres(limit.limit_mm),
+        in_digits(known, limit.limit_mm - limit.acceptance_mm));
   }
   if (verdict == Verdict::kDoesNotConform) {
     return core::phrase(
         "{} is above the rejection limit of {} um (tolerance {:g} um, guard "
         "band {} um)",
-        value, rejection, micrometres(tolerance_mm),
-        in_digits(known, limits.rejection_mm - tolerance_mm));
+        value, rejection, micrometres(limit.limit_mm),
+        in_digits(known, limit.rejection_mm - limit.limit_mm));
   }
   return core::phrase(
       "{} lies between the acceptance limit of {} um and the rejection limit of "
       "{} um about the tolerance of {:g} um: neither is proven",
-      value, acceptance, rejection, micrometres(tolerance_mm));
+      value, acceptance, rejection, micrometres(limit.limit_mm));
 }
 
 core::Phrase probability_sentence(const DecisionRule& rule, double p_1, Verdict verdict) {
@@ -123,23 +221,37 @@ core::Phrase probability_sentence(const DecisionRule& rule, double p_1, Verdict 
   return core::phrase("{}, between {:g} % and {:g} %", value, reject, accept);
 }
 
+/// Why a value and its limits have no ratio N:1, or nothing. A form deviation lies between 0 and
+/// its tolerance.
+std::optional<core::Phrase> obstacle_to_ratio(const DecisionRule& rule, const Limits& limits,
+                                              double width_mm) {
+  if (!limits.upper_mm) {
+    return core::phrase(
+        "the rule {:g}:1 does not apply: one lower limit leaves no tolerance to compare with",
+        rule.ratio);
+  }
+  const double tolerance_mm = *limits.upper_mm - limits.lower_mm.value_or(0.0);
+  if (tolerance_mm >= rule.ratio * width_mm) return std::nullopt;
+  return core::phrase(
+      "the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
+      "{:.3f} um",
+      rule.ratio, micrometres(tolerance_mm), tolerance_mm / width_mm, micrometres(width_mm));
+}
+
 /// Why a rule cannot be applied, or nothing.
 std::optional<core::Phrase> obstacle(const DecisionRule& rule, const KnownValue& value,
-                                     double tolerance_mm) {
+                                     const Limits& limits) {
   if (!rule.needs_interval()) return std::nullopt;
   if (!value.statement) {
     return core::phrase("the rule {} needs the interval {}, which was not computed",
                         core::Phrase(name_of(rule.kind)), core::Phrase(name_of(rule.measurand)));
   }
-  const double width_mm = value.statement->high_mm - value.statement->low_mm;
-  if (rule.kind == DecisionRule::Kind::kNToOne && !(tolerance_mm >= rule.ratio * width_mm)) {
-    return core::phrase(
-        "the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
-        "{:.3f} um",
-        rule.ratio, micrometres(tolerance_mm), tolerance_mm / width_mm, micrometres(width_mm));
+  if (rule.kind == DecisionRule::Kind::kNToOne) {
+    const double width_mm = value.statement->high_mm - value.statement->low_mm;
+    return obstacle_to_ratio(rule, limits, width_mm);
   }
   if (rule.kind == DecisionRule::Kind::kJcgm106 &&
-      !conformance(*value.statement, rule.prior, 0.0, tolerance_mm)) {
+      !conformance(*value.statement, rule.prior, 0.0, limits)) {
     return rule.prior ? core::phrase(
                             "the stated prior leaves the measured value no weight: it speaks of "
                             "other parts than this one")
@@ -149,24 +261,43 @@ std::optional<core::Phrase> obstacle(const DecisionRule& rule, const KnownValue&
 }
 
 core::Phrase verdict_sentence(const DecisionRule& rule, const KnownValue& value,
-                              const Limits& limits, double tolerance_mm,
+                              const Limits& limits, const Zones& zones,
                               const RuleOutcome& outcome) {
   switch (rule.kind) {
     case DecisionRule::Kind::kSimpleAcceptance: {
-      const std::string read = in_digits(value, limits.compared_mm);
+      const std::string read = in_digits(value, zones.compared_mm);
       return simple_sentence(value.statement ? core::phrase("the value as read, {} um", read)
                                              : core::phrase("{} um", read),
-                             value, limits, tolerance_mm);
+                             value, limits, zones);
     }
     case DecisionRule::Kind::kNToOne:
-      return simple_sentence(corrected_value(value, limits), value, limits, tolerance_mm);
+      return simple_sentence(corrected_value(value, zones), value, limits, zones);
     case DecisionRule::Kind::kJcgm106:
       return probability_sentence(rule, *outcome.conformance_1, outcome.verdict);
     case DecisionRule::Kind::kIso14253:
     case DecisionRule::Kind::kGuardBand:
-      return guarded_sentence(value, limits, tolerance_mm, outcome.verdict);
+      return guarded_sentence(value, limits, zones, outcome.verdict);
   }
   return {};
+}
+
+/// Why a value that was read beyond a limit is undecided although its corrected value is within.
+core::Phrase read_beyond_sentence(const KnownValue& value, const Limits& limits,
+                                  double corrected_mm) {
+  const std::string read = in_digits(value, value.measured_mm);
+  const std::string corrected = in_digits(value, corrected_mm);
+  if (!limits.lower_mm) {
+    return core::phrase(
+        "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
+        "below: neither is proven",
+        read, micrometres(*limits.upper_mm), corrected);
+  }
+  const bool below = value.measured_mm < *limits.lower_mm;
+  return core::phrase(
+      "read beyond the {} limit: {} um, the limit is {} um; the corrected value, {} um, is within: "
+      "neither is proven",
+      below ? core::phrase("lower") : core::phrase("upper"), read,
+      in_limit_digits(below ? *limits.lower_mm : *limits.upper_mm), corrected);
 }
 
 }  // namespace
@@ -179,36 +310,32 @@ std::optional<double> RuleOutcome::specific_risk_1() const {
 }
 
 core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue& value,
-                                     double tolerance_mm) {
-  if (const auto why = obstacle(rule, value, tolerance_mm)) return no_verdict(*why);
-  const Limits limits = limits_of(rule, value, tolerance_mm);
+                                     const Limits& limits) {
+  if (const auto why = obstacle(rule, value, limits)) return no_verdict(*why);
+  const Zones zones = zones_of(rule, value, limits);
   RuleOutcome out;
-  out.compared_mm = limits.compared_mm;
-  out.acceptance_mm = limits.acceptance_mm;
-  out.rejection_mm = limits.rejection_mm;
+  out.compared_mm = zones.compared_mm;
+  out.acceptance = zones.acceptance;
+  out.rejection = zones.rejection;
   if (value.statement) {
-    out.conformance_1 = conformance(*value.statement, rule.prior, 0.0, tolerance_mm);
+    out.conformance_1 = conformance(*value.statement, rule.prior, 0.0, limits);
   }
   // JCGM 106 decides by the probability itself; the limits are the values where it reaches its
   // bound.
-  out.verdict = verdict_of(limits);
+  out.verdict = verdict_of(zones);
   if (rule.kind == DecisionRule::Kind::kJcgm106) {
     const double p = *out.conformance_1;
     out.verdict = p >= 1.0 - rule.consumer_risk_1 ? Verdict::kConforms
                   : p <= rule.producer_risk_1     ? Verdict::kDoesNotConform
                                                   : Verdict::kUndecided;
   }
-  const bool read_above = value.measured_mm > tolerance_mm && !rule.judge_corrected;
-  if (rule.needs_interval() && read_above && out.verdict == Verdict::kConforms) {
+  const bool read_beyond = !limits.hold(value.measured_mm) && !rule.judge_corrected;
+  if (rule.needs_interval() && read_beyond && out.verdict == Verdict::kConforms) {
     out.verdict = Verdict::kUndecided;
-    out.sentence = core::phrase(
-        "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
-        "below: neither is proven",
-        in_digits(value, value.measured_mm), micrometres(tolerance_mm),
-        in_digits(value, limits.compared_mm));
+    out.sentence = read_beyond_sentence(value, limits, zones.compared_mm);
     return out;
   }
-  out.sentence = verdict_sentence(rule, value, limits, tolerance_mm, out);
+  out.sentence = verdict_sentence(rule, value, limits, zones, out);
   if (rule.needs_interval() && rule.judge_corrected) {
     out.sentence = core::phrase("{}; corrected values are judged, by agreement", out.sentence);
   }

@@ -24,7 +24,19 @@ struct Prior {
   [[nodiscard]] double density(double value_mm) const;
 };
 
-/// How a value and its tolerance give a verdict. Form deviations have one limit, the upper one, T.
+/// Limits of a value; at least one. Form deviations have the upper one, the tolerance T; sizes may
+/// have both.
+struct Limits {
+  std::optional<double> lower_mm = {};
+  std::optional<double> upper_mm = {};
+
+  /// Whether a value is within them. The limits themselves are.
+  [[nodiscard]] bool hold(double value_mm) const {
+    return (!lower_mm || value_mm >= *lower_mm) && (!upper_mm || value_mm <= *upper_mm);
+  }
+};
+
+/// How a value and its limits give a verdict.
 struct DecisionRule {
   using Kind = record::DecisionRuleTask::Rule;
   Kind kind = Kind::kSimpleAcceptance;
@@ -80,9 +92,9 @@ struct GlobalRisks {
 struct RuleOutcome {
   Verdict verdict = Verdict::kUndecided;  ///< Never void: that is an error.
   core::Phrase sentence;                  ///< Why, with numbers.
-  double compared_mm = 0.0;    ///< The measured value (simple acceptance) or the corrected one.
-  double acceptance_mm = 0.0;  ///< A value up to this conforms; T minus the guard band.
-  double rejection_mm = 0.0;   ///< A value above this does not conform; T plus the guard band.
+  double compared_mm = 0.0;  ///< The measured value (simple acceptance) or the corrected one.
+  Limits acceptance = {};    ///< A value within these conforms: the limits less the guard bands.
+  Limits rejection = {};     ///< A value beyond these does not: the limits plus the guard bands.
   std::optional<double> conformance_1 = {};  ///< Probability that the part conforms.
 
   /// Probability that this verdict is wrong: the specific consumer's risk of an accepted part, the
@@ -100,14 +112,17 @@ struct RuleOutcome {
 ///   JCGM 106           P >= 1 - R_c conforms, P <= R_p does not, else undecided
 ///   N:1                only where T >= N (hi - lo): y <= T conforms, else does not
 ///   guard band         y <= T - a U conforms, y > T + r U does not, else undecided
-/// Under every rule, a measured value above T does not conform unless corrected values are judged:
-/// the correction grows with the declared noise, and the party that benefits declares it.
-/// @param tolerance_mm  T, > 0.
+/// At a lower limit the same holds mirrored. With two limits a part conforms that conforms at both,
+/// and does not where it does not at one; P is the probability to lie between them, and N:1
+/// compares with their distance.
+/// Under every rule, a measured value beyond a limit does not conform unless corrected values are
+/// judged: the correction grows with the declared noise, and the party that benefits declares it.
+/// @param limits  At least one; the lower below the upper. T > 0.
 /// @return  The outcome; or kMeaning with the reason for a void verdict: no interval for the
 ///          measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
 /// Sources: ISO 14253-1:2017; JCGM 106:2012, 7 to 9; ASME B89.7.3.1-2001.
 [[nodiscard]] core::Result<RuleOutcome> apply_rule(const DecisionRule& rule,
-                                                   const KnownValue& value, double tolerance_mm);
+                                                   const KnownValue& value, const Limits& limits);
 
 /// Global risks (JCGM 106, clause 9) of the outcome of apply_rule(), over the prior of the rule,
 /// where the errors of the compared value are distributed as in the statement for every part. None
@@ -115,6 +130,6 @@ struct RuleOutcome {
 [[nodiscard]] std::optional<GlobalRisks> global_risks(const DecisionRule& rule,
                                                       const KnownValue& value,
                                                       const RuleOutcome& outcome,
-                                                      double tolerance_mm);
+                                                      const Limits& limits);
 
 }  // namespace rondure::evaluation

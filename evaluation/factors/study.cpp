@@ -9,6 +9,7 @@
 #include "core/numbers.h"
 #include "evaluation/factors/internal/outliers.h"
 #include "evaluation/results/feature_values.h"
+#include "record/tasks/form_facts.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -120,10 +121,6 @@ FactorTable table_of(const FactorStudy& study) {
   return out;
 }
 
-record::Shape shape_of(record::Form form) {
-  return form == record::Form::kRoundness ? record::Shape::kCircle : record::Shape::kCylinder;
-}
-
 /// Words for the change where it is the largest of its factor.
 std::string change_words(const FactorStudy& study, Factor factor) {
   const FactorEffect& effect = study.effects[at(factor)];
@@ -176,7 +173,8 @@ const FactorCell& FactorStudy::changed(Factor factor, std::size_t level) const {
 core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                         const CharacteristicResult& characteristic) {
   const record::Characteristic& asked = characteristic.characteristic;
-  if (asked.form != record::Form::kCylindricity && asked.form != record::Form::kRoundness) {
+  const auto& about = record::facts_of(asked.form).about;
+  if (!about) {
     return core::fail(core::Code::kMeaning,
                       fmt::format("{} has no reference to exchange", record::name_of(asked.form)));
   }
@@ -190,7 +188,7 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
   out.value = characteristic.value->value_text();
   out.operator_words = characteristic.value->operator_text();
   out.reported_mm = characteristic.value->value_mm();
-  name_levels(*points, shape_of(asked.form), out);
+  name_levels(*points, *about, out);
   for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
     if (kStudiedReferences[r] == asked.reference) out.reported[at(Factor::kReference)] = r;
   }

@@ -11,6 +11,7 @@
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
+#include "record/tasks/form_facts.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -97,9 +98,9 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
   if (!value.certified) {
     return core::phrase(
         "no certificate stands behind the {}",
-        core::Phrase(words_of(characteristic.reference, characteristic.form == Form::kRoundness
-                                                            ? record::Shape::kCircle
-                                                            : record::Shape::kCylinder)));
+        core::Phrase(words_of(
+            characteristic.reference,
+            record::facts_of(characteristic.form).about.value_or(record::Shape::kCylinder))));
   }
   // A zone of some points is never wider than that of all: above the tolerance it is proof enough.
   const bool too_wide = characteristic.reference == record::Reference::kMinimumZone &&
@@ -248,10 +249,10 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
     out.reason = core::phrase("reported only");
     return;
   }
-  const double tolerance_mm = *out.characteristic.tolerance_mm;
+  const Limits limits{.lower_mm = {}, .upper_mm = out.characteristic.tolerance_mm};
   KnownValue known{out.value->value_mm(), std::nullopt};
   if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
-  auto outcome = apply_rule(*rule, known, tolerance_mm);
+  auto outcome = apply_rule(*rule, known, limits);
   if (!outcome) {
     const core::Phrase& why = out.value->uncertainty().why();
     out.reason = outcome.error().said();
@@ -260,7 +261,7 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   }
   out.verdict = outcome->verdict;
   out.reason = outcome->sentence;
-  out.risks = global_risks(*rule, known, *outcome, tolerance_mm);
+  out.risks = global_risks(*rule, known, *outcome, limits);
   out.outcome = *std::move(outcome);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "record/tasks/form_facts.h"
+
 namespace rondure::evaluation {
 namespace {
 
@@ -102,50 +104,19 @@ const char* words_of(record::Reference reference, record::Shape shape) {
 }
 
 std::string_view symbol_of(record::Shape shape) {
-  return shape == record::Shape::kCircle ? "RONt" : "CYLt";
+  return record::facts_of(shape == record::Shape::kCircle ? record::Form::kRoundness
+                                                          : record::Form::kCylindricity)
+      .symbol;
 }
 
 std::string symbol_of(const record::Characteristic& characteristic) {
-  switch (characteristic.form) {
-    case record::Form::kCylindricity:
-      return "CYLt";
-    case record::Form::kRoundness:
-      return "RONt";
-    case record::Form::kRoundnessRms:
-      return "RONq";
-    case record::Form::kHarmonicLimits:
-      return "A(k)";
-    case record::Form::kMotionTotal:
-      return "EM total";
-    case record::Form::kMotionSynchronous:
-      return "EM sync";
-    case record::Form::kMotionAsynchronous:
-      return "EM async";
-    case record::Form::kRadius:
-      return "dR";
-    case record::Form::kRunOut:
-      return "Run-out";
-    case record::Form::kContourDeviation:
-      return "Contour";
-    case record::Form::kContourSpread:
-      return "Spread";
-    case record::Form::kFixtureResidual:
-      return "Left max";
-    case record::Form::kFixtureResidualRms:
-      return "Left rms";
-  }
-  return {};
+  return std::string(record::facts_of(characteristic.form).symbol);
 }
 
 std::string reference_of(const record::Characteristic& characteristic) {
   if (characteristic.form == record::Form::kRoundnessRms) return "LSCI";
-  if (characteristic.form != record::Form::kCylindricity &&
-      characteristic.form != record::Form::kRoundness) {
-    return {};
-  }
-  return reference_of(characteristic.reference, characteristic.form == record::Form::kCylindricity
-                                                    ? record::Shape::kCylinder
-                                                    : record::Shape::kCircle);
+  const auto& about = record::facts_of(characteristic.form).about;
+  return about ? reference_of(characteristic.reference, *about) : std::string();
 }
 
 std::string reference_of(record::Reference reference, record::Shape shape) {

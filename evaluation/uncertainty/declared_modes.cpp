@@ -21,11 +21,9 @@ constexpr double kRangeOf25Normals = 3.931;  // mean range of 25 normal values, 
 /// Collects the effect of each influence on each point.
 class ModeCollector {
  public:
-  explicit ModeCollector(const FormCloud& cloud) : cloud_(cloud) {
-    for (const FormPoint& point : cloud.points) {
-      normals_.push_back(outward_normal(cloud, point));
-      positions_.push_back(position_mm(cloud, point));
-      middle_ += positions_.back() / static_cast<double>(cloud.points.size());
+  explicit ModeCollector(std::span<const TouchedPoint> points) : points_(points) {
+    for (const TouchedPoint& point : points) {
+      middle_ += point.position_mm / static_cast<double>(points.size());
     }
   }
 
@@ -45,7 +43,7 @@ class ModeCollector {
 
   /// A displacement of the points, in the machine frame.
   void add_motion(Distribution distribution, const std::function<Vector3d(std::size_t)>& motion) {
-    add(distribution, [&](std::size_t i) { return normals_[i].dot(motion(i)); });
+    add(distribution, [&](std::size_t i) { return points_[i].normal.dot(motion(i)); });
   }
 
   void probe(const ProbeInfluences& probe);
@@ -57,19 +55,17 @@ class ModeCollector {
 
  private:
   [[nodiscard]] VectorXd column(const std::function<double(std::size_t)>& value) const {
-    VectorXd out(static_cast<Index>(normals_.size()));
-    for (std::size_t i = 0; i < normals_.size(); ++i) out[static_cast<Index>(i)] = value(i);
+    VectorXd out(static_cast<Index>(points_.size()));
+    for (std::size_t i = 0; i < points_.size(); ++i) out[static_cast<Index>(i)] = value(i);
     return out;
   }
-  [[nodiscard]] double time(std::size_t i) const { return cloud_.points[i].time_1; }
+  [[nodiscard]] double time(std::size_t i) const { return points_[i].time_1; }
   void curve(const cmm::GeometricErrors& frame, std::size_t axis, std::size_t component,
              bool rotation);
   void geometry(const cmm::GeometricErrors& terms);
   void length_limit(double constant_mm, double slope);
 
-  const FormCloud& cloud_;
-  std::vector<Vector3d> normals_;
-  std::vector<Vector3d> positions_;
+  std::span<const TouchedPoint> points_;
   Vector3d middle_ = Vector3d::Zero();
 };
 
@@ -77,14 +73,14 @@ void ModeCollector::probe(const ProbeInfluences& probe) {
   begin("probe-repeatability");
   if (probe.repeatability_mm > 0.0) {
     add_each(Distribution::kNormal, [&](std::size_t i) {
-      return probe.repeatability_mm / std::sqrt(static_cast<double>(cloud_.points[i].repeats));
+      return probe.repeatability_mm / std::sqrt(static_cast<double>(points_[i].repeats));
     });
     PointError& error = found.point_errors.back();
     error.degrees_of_freedom = probe.degrees_of_freedom;
     if (probe.correlation_length_mm > 0.0) {
       error.likeness_1 = column([&](std::size_t i) {
         if (i == 0) return 0.0;
-        const double way_mm = (positions_[i] - positions_[i - 1]).norm();
+        const double way_mm = (points_[i].position_mm - points_[i - 1].position_mm).norm();
         return std::exp(-way_mm / probe.correlation_length_mm);
       });
     }
@@ -95,9 +91,8 @@ void ModeCollector::probe(const ProbeInfluences& probe) {
     // Pre-travel shifts the reading along the approach; only its component across the stylus
     // counts.
     const auto wave = [&](std::size_t i, double shift) {
-      const Vector3d& n = normals_[i];
-      const double side = cloud_.outside ? -1.0 : 1.0;
-      const double azimuth = std::atan2(side * n.y(), side * n.x());
+      const Vector3d& n = points_[i].approach;
+      const double azimuth = std::atan2(n.y(), n.x());
       return lobe.amplitude_mm / std::sqrt(2.0) * std::hypot(n.x(), n.y()) *
              std::cos(lobe.order * azimuth + shift);
     };
@@ -128,7 +123,7 @@ void ModeCollector::curve(const cmm::GeometricErrors& frame, std::size_t axis,
     cmm::AxisErrors& place = alone.axes[axis];
     (rotation ? place.rotation : place.translation)[component] = single;
     return [this, alone](std::size_t i) {
-      return normals_[i].dot(cmm::geometric_error_mm(alone, positions_[i]));
+      return points_[i].normal.dot(cmm::geometric_error_mm(alone, points_[i].position_mm));
     };
   };
   if (declared.linear_1_mm != 0.0) {
@@ -171,8 +166,9 @@ void ModeCollector::geometry(const cmm::GeometricErrors& terms) {
     cmm::GeometricErrors alone;
     alone.tip_offset_mm = terms.tip_offset_mm;
     alone.*member = terms.*member;
-    add_motion(Distribution::kNormal,
-               [&](std::size_t i) { return cmm::geometric_error_mm(alone, positions_[i]); });
+    add_motion(Distribution::kNormal, [&](std::size_t i) {
+      return cmm::geometric_error_mm(alone, points_[i].position_mm);
+    });
   };
   square(&cmm::GeometricErrors::squareness_xy_rad);
   square(&cmm::GeometricErrors::squareness_xz_rad);
@@ -189,7 +185,7 @@ void ModeCollector::length_limit(double constant_mm, double slope) {
     for (int column = row; column < 3; ++column) {
       add_motion(Distribution::kRectangular, [&](std::size_t i) {
         Vector3d e = Vector3d::Zero();
-        e[row] = slope / std::sqrt(3.0) * (positions_[i] - middle_)[column];
+        e[row] = slope / std::sqrt(3.0) * (points_[i].position_mm - middle_)[column];
         return e;
       });
     }
@@ -206,34 +202,33 @@ void ModeCollector::thermal(const ThermalInfluences& thermal) {
   const double growth = std::hypot(thermal.expansion_1_K * thermal.temperature_K,
                                    thermal.from_reference_K * thermal.expansion_uncertainty_1_K);
   if (growth > 0.0) {
-    add(Distribution::kNormal,
-        [&](std::size_t i) { return growth * (cloud_.radius_mm + cloud_.points[i].deviation_mm); });
+    add(Distribution::kNormal, [&](std::size_t i) { return growth * points_[i].distance_mm; });
   }
   begin("temperature-drift");
   const double drift = thermal.expansion_1_K * thermal.drift_K / std::sqrt(3.0);
   if (drift > 0.0) {
     add(Distribution::kRectangular,
-        [&](std::size_t i) { return drift * cloud_.radius_mm * time(i); });
+        [&](std::size_t i) { return drift * points_[i].radius_mm * time(i); });
   }
   begin("machine-drift");
   for (int axis = 0; axis < 3; ++axis) {
     const double limit = thermal.machine_drift_mm[axis];
     if (limit == 0.0) continue;
     add(Distribution::kRectangular,
-        [&](std::size_t i) { return limit / std::sqrt(3.0) * normals_[i][axis] * time(i); });
+        [&](std::size_t i) { return limit / std::sqrt(3.0) * points_[i].normal[axis] * time(i); });
   }
 }
 
 void ModeCollector::fixture(const FixtureInfluences& fixture) {
   const Vector3d pivot = fixture.pivot_mm.value_or(middle_);
   const auto turned = [&](std::size_t i, int axis) -> Vector3d {
-    return Vector3d::Unit(axis).cross(positions_[i] - pivot);
+    return Vector3d::Unit(axis).cross(points_[i].position_mm - pivot);
   };
   std::set<int> poses;
-  for (const FormPoint& point : cloud_.points) poses.insert(point.pose);
+  for (const TouchedPoint& point : points_) poses.insert(point.pose);
   begin("fixture-calibration");
   for (const int pose : poses) {
-    const auto here = [&](std::size_t i) { return cloud_.points[i].pose == pose ? 1.0 : 0.0; };
+    const auto here = [&](std::size_t i) { return points_[i].pose == pose ? 1.0 : 0.0; };
     for (int axis = 0; axis < 3; ++axis) {
       if (fixture.angle_rad > 0.0) {
         add_motion(Distribution::kNormal, [&](std::size_t i) -> Vector3d {
@@ -257,8 +252,20 @@ void ModeCollector::fixture(const FixtureInfluences& fixture) {
 
 }  // namespace
 
-DeclaredModes declared_modes(const FormCloud& cloud, const Influences& influences) {
-  ModeCollector collect(cloud);
+std::vector<TouchedPoint> touched_points(const FormCloud& cloud) {
+  std::vector<TouchedPoint> out;
+  out.reserve(cloud.points.size());
+  for (const FormPoint& point : cloud.points) {
+    const Vector3d normal = outward_normal(cloud, point);
+    out.push_back({position_mm(cloud, point), normal, cloud.outside ? Vector3d(-normal) : normal,
+                   cloud.radius_mm, cloud.radius_mm + point.deviation_mm, point.repeats, point.pose,
+                   point.time_1});
+  }
+  return out;
+}
+
+DeclaredModes declared_modes(std::span<const TouchedPoint> points, const Influences& influences) {
+  ModeCollector collect(points);
   if (influences.probe) collect.probe(*influences.probe);
   if (influences.machine) collect.machine(*influences.machine);
   if (influences.thermal) collect.thermal(*influences.thermal);

@@ -54,7 +54,7 @@ void check_axis(const FeaturePlan& feature, const Checker& checker) {
                           "run-out cannot be stated in envelope mode; remove the axis, or measure "
                           "indexed");
   }
-  for (const CharacteristicPlan& c : feature.characteristics) {
+  for (const record::CharacteristicTask& c : feature.characteristics) {
     if (c.form == record::Form::kRunOut && envelope) {
       checker.contradiction("mode", "run-out is asked for, which a turning wheel does not show");
     } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm) {

@@ -65,8 +65,8 @@ Json decision_json(const evaluation::CharacteristicResult& result) {
   const evaluation::RuleOutcome& o = *result.outcome;
   const auto& risks = result.risks;
   return {{"compared_um", in_um(o.compared_mm)},
-          {"acceptance_limit_um", in_um(o.acceptance_mm)},
-          {"rejection_limit_um", in_um(o.rejection_mm)},
+          {"acceptance_limit_um", optional_um(o.acceptance.upper_mm)},
+          {"rejection_limit_um", optional_um(o.rejection.upper_mm)},
           {"conformance_probability", optional_json(o.conformance_1)},
           {"specific_risk", optional_json(o.specific_risk_1())},
           {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},

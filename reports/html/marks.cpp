@@ -76,20 +76,26 @@ std::string tolerance_bar(const evaluation::CharacteristicResult& result, double
   constexpr double kWidth = 150.0;
   const double value_mm = result.value->quoted_mm();
   const evaluation::UncertaintyStatement* known = result.value->statement();
+  // Where no rule decided, its limits are the tolerance itself.
   const auto& outcome = result.outcome;
+  const auto of_rule = [&](evaluation::Limits evaluation::RuleOutcome::*zone) {
+    return outcome ? ((*outcome).*zone).upper_mm.value_or(tolerance_mm) : tolerance_mm;
+  };
+  const double acceptance_mm = of_rule(&evaluation::RuleOutcome::acceptance);
+  const double rejection_mm = of_rule(&evaluation::RuleOutcome::rejection);
   double end_mm = std::max(1.25 * tolerance_mm, 1.05 * value_mm);
   if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
-  if (outcome) end_mm = std::max(end_mm, 1.05 * outcome->rejection_mm);
+  end_mm = std::max(end_mm, 1.05 * rejection_mm);
   const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
   std::string label = trf("{} of {} um", result.value->value_text().english(), um(tolerance_mm));
-  if (outcome && outcome->acceptance_mm < tolerance_mm) {
-    label += trf(", accepted up to {} um", um(outcome->acceptance_mm));
+  if (acceptance_mm < tolerance_mm) {
+    label += trf(", accepted up to {} um", um(acceptance_mm));
   }
   Svg svg(kWidth, 26.0, "bar", label);
   svg.rect(x.from, 8.0, x.at(tolerance_mm) - x.from, 10.0, "allowed");
-  if (outcome && outcome->acceptance_mm < outcome->rejection_mm) {
-    const double from = x.at(std::max(outcome->acceptance_mm, 0.0));
-    svg.rect(from, 5.0, x.at(outcome->rejection_mm) - from, 16.0, "guard");
+  if (acceptance_mm < rejection_mm) {
+    const double from = x.at(std::max(acceptance_mm, 0.0));
+    svg.rect(from, 5.0, x.at(rejection_mm) - from, 16.0, "guard");
   }
   svg.rect(x.from, 8.0, x.at(value_mm) - x.from, 10.0,
            result.verdict == evaluation::Verdict::kConforms         ? "good"

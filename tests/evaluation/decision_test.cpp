@@ -24,6 +24,7 @@ using ::testing::HasSubstr;
 using Kind = evaluation::DecisionRule::Kind;
 
 constexpr double kT = 10e-3;  // tolerance [mm]
+const Limits kTolerance{.lower_mm = {}, .upper_mm = kT};
 
 /// Errors of the compared value of one kind of inspection: skew, standard deviation 0.5 um, mean 0.
 std::vector<double> error_sample(int count = 4000) {
@@ -59,7 +60,7 @@ evaluation::DecisionRule rule_named(Kind kind) {
 
 evaluation::Verdict verdict(const evaluation::DecisionRule& rule,
                             const evaluation::KnownValue& value) {
-  const auto outcome = apply_rule(rule, value, kT);
+  const auto outcome = apply_rule(rule, value, kTolerance);
   return outcome ? outcome->verdict : evaluation::Verdict::kVoid;
 }
 
@@ -105,18 +106,133 @@ TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
     rule.acceptance_guard_1 = 0.5;
     if (kind == Kind::kJcgm106)
       rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
-    const auto at = apply_rule(rule, known(9e-3, errors), kT);
+    const auto at = apply_rule(rule, known(9e-3, errors), kTolerance);
     ASSERT_TRUE(at);
     const double bias = kind == Kind::kSimpleAcceptance ? 0.3e-3 : 0.0;
     constexpr double kStep = 1e-6;
-    EXPECT_EQ(verdict(rule, known(at->acceptance_mm - bias - kStep, errors)),
+    EXPECT_EQ(verdict(rule, known(*at->acceptance.upper_mm - bias - kStep, errors)),
               evaluation::Verdict::kConforms);
-    EXPECT_NE(verdict(rule, known(at->acceptance_mm - bias + kStep, errors)),
+    EXPECT_NE(verdict(rule, known(*at->acceptance.upper_mm - bias + kStep, errors)),
               evaluation::Verdict::kConforms);
-    EXPECT_NE(verdict(rule, known(at->rejection_mm - bias - kStep, errors)),
+    EXPECT_NE(verdict(rule, known(*at->rejection.upper_mm - bias - kStep, errors)),
               evaluation::Verdict::kDoesNotConform);
-    EXPECT_EQ(verdict(rule, known(at->rejection_mm - bias + kStep, errors)),
+    EXPECT_EQ(verdict(rule, known(*at->rejection.upper_mm - bias + kStep, errors)),
               evaluation::Verdict::kDoesNotConform);
+  }
+}
+
+// Below, a value and its limit are mirrored at 0.
+evaluation::KnownValue mirrored(const evaluation::KnownValue& value) {
+  evaluation::KnownValue out = value;
+  out.measured_mm = -value.measured_mm;
+  out.statement->estimate_mm = -value.statement->estimate_mm;
+  out.statement->low_mm = -value.statement->high_mm;
+  out.statement->high_mm = -value.statement->low_mm;
+  std::reverse(out.statement->values_mm.begin(), out.statement->values_mm.end());
+  for (double& one : out.statement->values_mm) one = -one;
+  return out;
+}
+
+TEST(TwoLimits, ALowerLimitJudgesAsTheMirroredUpperOne) {
+  const auto errors = error_sample(400);
+  for (const Kind kind : kAllRules) {
+    if (kind == Kind::kNToOne) continue;
+    SCOPED_TRACE(std::string(name_of(kind)));
+    const evaluation::DecisionRule rule = rule_named(kind);
+    for (double y = 8e-3; y < 12e-3; y += 0.1e-3) {
+      const auto upper = apply_rule(rule, known(y, errors), kTolerance);
+      const auto lower =
+          apply_rule(rule, mirrored(known(y, errors)), {.lower_mm = -kT, .upper_mm = {}});
+      ASSERT_TRUE(upper && lower);
+      EXPECT_EQ(upper->verdict, lower->verdict) << y;
+      EXPECT_EQ(upper->conformance_1, lower->conformance_1) << y;
+      EXPECT_EQ(*upper->acceptance.upper_mm, -*lower->acceptance.lower_mm) << y;
+      EXPECT_EQ(*upper->rejection.upper_mm, -*lower->rejection.lower_mm) << y;
+    }
+  }
+  const auto ratio = apply_rule(rule_named(Kind::kNToOne), mirrored(known(5e-3, errors)),
+                                {.lower_mm = -kT, .upper_mm = {}});
+  ASSERT_FALSE(ratio);
+  EXPECT_THAT(ratio.error().what, HasSubstr("one lower limit leaves no tolerance"));
+}
+
+TEST(TwoLimits, JudgeAsOneWhereTheOtherIsFar) {
+  const auto errors = error_sample(400);
+  for (const Kind kind : kAllRules) {
+    SCOPED_TRACE(std::string(name_of(kind)));
+    const evaluation::DecisionRule rule = rule_named(kind);
+    for (double y = 8e-3; y < 12e-3; y += 0.1e-3) {
+      const auto one = apply_rule(rule, known(y, errors), kTolerance);
+      const auto two = apply_rule(rule, known(y, errors), {.lower_mm = -0.1, .upper_mm = kT});
+      ASSERT_TRUE(one && two);
+      EXPECT_EQ(one->verdict, two->verdict) << y;
+      EXPECT_EQ(one->conformance_1, two->conformance_1) << y;
+      EXPECT_NEAR(*one->acceptance.upper_mm, *two->acceptance.upper_mm, 1e-12) << y;
+    }
+  }
+}
+
+TEST(TwoLimits, BothMustHoldAndEitherRefuses) {
+  const auto errors = error_sample(400);
+  const Limits limits{.lower_mm = 24.990, .upper_mm = 25.000};
+  for (const Kind kind : kAllRules) {
+    SCOPED_TRACE(std::string(name_of(kind)));
+    const auto verdict_at = [&](double y_mm) {
+      const auto outcome = apply_rule(rule_named(kind), known(y_mm, errors), limits);
+      return outcome ? outcome->verdict : evaluation::Verdict::kVoid;
+    };
+    EXPECT_EQ(verdict_at(24.995), evaluation::Verdict::kConforms);
+    EXPECT_EQ(verdict_at(24.985), evaluation::Verdict::kDoesNotConform);
+    EXPECT_EQ(verdict_at(25.005), evaluation::Verdict::kDoesNotConform);
+  }
+  const evaluation::DecisionRule rule;
+  EXPECT_EQ(apply_rule(rule, {24.989, {}}, limits)->sentence.english(),
+            "24989.000 um is beyond the lower limit of 24990.000 um by 1.000 um");
+  EXPECT_EQ(apply_rule(rule, {24.9995, {}}, limits)->sentence.english(),
+            "24999.500 um is within the upper limit of 25000.000 um by 0.500 um");
+}
+
+TEST(TwoLimits, TheProbabilityIsThatToLieBetweenThem) {
+  evaluation::KnownValue value{50.5e-3, evaluation::UncertaintyStatement{}};
+  value.statement->estimate_mm = 50.5e-3;
+  for (int i = 1; i <= 100; ++i) value.statement->values_mm.push_back(i * 1e-3);
+  value.statement->low_mm = 1e-3;
+  value.statement->high_mm = 100e-3;
+  const auto outcome =
+      apply_rule(rule_named(Kind::kJcgm106), value, {.lower_mm = 20.5e-3, .upper_mm = 70.5e-3});
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->conformance_1, 0.5);
+  EXPECT_EQ(outcome->verdict, evaluation::Verdict::kUndecided);
+}
+
+TEST(TwoLimits, NearerThanTheIntervalAcceptNothing) {
+  const auto errors = error_sample(400);
+  for (const Kind kind : {Kind::kIso14253, Kind::kGuardBand, Kind::kJcgm106}) {
+    SCOPED_TRACE(std::string(name_of(kind)));
+    for (double y = 8e-3; y < 12e-3; y += 0.1e-3) {
+      const auto outcome =
+          apply_rule(rule_named(kind), known(y, errors), {.lower_mm = 9.5e-3, .upper_mm = 10.5e-3});
+      ASSERT_TRUE(outcome);
+      EXPECT_NE(outcome->verdict, evaluation::Verdict::kConforms) << y;
+    }
+  }
+}
+
+TEST(TwoLimits, AValueReadBelowTheLowerOneConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
+  const auto errors = error_sample(400);
+  const Limits limits{.lower_mm = 0.0, .upper_mm = 20e-3};
+  for (const Kind kind : kAllRules) {
+    if (kind == Kind::kSimpleAcceptance) continue;
+    SCOPED_TRACE(std::string(name_of(kind)));
+    evaluation::KnownValue value = known(5e-3, errors);
+    value.measured_mm = -0.2e-3;
+    evaluation::DecisionRule rule = rule_named(kind);
+    const auto by_default = apply_rule(rule, value, limits);
+    ASSERT_TRUE(by_default);
+    EXPECT_EQ(by_default->verdict, evaluation::Verdict::kUndecided);
+    EXPECT_THAT(by_default->sentence, HasSubstr("read beyond the lower limit"));
+    rule.judge_corrected = true;
+    EXPECT_EQ(apply_rule(rule, value, limits)->verdict, evaluation::Verdict::kConforms);
   }
 }
 
@@ -145,13 +261,13 @@ TEST(DecisionRule, AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAr
     evaluation::KnownValue value = known(5e-3, errors);
     value.measured_mm = 10.2e-3;
     evaluation::DecisionRule rule = rule_named(kind);
-    const auto by_default = apply_rule(rule, value, kT);
+    const auto by_default = apply_rule(rule, value, kTolerance);
     ASSERT_TRUE(by_default);
     EXPECT_EQ(by_default->verdict, evaluation::Verdict::kUndecided);
     EXPECT_THAT(by_default->sentence, HasSubstr("read above the limit"));
     EXPECT_THAT(in_words(rule), HasSubstr("a value as read above T never conforms"));
     rule.judge_corrected = true;
-    const auto agreed = apply_rule(rule, value, kT);
+    const auto agreed = apply_rule(rule, value, kTolerance);
     ASSERT_TRUE(agreed);
     EXPECT_EQ(agreed->verdict, evaluation::Verdict::kConforms);
     EXPECT_THAT(agreed->sentence, HasSubstr("corrected values are judged"));
@@ -166,15 +282,15 @@ TEST(DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheIntervalThatMatters)
   value.statement->high_mm = 9.5e-3;
   value.statement->values_mm = {8.0e-3, 9.0e-3, 9.5e-3};
   evaluation::DecisionRule rule = rule_named(Kind::kIso14253);
-  auto outcome = apply_rule(rule, value, kT);
+  auto outcome = apply_rule(rule, value, kTolerance);
   ASSERT_TRUE(outcome);
-  EXPECT_NEAR(outcome->acceptance_mm, 9.5e-3, 1e-15);
-  EXPECT_NEAR(outcome->rejection_mm, 11.0e-3, 1e-15);
+  EXPECT_NEAR(*outcome->acceptance.upper_mm, 9.5e-3, 1e-15);
+  EXPECT_NEAR(*outcome->rejection.upper_mm, 11.0e-3, 1e-15);
   EXPECT_EQ(outcome->verdict, evaluation::Verdict::kConforms);
   EXPECT_THAT(outcome->sentence, HasSubstr("9.000 um is within the acceptance limit of 9.500 um"));
   rule.guard_factor = 3.0;
-  outcome = apply_rule(rule, value, kT);
-  EXPECT_NEAR(outcome->acceptance_mm, 8.5e-3, 1e-15);
+  outcome = apply_rule(rule, value, kTolerance);
+  EXPECT_NEAR(*outcome->acceptance.upper_mm, 8.5e-3, 1e-15);
   EXPECT_EQ(outcome->verdict, evaluation::Verdict::kUndecided);
   EXPECT_THAT(outcome->sentence, HasSubstr("neither is proven"));
   EXPECT_FALSE(outcome->specific_risk_1());
@@ -187,13 +303,13 @@ TEST(DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
   const auto errors = error_sample();
   EXPECT_EQ(verdict(rule, known(9.9e-3, errors)), evaluation::Verdict::kDoesNotConform)
       << "10.2 um measured";
-  EXPECT_FALSE(apply_rule(rule, {kT, {}}, kT)->conformance_1);
+  EXPECT_FALSE(apply_rule(rule, {kT, {}}, kTolerance)->conformance_1);
 }
 
 TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
   for (const Kind kind : kAllRules) {
     if (kind == Kind::kSimpleAcceptance) continue;
-    const auto outcome = apply_rule(rule_named(kind), {5e-3, {}}, kT);
+    const auto outcome = apply_rule(rule_named(kind), {5e-3, {}}, kTolerance);
     ASSERT_FALSE(outcome);
     EXPECT_THAT(outcome.error().what, HasSubstr("needs the interval at the sampled points"));
   }
@@ -204,7 +320,7 @@ TEST(DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
   evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
   EXPECT_EQ(verdict(rule, known(9.6e-3, errors)), evaluation::Verdict::kConforms);
   rule.ratio = 10.0;
-  const auto outcome = apply_rule(rule, known(9.9e-3, errors), kT);
+  const auto outcome = apply_rule(rule, known(9.9e-3, errors), kTolerance);
   ASSERT_FALSE(outcome);
   EXPECT_THAT(outcome.error().what, HasSubstr("the rule 10:1 does not apply"));
 }
@@ -213,7 +329,7 @@ TEST(DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
   const auto errors = error_sample();
   evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
   rule.prior = evaluation::Prior{evaluation::Prior::Kind::kNormal, 1e-3, 0.02e-3};
-  const auto outcome = apply_rule(rule, known(9e-3, errors), kT);
+  const auto outcome = apply_rule(rule, known(9e-3, errors), kTolerance);
   ASSERT_FALSE(outcome);
   EXPECT_THAT(outcome.error().what, HasSubstr("prior leaves the measured value no weight"));
 }
@@ -264,8 +380,8 @@ struct Lot {
   double stated_false_rejected = 0.0;
 };
 
-Lot simulate(const evaluation::DecisionRule& rule, const evaluation::Prior& prior,
-             const std::vector<double>& errors, int parts) {
+Lot simulate(const evaluation::DecisionRule& rule, const Limits& limits,
+             const evaluation::Prior& prior, const std::vector<double>& errors, int parts) {
   Lot lot;
   lot.parts = parts;
   for (int i = 0; i < parts; ++i) {
@@ -273,9 +389,9 @@ Lot simulate(const evaluation::DecisionRule& rule, const evaluation::Prior& prio
     const double y = drawn_from(prior, noise);
     const double error =
         errors[static_cast<std::size_t>(noise.uniform() * static_cast<double>(errors.size()))];
-    const auto outcome = apply_rule(rule, known(y + error, errors), kT);
+    const auto outcome = apply_rule(rule, known(y + error, errors), limits);
     if (!outcome) continue;  // n:1 that does not apply, prior without weight: counted by the caller
-    const bool good = y <= kT;
+    const bool good = limits.hold(y);
     if (outcome->verdict == evaluation::Verdict::kConforms) {
       ++lot.accepted;
       if (!good) ++lot.false_accepted;
@@ -303,26 +419,36 @@ void expect_rate(const char* what, std::string_view rule, int count, double stat
 
 int lot_size() { return std::getenv("RONDURE_FULL") != nullptr ? 50'000 : 1'000; }
 
-// The figure "false acceptance and rejection rates". Error sample, prior and rules as a plan states
-// them; every part has its own true value and its own error.
-TEST(DecisionRisks, RatesOnSimulatedLotsMatchTheStatedGlobalRisks) {
+/// That lots are judged with the global risks that are stated of one part.
+void expect_stated_risks(const Limits& limits, double ratio) {
   const auto errors = error_sample(200);
   const evaluation::Prior prior{evaluation::Prior::Kind::kGamma, 8e-3, 2.5e-3};
   for (const Kind kind : kAllRules) {
     evaluation::DecisionRule rule = rule_named(kind);
     rule.prior = prior;
+    rule.ratio = ratio;
     rule.rejection_guard_1 = -1.0;  // of guard-band: stringent acceptance, relaxed rejection
-    const auto stated = apply_rule(rule, known(8e-3, errors), kT);
+    const auto stated = apply_rule(rule, known(8e-3, errors), limits);
     ASSERT_TRUE(stated) << stated.error().what;
-    const auto global = global_risks(rule, known(8e-3, errors), *stated, kT);
+    const auto global = global_risks(rule, known(8e-3, errors), *stated, limits);
     ASSERT_TRUE(global);
-    const Lot lot = simulate(rule, prior, errors, lot_size());
+    const Lot lot = simulate(rule, limits, prior, errors, lot_size());
     SCOPED_TRACE(std::string(name_of(kind)));
     expect_rate("false acceptance", name_of(kind), lot.false_accepted, global->false_acceptance_1,
                 lot.parts);
     expect_rate("false rejection", name_of(kind), lot.false_rejected, global->false_rejection_1,
                 lot.parts);
   }
+}
+
+// The figure "false acceptance and rejection rates". Error sample, prior and rules as a plan states
+// them; every part has its own true value and its own error.
+TEST(DecisionRisks, RatesOnSimulatedLotsMatchTheStatedGlobalRisks) {
+  expect_stated_risks(kTolerance, 4.0);
+}
+
+TEST(DecisionRisks, RatesBetweenTwoLimitsMatchTheStatedGlobalRisks) {
+  expect_stated_risks({.lower_mm = 5e-3, .upper_mm = 11e-3}, 2.0);
 }
 
 // With the true prior the specific risk of a part is right for the parts of which it is said.
@@ -333,7 +459,7 @@ TEST(DecisionRisks, StatedSpecificRisksAreMetOnAverage) {
         evaluation::Prior{evaluation::Prior::Kind::kNormal, 9.5e-3, 0.8e-3}}) {
     evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
     rule.prior = prior;
-    const Lot lot = simulate(rule, prior, errors, lot_size());
+    const Lot lot = simulate(rule, kTolerance, prior, errors, lot_size());
     EXPECT_GT(lot.accepted, lot.parts / 10);
     EXPECT_GT(lot.rejected, lot.parts / 50);
     expect_rate("of accepted", name_of(prior.kind), lot.false_accepted,

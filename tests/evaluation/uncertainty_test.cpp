@@ -1,6 +1,7 @@
 // Properties and oracles of measurement_uncertainty(); how often its interval holds the truth:
 // coverage_test.cpp.
 #include "evaluation/uncertainty/uncertainty.h"
+#include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/sampler.h"
 
 #include <algorithm>
@@ -270,6 +271,48 @@ TEST(Uncertainty, WhatMovesThePartAsAWholeMovesNoForm) {
   for (std::size_t i = 0; i < 14; ++i) two_poses.points[i].pose = 1;
   const auto put_together = found(two_poses, still, trials(400, 200));
   EXPECT_GT(line(put_together, "fixture-calibration").standard_uncertainty_mm, 1e-3);
+}
+
+// One draw of an influence moves all surfaces of a part: its column over the points of two is that
+// of each, one below the other.
+TEST(Uncertainty, AnInfluenceActsOnTwoSurfacesAsOnEachAlone) {
+  evaluation::FormCloud bore = shaft(2, 5);
+  bore.outside = false;
+  bore.radius_mm = 12.0;
+  bore.axis.point_mm = {30.0, -10.0, 80.0};
+  const auto first = touched_points(shaft(3, 7));
+  const auto second = touched_points(bore);
+  auto both = first;
+  both.insert(both.end(), second.begin(), second.end());
+
+  evaluation::Influences influences;
+  influences.probe.emplace();
+  influences.probe->repeatability_mm = 0.3e-3;
+  influences.probe->lobes = {{3, 0.4e-3, 0.0}};
+  influences.probe->tip_radius_mm = 0.2e-3;
+  influences.machine.emplace();
+  influences.machine->terms.squareness_xz_rad = 5e-6;
+  influences.machine->terms.axes[1].translation[1].linear_1_mm = 1e-6;
+  influences.thermal.emplace();
+  influences.thermal->expansion_1_K = 11.5e-6;
+  influences.thermal->temperature_K = 0.1;
+  influences.thermal->drift_K = 0.2;
+
+  const DeclaredModes of_both = declared_modes(both, influences);
+  const DeclaredModes of_first = declared_modes(first, influences);
+  const DeclaredModes of_second = declared_modes(second, influences);
+  ASSERT_EQ(of_both.names, of_first.names);
+  ASSERT_EQ(of_both.columns.size(), of_first.columns.size());
+  ASSERT_GT(of_both.columns.size(), 5U);
+  const auto n = static_cast<Eigen::Index>(first.size());
+  const auto m = static_cast<Eigen::Index>(second.size());
+  for (std::size_t k = 0; k < of_both.columns.size(); ++k) {
+    SCOPED_TRACE(k);
+    EXPECT_EQ(of_both.columns[k].head(n), of_first.columns[k]);
+    EXPECT_EQ(of_both.columns[k].tail(m), of_second.columns[k]);
+  }
+  ASSERT_EQ(of_both.point_errors.size(), 1U);
+  EXPECT_EQ(of_both.point_errors[0].sigma_mm.size(), n + m);
 }
 
 TEST(Uncertainty, RanksTheInfluencesAndNamesWhatIsNotCovered) {

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/units.h"
+#include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/decision_rule.h"
 #include "record/tasks/rotary_axes.h"
@@ -246,6 +248,29 @@ TEST(Tasks, CountAGroupOfInfluencesWhereItIsDeclaredAndOnlyThere) {
   recorded = recorded_uncertainty({});
   ASSERT_TRUE(recorded);
   EXPECT_FALSE(*recorded) << "nothing is declared";
+}
+
+TEST(Tasks, GiveACharacteristicInMillimetresAboutTheMinimumZoneUnlessTheyNameAnother) {
+  CharacteristicTask asked;
+  asked.id = "round";
+  asked.form = Form::kRoundness;
+  asked.tolerance_um = 12.0;
+  asked.drawing_zone = "C4";
+  asked.harmonic_limits = {{2, 15, 0.5}};
+  const Characteristic kept = characteristic_of(asked);
+  EXPECT_EQ(kept.id, "round");
+  EXPECT_EQ(kept.form, Form::kRoundness);
+  EXPECT_EQ(kept.reference, Reference::kMinimumZone);
+  EXPECT_EQ(kept.tolerance_mm, 12.0 * core::kMicrometre);
+  EXPECT_EQ(kept.drawing_zone, "C4");
+  ASSERT_EQ(kept.harmonic_limits.size(), 1U);
+  EXPECT_EQ(kept.harmonic_limits.front().last, 15);
+  EXPECT_EQ(kept.harmonic_limits.front().amplitude_mm, 0.5 * core::kMicrometre);
+
+  asked.reference = Reference::kLeastSquares;
+  asked.tolerance_um.reset();
+  EXPECT_EQ(characteristic_of(asked).reference, Reference::kLeastSquares);
+  EXPECT_FALSE(characteristic_of(asked).tolerance_mm);
 }
 
 TEST(Tasks, RefuseAWholeNumberThatIsNone) {

@@ -20,12 +20,17 @@ double Prior::density(double value_mm) const {
 
 std::optional<double> conformance(const UncertaintyStatement& known,
                                   const std::optional<Prior>& prior, double shift_mm,
-                                  double tolerance_mm) {
+                                  const Limits& limits) {
   const auto& values = known.values_mm;
   if (values.empty()) return std::nullopt;
-  const auto first_above = std::upper_bound(values.begin(), values.end(), tolerance_mm - shift_mm);
+  const auto first_within =
+      limits.lower_mm ? std::lower_bound(values.begin(), values.end(), *limits.lower_mm - shift_mm)
+                      : values.begin();
+  const auto first_above =
+      limits.upper_mm ? std::upper_bound(first_within, values.end(), *limits.upper_mm - shift_mm)
+                      : values.end();
   if (!prior) {
-    return static_cast<double>(first_above - values.begin()) / static_cast<double>(values.size());
+    return static_cast<double>(first_above - first_within) / static_cast<double>(values.size());
   }
   constexpr double kLeastWeighted = 50.0;  // fewer values give no meaningful probability
   double sum = 0.0;
@@ -35,24 +40,27 @@ std::optional<double> conformance(const UncertaintyStatement& known,
     const double weight = prior->density(*value + shift_mm);
     sum += weight;
     squares += weight * weight;
-    if (value < first_above) within += weight;
+    if (value >= first_within && value < first_above) within += weight;
   }
   if (!(sum > 0.0) || sum * sum < kLeastWeighted * squares) return std::nullopt;
   return within / sum;
 }
 
 std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownValue& value,
-                                        const RuleOutcome& outcome, double tolerance_mm) {
+                                        const RuleOutcome& outcome, const Limits& limits) {
   if (!rule.prior || !value.statement || value.statement->values_mm.empty()) return std::nullopt;
   const Prior& prior = *rule.prior;
   const auto& values = value.statement->values_mm;
   const double count = static_cast<double>(values.size());
   // The compared value of a part with true value y is y + e, where e = compared - value of a trial.
-  const auto at_most = [&](double limit_mm, double y_mm) {
-    const double least = outcome.compared_mm + y_mm - limit_mm;
-    return static_cast<double>(values.end() -
-                               std::lower_bound(values.begin(), values.end(), least)) /
-           count;
+  const auto share_within = [&](const Limits& zone, double y_mm) {
+    const double sum_mm = outcome.compared_mm + y_mm;
+    const auto first = zone.upper_mm
+                           ? std::lower_bound(values.begin(), values.end(), sum_mm - *zone.upper_mm)
+                           : values.begin();
+    const auto last = zone.lower_mm ? std::upper_bound(first, values.end(), sum_mm - *zone.lower_mm)
+                                    : values.end();
+    return static_cast<double>(last - first) / count;
   };
   constexpr int kCells = 4000;
   const double end_mm = prior.mean_mm + 12.0 * prior.standard_deviation_mm;
@@ -62,10 +70,10 @@ std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownVal
     const double y_mm = end_mm * (i + 0.5) / kCells;
     const double weight = prior.density(y_mm);
     sum += weight;
-    if (y_mm > tolerance_mm) {
-      out.false_acceptance_1 += weight * at_most(outcome.acceptance_mm, y_mm);
+    if (!limits.hold(y_mm)) {
+      out.false_acceptance_1 += weight * share_within(outcome.acceptance, y_mm);
     } else {
-      out.false_rejection_1 += weight * (1.0 - at_most(outcome.rejection_mm, y_mm));
+      out.false_rejection_1 += weight * (1.0 - share_within(outcome.rejection, y_mm));
     }
   }
   out.false_acceptance_1 /= sum;

@@ -13,6 +13,6 @@ namespace rondure::evaluation {
 /// or when the prior gives weight to fewer than 50 of its values.
 [[nodiscard]] std::optional<double> conformance(const UncertaintyStatement& known,
                                                 const std::optional<Prior>& prior, double shift_mm,
-                                                double tolerance_mm);
+                                                const Limits& limits);
 
 }  // namespace rondure::evaluation

@@ -29,7 +29,7 @@ void keep_form(const Eigen::MatrixXd& rigid, std::vector<VectorXd>& columns) {
 }  // namespace
 
 ErrorModel::ErrorModel(const FormCloud& cloud, const Influences& influences) {
-  DeclaredModes declared = declared_modes(cloud, influences);
+  DeclaredModes declared = declared_modes(touched_points(cloud), influences);
   keep_form(rigid_basis(cloud), declared.columns);
   names_ = std::move(declared.names);
   point_errors_ = std::move(declared.point_errors);

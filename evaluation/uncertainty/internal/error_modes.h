@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,22 @@
 #include "evaluation/uncertainty/influences.h"
 
 namespace rondure::evaluation {
+
+/// A touched point as the influences act on it, of a surface of any kind.
+struct TouchedPoint {
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< Tip centre, machine frame.
+  /// Unit normal along which deviations count, machine frame.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d approach = -Eigen::Vector3d::UnitZ();  ///< Unit vector, along the normal.
+  double radius_mm = 0.0;    ///< Distance along the normal that grows with the part: nominal,
+  double distance_mm = 0.0;  ///< and as measured.
+  int repeats = 1;           ///< Number of touches that the point is the mean of.
+  int pose = 0;              ///< Fixture pose in which it was touched.
+  double time_1 = 0.0;       ///< From 0 (first touch) to 1 (last touch).
+};
+
+/// The points of a cloud, in its order.
+[[nodiscard]] std::vector<TouchedPoint> touched_points(const FormCloud& cloud);
 
 /// Distribution of the random number of a mode; its variance is always 1.
 enum class Distribution {
@@ -45,8 +62,10 @@ struct DeclaredModes {
   std::vector<Eigen::VectorXd> columns;  ///< Columns of the modes [mm].
 };
 
-/// Every declared number as a mode, including motions of the whole part.
-[[nodiscard]] DeclaredModes declared_modes(const FormCloud& cloud, const Influences& influences);
+/// Every declared number as a mode, including motions of the whole part. Points of several surfaces
+/// share each mode.
+[[nodiscard]] DeclaredModes declared_modes(std::span<const TouchedPoint> points,
+                                           const Influences& influences);
 
 /// The declared influences as they act on the deviations of a cloud, to first order: along the
 /// normals, without motions or a change of size of the whole part.

@@ -12,6 +12,7 @@
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/schema/json_text.h"
 #include "record/archive/place.h"
+#include "record/tasks/form_facts.h"
 
 namespace rondure::plans {
 namespace {
@@ -146,7 +147,7 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
 }
 
 // Checks the lines of a mask, and that it has an effect.
-void check_mask(const CharacteristicPlan& c, const std::string& where, Findings& findings) {
+void check_mask(const record::CharacteristicTask& c, const std::string& where, Findings& findings) {
   const bool masked = c.form == record::Form::kHarmonicLimits;
   if (masked && c.harmonic_limits.empty() && !findings.is_given(where + "/harmonic_limits")) {
     findings.meaning(Code::kMissingKey, where + "/harmonic_limits",
@@ -162,7 +163,7 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
                      "has no effect: the mask holds the limits; remove it");
   }
   for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
-    const HarmonicLimitPlan& line = c.harmonic_limits[i];
+    const record::HarmonicLimitTask& line = c.harmonic_limits[i];
     if (line.from <= line.to) continue;
     findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
                      fmt::format("from {} is above to {}; exchange them", line.from, line.to));
@@ -171,7 +172,7 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
 
 /// Checks that touched sections have enough points for harmonics: as many as reports filter, 7 per
 /// undulation at 50 undulations.
-void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
+void check_dense(const FeaturePlan& feature, const record::CharacteristicTask& c,
                  const std::string& feature_where, const std::string& where, Findings& findings) {
   constexpr int kDense = 350;
   constexpr int kHighest = 50;
@@ -297,7 +298,7 @@ void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
 void check_characteristic(const FeaturePlan& feature, std::size_t index,
                           const std::string& feature_where, Findings& findings) {
   const std::string where = item_pointer(feature_where + "/characteristics", index);
-  const CharacteristicPlan& c = feature.characteristics[index];
+  const record::CharacteristicTask& c = feature.characteristics[index];
   check_mask(c, where, findings);
   if (const auto twin = earlier_with_same_id(feature.characteristics, index)) {
     findings.meaning(
@@ -335,8 +336,7 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
                     name_of(feature.type), name_of(c.form)));
   }
   if (!analysis && masked) check_dense(feature, c, feature_where, where, findings);
-  const bool has_reference =
-      c.form == record::Form::kCylindricity || c.form == record::Form::kRoundness;
+  const bool has_reference = record::facts_of(c.form).about.has_value();
   if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
     findings.meaning(
         Code::kMeaning, where + "/reference",

@@ -10,24 +10,12 @@
 #include "plans/analyses/features.h"
 #include "plans/schema/internal/setting_list.h"
 #include "record/sha256.h"
+#include "record/tasks/characteristic.h"
 #include "record/tasks/run.h"
 #include "record/tasks/surface.h"
 
 namespace rondure::plans {
 namespace {
-
-record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
-  record::Characteristic out;
-  out.id = plan.id;
-  out.form = plan.form;
-  out.reference = plan.reference.value_or(record::Reference::kMinimumZone);
-  if (plan.tolerance_um) out.tolerance_mm = *plan.tolerance_um * core::kMicrometre;
-  out.drawing_zone = plan.drawing_zone;
-  for (const HarmonicLimitPlan& line : plan.harmonic_limits) {
-    out.harmonic_limits.push_back({line.from, line.to, line.amplitude_um * core::kMicrometre});
-  }
-  return out;
-}
 
 void append(std::vector<record::Setting> more, std::vector<record::Setting>& out) {
   for (record::Setting& setting : more) out.push_back(std::move(setting));
@@ -77,8 +65,9 @@ record::Feature feature_of(const FeaturePlan& plan) {
     out.search_steps_deg =
         fit::halved_steps(plan.pose_search.steps_deg, plan.pose_search.min_step_deg);
   }
-  for (const CharacteristicPlan& c : plan.characteristics)
+  for (const record::CharacteristicTask& c : plan.characteristics) {
     out.characteristics.push_back(characteristic_of(c));
+  }
   return out;
 }
 
