@@ -234,24 +234,23 @@ TEST(DrawingForm, OfAnUnseenArcHasNoVerdictUnlessItIsTooWide) {
 }
 
 TEST(DrawingForm, OfACircleThatIsNotUniqueHasNoVerdictWithinItsRange) {
-  // Four points hold an inscribed circle that slides along the long sides of a slot.
-  test::Layers slot(1);
-  for (int i = -10; i <= 10; ++i) {
-    slot[0].emplace_back(i, 10.0, 0.0);
-    slot[0].emplace_back(i, -10.0, 0.0);
-  }
-  for (const double y : {-5.0, 0.0, 5.0}) {
-    slot[0].emplace_back(12.0, y, 0.0);
-    slot[0].emplace_back(-12.0, y, 0.0);
-  }
-  const auto part = drawn(slot, {false, 0.0});
+  // Dents at 0 and 180 deg hold the inscribed circle, which slides across them: RONt is anything
+  // from 17.07 to 28 um about circles whose radius agrees to 1 nm.
+  const auto part =
+      drawn(test::turned_layers(1, 360,
+                                [](int, double t) {
+                                  const auto k = std::lround(core::degrees(t));
+                                  return 25.0 + (k % 180 == 0 ? -0.010 : k == 90 ? 0.008 : 0.0);
+                                }),
+            {false, 0.0});
   part.of->feature.shape = record::Shape::kCircle;
   auto inscribed = asked(Form::kRoundness, Reference::kMaximumInscribed);
   const Finding free = form_of(part, inscribed);
   ASSERT_FALSE(free.unique);
-  inscribed.tolerance_mm = free.judged.front().value_mm - 0.01;
+  EXPECT_NEAR(free.judged.front().value_mm, 0.028, 1e-4);
+  inscribed.tolerance_mm = 0.020;
   EXPECT_TRUE(form_of(part, inscribed).no_verdict);
-  inscribed.tolerance_mm = free.judged.front().value_mm + 0.01;
+  inscribed.tolerance_mm = 0.030;
   EXPECT_FALSE(form_of(part, inscribed).no_verdict);
 }
 
