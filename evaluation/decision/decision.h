@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "core/units.h"
 #include "evaluation/decision/verdict.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "record/run_record.h"
