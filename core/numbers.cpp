@@ -43,11 +43,11 @@ std::string signed_um(double length_mm) {
 
 std::string length_in(LengthUnit unit, double length_mm, int decimals) {
   constexpr int kMoreOfMillimetre = 3;
-  return unit == LengthUnit::kMicrometre ? fixed(micrometres(length_mm), decimals)
+  return unit == LengthUnit::kUm ? fixed(micrometres(length_mm), decimals)
                                          : fixed(length_mm, decimals + kMoreOfMillimetre);
 }
 
-std::string_view name_of(LengthUnit unit) { return unit == LengthUnit::kMicrometre ? "um" : "mm"; }
+std::string_view name_of(LengthUnit unit) { return unit == LengthUnit::kUm ? "um" : "mm"; }
 
 std::string f_um(double f_mm) { return fixed(f_mm / kMicrometre, std::abs(f_mm) > 0.1 ? 2 : 3); }
 

@@ -410,11 +410,13 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
     }
     out.features.push_back(std::move(feature));
   }
-  for (FeatureResult& feature : out.features) {
+  const std::vector<MeasuredSurface> part = surfaces_of(out.features);
+  for (std::size_t i = 0; i < out.features.size(); ++i) {
+    FeatureResult& feature = out.features[i];
     if (record::is_analysis(feature.feature.shape)) {
       decide_analysis(record, out.rule, feature);
     } else {
-      decide(record, out.rule, out.probe, feature);
+      decide(record, out.rule, out.probe, part, i, feature);
       apply_calibration(out.fixture, feature);
     }
   }

@@ -131,7 +131,7 @@ NearestLimit nearest_limit(const Limits& limits, const Zones& zones) {
 
 /// The same with its unit, which is mm for a size.
 std::string with_unit(const KnownValue& value, double length_mm) {
-  if (value.unit == core::LengthUnit::kMicrometre) return in_digits(value, length_mm) + " um";
+  if (value.unit == core::LengthUnit::kUm) return in_digits(value, length_mm) + " um";
   const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
   return core::length_in(value.unit, length_mm, decimals) + " mm";
 }
@@ -139,14 +139,14 @@ std::string with_unit(const KnownValue& value, double length_mm) {
 /// A limit with its unit, as a drawing states it: to the nanometre at most.
 std::string limit_text(const KnownValue& value, double limit_mm) {
   constexpr double kSteps = 1e6;
-  return value.unit == core::LengthUnit::kMicrometre
+  return value.unit == core::LengthUnit::kUm
              ? fixed(micrometres(limit_mm), 3) + " um"
              : core::shortest(core::on_grid(limit_mm, kSteps)) + " mm";
 }
 
 /// Whether sentences speak of "the tolerance": a form deviation with its one limit.
 bool has_tolerance(const KnownValue& value, const Limits& limits) {
-  return !limits.lower_mm && value.unit == core::LengthUnit::kMicrometre;
+  return !limits.lower_mm && value.unit == core::LengthUnit::kUm;
 }
 
 core::Phrase side_of(const NearestLimit& limit) {

@@ -81,6 +81,7 @@ struct DecisionRule {
 struct KnownValue {
   double measured_mm = 0.0;  ///< Value of the points as read, not corrected.
   std::optional<UncertaintyStatement> statement = {};
+  core::LengthUnit unit = core::LengthUnit::kUm;  ///< In sentences; of a size mm.
 };
 
 /// Probabilities over all parts of the stated prior, for this measurement.

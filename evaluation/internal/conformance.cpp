@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/interval/internal/form_interval.h"
+#include "evaluation/part/find.h"
+#include "evaluation/part/internal/families.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
+#include "record/tasks/characteristic.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -124,6 +129,8 @@ struct Circumstances {
   const record::RunRecord& record;
   const core::Result<DecisionRule>& rule;
   const std::optional<fit::ProbeTip>& probe;
+  std::span<const MeasuredSurface> part;
+  std::size_t feature;
 };
 
 /// Against a mask, the harmonic nearest to its limit decides; that limit is the tolerance.
@@ -158,8 +165,123 @@ void judge_harmonics(const Circumstances& by, const FeatureResult& result,
   out.reason = core::phrase("{} ({})", out.reason, where);
 }
 
+/// Unit of the value of a characteristic in texts.
+core::LengthUnit unit_of(const record::Characteristic& asked) {
+  return record::is_size(asked) ? core::LengthUnit::kMm : core::LengthUnit::kUm;
+}
+
+/// A judged value with its verdict.
+struct Judged {
+  StatedValue value;
+  Verdict verdict = Verdict::kVoid;
+  core::Phrase reason = {};
+  std::optional<RuleOutcome> outcome = {};
+  std::optional<GlobalRisks> risks = {};
+};
+
+/// Applies a rule to a value between limits.
+void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, Judged& out) {
+  if (!rule) {
+    out.reason = rule.error().said();
+    return;
+  }
+  if (!limits.lower_mm && !limits.upper_mm) {
+    out.verdict = Verdict::kNotToleranced;
+    out.reason = core::phrase("reported only");
+    return;
+  }
+  KnownValue known{.measured_mm = out.value.value_mm(), .unit = out.value.unit()};
+  if (const UncertaintyStatement* statement = out.value.statement()) known.statement = *statement;
+  auto outcome = apply_rule(*rule, known, limits);
+  if (!outcome) {
+    const core::Phrase& why = out.value.uncertainty().why();
+    out.reason = outcome.error().said();
+    if (!why.empty()) out.reason = core::phrase("{}: {}", out.reason, why);
+    return;
+  }
+  out.verdict = outcome->verdict;
+  out.reason = outcome->sentence;
+  out.risks = global_risks(*rule, known, *outcome, limits);
+  out.outcome = *std::move(outcome);
+}
+
+/// Severity of a verdict: the least severe first.
+int severity(Verdict verdict) {
+  constexpr std::array kOrder = {Verdict::kNotToleranced, Verdict::kConforms, Verdict::kUndecided,
+                                 Verdict::kDoesNotConform, Verdict::kVoid};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
+}
+
+/// A datum that rocks leaves a verdict only where the one-sided and the equalised one agree.
+void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& found,
+                       std::size_t index, Judged& out) {
+  if (index >= found.about_equalised_mm.size() || out.verdict == Verdict::kVoid) return;
+  const double other_mm = found.about_equalised_mm[index];
+  Judged other{out.value.moved_to(other_mm)};
+  judge_value(rule, found.judged[index].limits, other);
+  if (other.verdict == out.verdict) return;
+  double play_mm = 0.0;
+  for (const DatumResult& datum : found.datums) play_mm = std::max(play_mm, datum.play_mm);
+  out.verdict = Verdict::kUndecided;
+  out.outcome.reset();
+  out.risks.reset();
+  out.reason = core::phrase(
+      "the datum rocks by {:.1f} um: {} {} about the one-sided, {} {} about the equalised datum, "
+      "and the limit lies between; support the datum at both ends, or plan the association that "
+      "the drawing means",
+      micrometres(play_mm), out.value.in_digits(out.value.value_mm()),
+      core::name_of(out.value.unit()), out.value.in_digits(other_mm),
+      core::name_of(out.value.unit()));
+}
+
+/// A characteristic that find() computes: every judged value by the rule, the most severe verdict
+/// is that of the characteristic.
+void judge_found(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
+  out.verdict = Verdict::kVoid;
+  if (result.failure) {
+    out.reason = result.failure->said();
+    return;
+  }
+  auto found = find(by.part, by.feature, out.characteristic);
+  if (!found) {
+    out.reason = found.error().said();
+    return;
+  }
+  const auto finding = std::make_shared<const Finding>(*std::move(found));
+  out.finding = finding;
+  std::optional<Judged> worst;
+  for (std::size_t i = 0; i < finding->judged.size(); ++i) {
+    const JudgedValue& value = finding->judged[i];
+    if (!std::isfinite(value.value_mm)) {
+      out.reason = core::phrase("the computation gave no finite number");
+      return;
+    }
+    ValueOperator how(ReferenceTerm(finding->reference), FilterTerm(finding->filter),
+                      SamplingTerm(sampling_words(result, out.characteristic)),
+                      TipTerm(tip_words(result)), TemperatureTerm(temperature_words(result)));
+    Judged judged{StatedValue(
+        value.symbol, value.value_mm, std::move(how),
+        UncertaintyStatus::none(
+            core::phrase("intervals are computed of cylindricity and roundness only")),
+        by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
+    judge_value(by.rule, value.limits, judged);
+    agree_about_datum(by.rule, *finding, i, judged);
+    if (!worst || severity(judged.verdict) > severity(worst->verdict)) worst = std::move(judged);
+  }
+  out.value = std::move(worst->value);
+  if (const auto missing = reason_for_void(by.record, by.probe, result, {}, out.characteristic)) {
+    out.reason = *missing;
+    return;
+  }
+  out.verdict = worst->verdict;
+  out.reason = std::move(worst->reason);
+  out.outcome = std::move(worst->outcome);
+  out.risks = worst->risks;
+}
+
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
   if (out.characteristic.form == Form::kHarmonicLimits) return judge_harmonics(by, result, out);
+  if (is_found(result.feature, out.characteristic)) return judge_found(by, result, out);
   const auto value = value_of(result, out.characteristic);
   out.verdict = Verdict::kVoid;
   if (!value) {
@@ -239,38 +361,22 @@ std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
 }
 
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
-  out.verdict = Verdict::kVoid;
-  if (!rule) {
-    out.reason = rule.error().said();
-    return;
-  }
-  if (!out.characteristic.tolerance_mm) {
-    out.verdict = Verdict::kNotToleranced;
-    out.reason = core::phrase("reported only");
-    return;
-  }
-  const Limits limits{.lower_mm = {}, .upper_mm = out.characteristic.tolerance_mm};
-  KnownValue known{out.value->value_mm(), std::nullopt};
-  if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
-  auto outcome = apply_rule(*rule, known, limits);
-  if (!outcome) {
-    const core::Phrase& why = out.value->uncertainty().why();
-    out.reason = outcome.error().said();
-    if (!why.empty()) out.reason = core::phrase("{}: {}", out.reason, why);
-    return;
-  }
-  out.verdict = outcome->verdict;
-  out.reason = outcome->sentence;
-  out.risks = global_risks(*rule, known, *outcome, limits);
-  out.outcome = *std::move(outcome);
+  Judged judged{*out.value};
+  judge_value(rule, limits_of(out.characteristic), judged);
+  out.verdict = judged.verdict;
+  out.reason = std::move(judged.reason);
+  out.outcome = std::move(judged.outcome);
+  out.risks = judged.risks;
 }
 
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-            const std::optional<fit::ProbeTip>& probe, FeatureResult& result) {
+            const std::optional<fit::ProbeTip>& probe, std::span<const MeasuredSurface> part,
+            std::size_t feature, FeatureResult& result) {
   for (const record::Characteristic& characteristic : result.feature.characteristics) {
     CharacteristicResult out;
     out.characteristic = characteristic;
-    judge({record, rule, probe}, result, out);
+    const auto& own = characteristic.indication.decision_rule;
+    judge({record, own ? rule_of(*own) : rule, probe, part, feature}, result, out);
     result.characteristics.push_back(std::move(out));
   }
 }
@@ -284,7 +390,7 @@ Verdict overall(const std::vector<FeatureResult>& features) {
   for (const Verdict verdict : kOrder) {
     for (const FeatureResult& feature : features) {
       for (const CharacteristicResult& c : feature.characteristics) {
-        if (c.characteristic.tolerance_mm && c.verdict == verdict) return verdict;
+        if (c.characteristic.toleranced() && c.verdict == verdict) return verdict;
       }
     }
   }

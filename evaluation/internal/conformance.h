@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "evaluation/part/surface.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
@@ -15,8 +18,11 @@ namespace rondure::evaluation {
 /// be applied (apply_rule()).
 ///
 /// @param probe  The qualification of the run; a touched feature without a valid one is void.
+/// @param part     Surfaces of all features: a datum may be any of them.
+/// @param feature  Index of `result` among them.
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-            const std::optional<fit::ProbeTip>& probe, FeatureResult& result);
+            const std::optional<fit::ProbeTip>& probe, std::span<const MeasuredSurface> part,
+            std::size_t feature, FeatureResult& result);
 
 /// How warm the part was: "20.3 degC", "20.0 degC declared, not measured", "temperature not
 /// recorded"; with what bringing it to 20 degC did.

@@ -27,6 +27,21 @@ UncertaintyStatus UncertaintyStatus::stated(UncertaintyResult result, double cov
   return out;
 }
 
+UncertaintyStatus UncertaintyStatus::moved(double by_mm) const {
+  UncertaintyStatus out = *this;
+  if (!out.result_) return out;
+  const auto move = [&](UncertaintyStatement& statement) {
+    statement.estimate_mm += by_mm;
+    statement.low_mm += by_mm;
+    statement.high_mm += by_mm;
+    for (double& value_mm : statement.values_mm) value_mm += by_mm;
+  };
+  out.result_->uncorrected_mm += by_mm;
+  move(out.result_->sampled);
+  if (out.result_->whole) move(*out.result_->whole);
+  return out;
+}
+
 const UncertaintyStatement* UncertaintyStatus::about(Measurand measurand) const {
   if (!result_) return nullptr;
   if (measurand == Measurand::kSampledPoints) return &result_->sampled;
@@ -42,14 +57,20 @@ StatedValue::StatedValue(std::string symbol, double value_mm, ValueOperator valu
       measurand_(measurand),
       unit_(unit) {}
 
+StatedValue StatedValue::moved_to(double value_mm) const {
+  StatedValue out = *this;
+  out.value_mm_ = value_mm;
+  out.uncertainty_ = uncertainty_.moved(value_mm - value_mm_);
+  return out;
+}
+
 std::string StatedValue::in_digits(double length_mm) const {
   const UncertaintyStatement* known = statement();
   constexpr int kWithoutInterval = 3;
   if (known != nullptr)
     return core::length_in(unit_, length_mm, decimals_for(known->expanded_mm()));
-  return unit_ == core::LengthUnit::kMicrometre
-             ? um(length_mm)
-             : core::length_in(unit_, length_mm, kWithoutInterval);
+  return unit_ == core::LengthUnit::kUm ? um(length_mm)
+                                        : core::length_in(unit_, length_mm, kWithoutInterval);
 }
 
 core::Phrase StatedValue::value_text() const {

@@ -46,6 +46,8 @@ class UncertaintyStatus {
   [[nodiscard]] static UncertaintyStatus none(core::Phrase why);
   [[nodiscard]] static UncertaintyStatus stated(UncertaintyResult result, double coverage_1);
 
+  /// The same uncertainty of a value that lies higher by `by_mm`.
+  [[nodiscard]] UncertaintyStatus moved(double by_mm) const;
   /// The result; if none, see why().
   [[nodiscard]] const std::optional<UncertaintyResult>& result() const { return result_; }
   [[nodiscard]] const core::Phrase& why() const { return why_; }
@@ -65,7 +67,7 @@ class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints,
-              core::LengthUnit unit = core::LengthUnit::kMicrometre);
+              core::LengthUnit unit = core::LengthUnit::kUm);
 
   /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
@@ -81,6 +83,8 @@ class StatedValue {
   [[nodiscard]] std::string in_digits(double length_mm) const;
   [[nodiscard]] const ValueOperator& value_operator() const { return operator_; }
   [[nodiscard]] const UncertaintyStatus& uncertainty() const { return uncertainty_; }
+  /// The same statement about another value, its interval moved with it.
+  [[nodiscard]] StatedValue moved_to(double value_mm) const;
   /// The measurand of the printed interval.
   [[nodiscard]] Measurand measurand() const { return measurand_; }
   /// The statement about measurand(), or nullptr.

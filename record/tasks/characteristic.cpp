@@ -4,6 +4,12 @@
 
 namespace rondure::record {
 
+bool is_size(const Characteristic& characteristic) {
+  const auto& rank = characteristic.indication.rank;
+  const bool spread = rank && (*rank == Indication::Rank::kSR || *rank == Indication::Rank::kSQ);
+  return characteristic.form == Form::kDiameter && !spread;
+}
+
 Characteristic characteristic_of(const CharacteristicTask& task) {
   Characteristic out;
   out.id = task.id;

@@ -73,6 +73,10 @@ void describe(Visitor& v, CharacteristicTask& p) {
          {.meaning = "The mask of harmonic-limits, instead of tolerance_um."});
 }
 
+/// Whether the value is a size, which lies near the nominal diameter; a range or a standard
+/// deviation of sizes does not.
+[[nodiscard]] bool is_size(const Characteristic& characteristic);
+
 /// The characteristic that a journal keeps.
 [[nodiscard]] Characteristic characteristic_of(const CharacteristicTask& task);
 
