@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/interval/internal/form_interval.h"
