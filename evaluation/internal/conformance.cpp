@@ -16,7 +16,6 @@
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
-#include "record/tasks/characteristic.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -168,7 +167,9 @@ void judge_harmonics(const Circumstances& by, const FeatureResult& result,
 
 /// Unit of the value of a characteristic in texts.
 core::LengthUnit unit_of(const record::Characteristic& asked) {
-  return record::is_size(asked) ? core::LengthUnit::kMm : core::LengthUnit::kUm;
+  const bool size =
+      record::limits_of(asked.form, asked.indication.rank) == record::LimitKind::kSize;
+  return size ? core::LengthUnit::kMm : core::LengthUnit::kUm;
 }
 
 /// A judged value with its verdict.
