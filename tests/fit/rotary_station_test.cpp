@@ -15,7 +15,9 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "fit/least_squares/sphere.h"
 #include "fit/rotary/axes.h"
+#include "fit/rotary/ball_center.h"
 #include "fit/rotary/internal/published_axes.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"
@@ -43,6 +45,7 @@ using test::kUm;
 using test::kUrad;
 using test::letters;
 using test::measured;
+using test::no_errors;
 using test::station_at;
 using test::turned;
 using ::testing::HasSubstr;
@@ -137,6 +140,179 @@ TEST(RotaryAxes, LinearisationErrorIsThatOfTheSpecification) {
 
 // ---- Section 3: rank, condition, choice of balls.
 
+/// The station at one angle, of exact balls with u = 1 um against an exact reference.
+RotaryStation solved(const std::vector<Vector3d>& balls, const RotaryAxis& axis = kC,
+                     double angle_rad = 0.0) {
+  const auto m =
+      measured(axis, balls, {angle_rad}, no_errors, {.u_mm = kUm, .noisy = false, .references = 0});
+  return identify_rotary_axis(m).value().stations.front();
+}
+
+/// Covariance of (t; w) for u = 1 mm.
+Matrix6 covariance_per_u2(const RotaryStation& station) {
+  return station.errors.covariance / (kUm * kUm);
+}
+
+/// u(t)/u, and u(w)/u in urad per um.
+Vector6 u_per_u(const RotaryStation& station) {
+  Vector6 out = covariance_per_u2(station).diagonal().cwiseSqrt();
+  out.tail<3>() *= kUm / kUrad;
+  return out;
+}
+
+/// Condition of equation (1) at the origin with rotations scaled by 100 mm, from the covariance,
+/// whose square roots of eigenvalues are the reciprocals of the singular values.
+double condition_at_origin(const RotaryStation& station) {
+  Vector6 scale;
+  scale << 1.0, 1.0, 1.0, 100.0, 100.0, 100.0;
+  const Matrix6 scaled = scale.asDiagonal() * covariance_per_u2(station) * scale.asDiagonal();
+  const Vector6 e =
+      Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  return std::sqrt(e(5) / e(0));
+}
+
+TEST(BallSetup, GivesTheTableOfTheSpecification) {
+  struct Row {
+    const char* name;
+    std::vector<Vector3d> balls;
+    double condition;
+    std::array<double, 6> u_per_u;
+  };
+  const double h = std::sqrt(3.0) / 2.0 * 100.0;
+  const std::vector<Row> rows = {
+      {"L2 H1", example_balls(), 15.3, {3.39, 1.69, 0.92, 8.66, 14.14, 14.14}},
+      {"L2 H2",
+       hanging({{150, 50}, {150, 150}, {250, 150}}),
+       11.2,
+       {2.35, 1.69, 1.16, 8.66, 14.14, 14.14}},
+      {"rectangle",
+       hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}}),
+       12.6,
+       {2.29, 1.50, 0.87, 7.07, 10.00, 10.00}},
+      {"close",
+       hanging({{150, 50}, {150, 70}, {170, 50}}),
+       53.9,
+       {13.5, 6.81, 2.52, 43.3, 70.7, 70.7}},
+      {"from the axis",
+       hanging({{150, 0}, {150, 100}, {250, 0}}),
+       12.7,
+       {2.92, 1.69, 0.65, 8.66, 14.14, 14.14}},
+      {"wide",
+       hanging({{100, 0}, {100, 200}, {300, 0}}),
+       7.3,
+       {1.58, 0.92, 0.65, 4.33, 7.07, 7.07}},
+      {"near",
+       hanging({{50, 50}, {50, 150}, {150, 50}}),
+       7.7,
+       {2.12, 0.92, 0.92, 8.66, 14.14, 14.14}},
+      {"far",
+       hanging({{450, 250}, {450, 350}, {550, 250}}),
+       95.9,
+       {9.51, 4.23, 2.52, 8.66, 14.14, 14.14}},
+      {"three round the axis",
+       {{100, 0, 0}, {-50, h, 0}, {-50, -h, 0}},
+       1.41,
+       {0.58, 0.58, 0.58, 8.16, 8.16, 5.77}},
+      {"four",
+       {{100, 0, 50}, {-100, 0, 50}, {0, 100, -50}, {0, -100, -50}},
+       1.15,
+       {0.50, 0.50, 0.50, 5.77, 5.77, 5.00}},
+      {"six",
+       {{100, 0, 0}, {-100, 0, 0}, {0, 100, 0}, {0, -100, 0}, {0, 0, 100}, {0, 0, -100}},
+       1.22,
+       {0.41, 0.41, 0.41, 5.00, 5.00, 5.00}}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.name);
+    const RotaryStation station = solved(row.balls);
+    EXPECT_NEAR(condition_at_origin(station), row.condition, row.condition < 2.0 ? 0.0051 : 0.05);
+    const Vector6 u = u_per_u(station);
+    const bool coarse = row.u_per_u[3] > 20.0;  // "close": numbers above 10 have one decimal
+    for (int k = 0; k < 6; ++k) {
+      const double printed = row.u_per_u[static_cast<std::size_t>(k)];
+      EXPECT_NEAR(u(k), printed, coarse && printed > 10.0 ? 0.05 : 0.0051) << k;
+    }
+  }
+}
+
+TEST(BallSetup, OfTheAAxisGivesTheNumbersOfTheWorkedExample) {
+  const auto balls = hanging({{150, 50}, {150, 150}, {250, 150}});
+  for (const double angle : angles_deg(0, 90, 10))
+    EXPECT_NEAR(condition_at_origin(solved(balls, kA, angle)), 11.15, 0.0051);
+  const auto u = [&](double angle_rad) { return u_per_u(solved(balls, kA, angle_rad)); };
+  const auto off = [](const Vector3d& found, const Vector3d& printed) {
+    return (found - printed).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(off(u(0.0).head<3>(), {2.35, 1.69, 1.16}), 0.0051);
+  EXPECT_LT(off(u(kDeg45).head<3>(), {2.35, 0.71, 1.93}), 0.0051);
+  EXPECT_LT(off(u(2.0 * kDeg45).head<3>(), {2.35, 1.16, 1.69}), 0.0051);
+  EXPECT_LT(off(u(kDeg45).tail<3>(), {8.66, 17.3, 10.0}), 0.051);
+}
+
+/// Equation (2): covariance of (t; w) at the origin for u = 1 mm.
+Matrix6 equation_two(const std::vector<Vector3d>& p) {
+  const auto n = static_cast<double>(p.size());
+  Vector3d centroid = Vector3d::Zero();
+  for (const Vector3d& one : p) centroid += one / n;
+  Matrix3d m = Matrix3d::Zero();
+  for (const Vector3d& one : p) {
+    const Vector3d q = one - centroid;
+    m += q.squaredNorm() * Matrix3d::Identity() - q * q.transpose();
+  }
+  const Matrix3d inverse = m.inverse();
+  const Matrix3d lever = cross_matrix(centroid);
+  Matrix6 out;
+  out << Matrix3d::Identity() / n - lever * inverse * lever, lever * inverse, -inverse * lever,
+      inverse;
+  return out;
+}
+
+TEST(BallSetup, StationsHaveTheCovarianceOfEquationTwo) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise random(seed, {9});
+    std::vector<Vector3d> p0;
+    for (std::uint64_t i = 0; i < 3 + seed % 4; ++i) p0.push_back(draw(random, 150.0));
+    const double angle = core::kTwoPi * random.uniform();
+    const auto p = turned(p0, kC, angle);
+    const RotaryStation station = solved(p0, kC, angle);
+    const Matrix6 covariance = covariance_per_u2(station);
+    const Matrix6 expected = equation_two(p);
+    const Vector6 scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+    const Matrix6 off = scale.asDiagonal() * (covariance - expected) * scale.asDiagonal();
+    EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-8);
+    double sum = 0.0;
+    for (const Vector3d& r : station.redundancy) sum += r.sum();
+    EXPECT_NEAR(sum, station.dof, 1e-9);
+    EXPECT_EQ(station.dof, 3 * static_cast<int>(p.size()) - 6);
+    // At a point s the uncertainty of t is that with the origin there.
+    const Vector3d s = draw(random, 100.0);
+    std::vector<Vector3d> from_s;
+    for (const Vector3d& one : p) from_s.emplace_back(one - s);
+    const Matrix3d at_s = equation_two(from_s).topLeftCorner<3, 3>();
+    EXPECT_LT((point_covariance_mm2(covariance, s) - at_s).norm(), 1e-9 * at_s.norm());
+  }
+}
+
+TEST(BallSetup, SpreadAloneDeterminesTheRotations) {
+  const auto expect_rotations = [](const std::vector<std::array<double, 2>>& setups,
+                                   const Vector3d& expected) {
+    const Vector3d w = covariance_per_u2(solved(hanging(setups))).diagonal().tail<3>().cwiseSqrt();
+    EXPECT_LT((w - expected).cwiseAbs().maxCoeff(), 1e-12);
+  };
+  for (const double dl : {40.0, 100.0, 160.0}) {
+    for (const double dh : {30.0, 100.0}) {
+      SCOPED_TRACE(::testing::Message() << dl << ", " << dh);
+      // Normal to the plane of the balls (x), radial direction (y), line of the axis (z).
+      const Vector3d rectangle(1.0 / std::hypot(dh, dl), 1.0 / dl, 1.0 / dh);
+      const Vector3d three(std::sqrt(1.5) * rectangle.x(), std::sqrt(2.0) * rectangle.y(),
+                           std::sqrt(2.0) * rectangle.z());
+      for (const double third : {50.0, 50.0 + dh})
+        expect_rotations({{150, 50}, {150, 50 + dh}, {150 + dl, third}}, three);
+      expect_rotations({{150, 50}, {150, 50 + dh}, {150 + dl, 50}, {150 + dl, 50 + dh}}, rectangle);
+    }
+  }
+}
+
 TEST(BallSetup, ScaledConditionDoesNotKnowDistanceOrUnit) {
   EXPECT_NEAR(setup_condition(example_balls()), 2.0, 1e-12);
   EXPECT_NEAR(setup_condition(hanging({{450, 250}, {450, 350}, {550, 250}})), 2.0, 1e-12);
@@ -177,15 +353,18 @@ TEST(BallSetup, RefusesALineAndNamesTheBallThatCuresIt) {
   EXPECT_EQ(check_setup(one_place, letters(3)).error().code, Code::kCollinear);
 }
 
-/// Covariance diagonal of a sphere centre from points of unit deviation, radius fitted or held.
-Vector3d centre_uncertainty(const std::vector<Vector3d>& normals, bool hold_radius) {
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  for (const Vector3d& n : normals) {
-    const Eigen::Vector4d row(n.x(), n.y(), n.z(), 1.0);
-    sum += row * row.transpose();
+/// Uncertainty of the centre of a unit ball from touches of unit deviation: what a fit makes of a
+/// small deviation of each.
+template <class Fit>
+Vector3d centre_uncertainty(const std::vector<Vector3d>& touches, const Fit& fit) {
+  constexpr double kDeviation = 1e-6;
+  Vector3d squares = Vector3d::Zero();
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    std::vector<Vector3d> moved = touches;
+    moved[i] *= 1.0 + kDeviation;
+    squares += Vector3d(fit(moved) / kDeviation).cwiseAbs2();
   }
-  if (hold_radius) return sum.topLeftCorner<3, 3>().inverse().diagonal().cwiseSqrt();
-  return sum.inverse().diagonal().head<3>().cwiseSqrt();
+  return squares.cwiseSqrt();
 }
 
 TEST(BallSetup, BallCentresFromTouchesAreAsUncertainAsTheSpecificationSays) {
@@ -199,12 +378,18 @@ TEST(BallSetup, BallCentresFromTouchesAreAsUncertainAsTheSpecificationSays) {
     }
     return out;
   };
-  const Vector3d whole = centre_uncertainty(spiral(400, -1.0), false);
+  const auto radius_fitted = [](const auto& touches) {
+    return ls_sphere(touches).value().center_mm;
+  };
+  const auto radius_held = [](const auto& touches) {
+    return ball_center(touches, 1.0).value().center_mm;
+  };
+  const Vector3d whole = centre_uncertainty(spiral(400, -1.0), radius_fitted);
   EXPECT_LT((whole - Vector3d::Constant(std::sqrt(3.0 / 400.0))).norm(), 0.002);
   // 25 points of a hemisphere; how they are spread moves the second digit.
-  const Vector3d fitted = centre_uncertainty(spiral(25, 0.0), false);
+  const Vector3d fitted = centre_uncertainty(spiral(25, 0.0), radius_fitted);
   EXPECT_LT((fitted - Vector3d(0.34, 0.35, 0.69)).cwiseAbs().maxCoeff(), 0.02);
-  const Vector3d held = centre_uncertainty(spiral(25, 0.0), true);
+  const Vector3d held = centre_uncertainty(spiral(25, 0.0), radius_held);
   EXPECT_LT((held - Vector3d(0.34, 0.35, 0.35)).cwiseAbs().maxCoeff(), 0.02);
 }
 
@@ -219,6 +404,13 @@ TEST(RotaryStation, RedundancyNumbersAreThoseOfTheSpecification) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_LT((station.redundancy[i] - expected[i]).cwiseAbs().maxCoeff(), 0.0051) << i;
   EXPECT_EQ(station.dof, 3);
+  for (const Vector3d& r : station_at(*study, 0.0).redundancy) EXPECT_NEAR(r.x(), 0.0, 1e-12);
+  for (const Vector3d& r : station_at(*study, 90.0).redundancy) EXPECT_NEAR(r.y(), 0.0, 1e-12);
+  const auto square = hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
+  for (const Vector3d& r : solved(square, kC, kDeg45).redundancy)
+    EXPECT_LT((r - Vector3d(0.44, 0.44, 0.62)).cwiseAbs().maxCoeff(), 0.0051);
+  for (const Vector3d& r : solved(square).redundancy)
+    EXPECT_LT((r - Vector3d(0.25, 0.62, 0.62)).cwiseAbs().maxCoeff(), 0.0051);
 }
 
 TEST(RotaryStation, AnOutlierOfThreeIsDetectedButNotLocated) {
