@@ -29,8 +29,6 @@ enum class LimitKind {
   kSize,   ///< lower_um and upper_um, deviations from the nominal diameter.
   kMask    ///< harmonic_limits.
 };
-/// The unit in which values are written; lengths are mm inside.
-enum class WrittenUnit { kMicrometre, kMillimetre };
 enum class DatumNeed { kNone, kAxis, kAxisOrPlane };
 
 /// What holds for every characteristic of a form.
@@ -43,7 +41,6 @@ struct FormFacts {
   std::string_view takes = {};  ///< Keys of Indication that count, of a surface; "a b c".
   LimitKind limits = LimitKind::kUpper;
   DatumNeed datum = DatumNeed::kNone;
-  WrittenUnit unit = WrittenUnit::kMicrometre;
 };
 
 /// One row for each form, in the order of the enumerators.
@@ -63,9 +60,7 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
       std::nullopt,
       {Shape::kCylinder, Shape::kCircle, Shape::kSphere},
       "size rank section section_layers requirement from_mm to_mm filter cutoff_upr outliers",
-      LimitKind::kSize,
-      DatumNeed::kNone,
-      WrittenUnit::kMillimetre},
+      LimitKind::kSize},
      {Form::kStraightness,
       "STRt",
       std::nullopt,
