@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "core/pose.h"
+#include "record/tasks/indication.h"
 #include "record/words.h"
 
 namespace rondure::record {
@@ -20,19 +21,40 @@ namespace rondure::record {
 /// the code that reads plans.
 /// kSpindle, kWheel and kContour are analyses: their data are series, not touches. kRotaryAxes, the
 /// calibration of the fixture, is an analysis of touches.
-enum class Shape { kCylinder, kCircle, kSpindle, kWheel, kContour, kRotaryAxes };
+enum class Shape {
+  kCylinder,
+  kCircle,
+  kPlane,
+  kCone,
+  kSphere,
+  kSpindle,
+  kWheel,
+  kContour,
+  kRotaryAxes
+};
 enum class Side { kOutside, kInside };
-/// kCylindricity and kRoundness have a reference; the others ignore it.
+/// What a characteristic is the value of. form_facts.h holds what is true of each.
 enum class Form {
-  kCylindricity,        ///< CYLt.
-  kRoundness,           ///< RONt.
+  kCylindricity,  ///< CYLt.
+  kRoundness,     ///< RONt.
+  kDiameter,
+  kStraightness,  ///< Of the generatrices, or of the median line.
+  kGeneratrixParallelism,
+  kTaper,
+  kFlatness,
+  kCoaxiality,
+  kConcentricity,
+  kParallelism,
+  kPerpendicularity,
+  kAngularity,
+  kTotalRunOut,
   kRoundnessRms,        ///< RONq, about the least-squares circle.
   kHarmonicLimits,      ///< Amplitudes of harmonics against a mask.
   kMotionTotal,         ///< Total error motion value of an axis (ISO 230-7).
   kMotionSynchronous,   ///< Synchronous error motion value.
   kMotionAsynchronous,  ///< Asynchronous error motion value.
   kRadius,              ///< Departure of a radius from nominal.
-  kRunOut,              ///< Radial run-out.
+  kRunOut,              ///< Circular run-out of a surface; radial one of a wheel.
   kContourDeviation,    ///< Peak to valley of a contour, the greatest of all parts.
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
   kFixtureResidual,     ///< Largest distance of a ball from its predicted position.
@@ -63,6 +85,9 @@ enum class SamplingMethod { kTouch, kScan };
 constexpr auto words_of(Shape) {
   return std::to_array<Word<Shape>>({{Shape::kCylinder, "cylinder"},
                                      {Shape::kCircle, "circle"},
+                                     {Shape::kPlane, "plane"},
+                                     {Shape::kCone, "cone"},
+                                     {Shape::kSphere, "sphere"},
                                      {Shape::kSpindle, "spindle"},
                                      {Shape::kWheel, "wheel"},
                                      {Shape::kContour, "contour"},
@@ -74,6 +99,17 @@ constexpr auto words_of(Side) {
 constexpr auto words_of(Form) {
   return std::to_array<Word<Form>>({{Form::kCylindricity, "cylindricity"},
                                     {Form::kRoundness, "roundness"},
+                                    {Form::kDiameter, "diameter"},
+                                    {Form::kStraightness, "straightness"},
+                                    {Form::kGeneratrixParallelism, "generatrix-parallelism"},
+                                    {Form::kTaper, "taper"},
+                                    {Form::kFlatness, "flatness"},
+                                    {Form::kCoaxiality, "coaxiality"},
+                                    {Form::kConcentricity, "concentricity"},
+                                    {Form::kParallelism, "parallelism"},
+                                    {Form::kPerpendicularity, "perpendicularity"},
+                                    {Form::kAngularity, "angularity"},
+                                    {Form::kTotalRunOut, "total-run-out"},
                                     {Form::kRoundnessRms, "roundness-rms"},
                                     {Form::kHarmonicLimits, "harmonic-limits"},
                                     {Form::kMotionTotal, "motion-total"},
@@ -119,12 +155,17 @@ struct HarmonicLimit {
 
 /// One characteristic of a feature, toleranced or only reported.
 struct Characteristic {
-  std::string id;                   ///< Name in the plan, unique within the feature.
-  Form form = Form::kCylindricity;  ///< CYLt, or RONt of the worst layer.
+  std::string id;  ///< Name in the plan, unique within the feature.
+  Form form = Form::kCylindricity;
   Reference reference = Reference::kMinimumZone;
-  std::optional<double> tolerance_mm;  ///< Upper limit of the deviation [mm]; none: reported only.
+  std::optional<double> tolerance_mm;  ///< Upper limit: of a deviation, or the greatest size [mm].
   std::string drawing_zone;            ///< Grid square on the drawing; may be empty.
   std::vector<HarmonicLimit> harmonic_limits = {};  ///< For kHarmonicLimits, never empty there.
+  std::optional<double> lower_mm = {};              ///< Lower limit: the least size [mm].
+  Indication indication = {};  ///< With the defaults of the feature and of the plan.
+
+  /// Whether there is a limit to judge by; else the value is reported only.
+  [[nodiscard]] bool toleranced() const { return tolerance_mm || lower_mm; }
 };
 
 /// One setting of a feature or of the whole run, by its key in the plan ("phi2_deg"): a number or a

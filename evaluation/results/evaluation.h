@@ -18,10 +18,12 @@
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/plane.h"
 #include "fit/least_squares/probe_tip.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone_plane.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "record/run_record.h"
@@ -29,6 +31,7 @@
 namespace rondure::evaluation {
 
 struct AnalysisResult;  // analysis_result.h
+struct Finding;         // finding.h
 
 /// One point of the evaluated cloud: the mean of its repeated touches or, where repeats do not meet
 /// at one place (scans), one of them.
@@ -86,6 +89,8 @@ struct CharacteristicResult {
   core::Phrase reason;                 ///< One sentence behind the verdict.
   std::optional<RuleOutcome> outcome;  ///< Outcome of the rule; none for void, not toleranced.
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
+  /// How find() came to the value; null for values of other origin.
+  std::shared_ptr<const Finding> finding = {};
 
   /// The value as measured, without its qualifying words: for computing, not for writing.
   [[nodiscard]] std::optional<double> value_mm() const {
@@ -114,6 +119,8 @@ struct FeatureResult {
   std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Only for cylinder features.
   core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Or why there is none.
   core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
+  std::optional<fit::LsPlane> ls_plane;  ///< Only for plane features.
+  std::optional<fit::MinZonePlane> mz_plane;
   std::vector<LayerResult> layers;
   fit::Axis section_axis = {};          ///< For a circle: origin and normal of its plane.
   std::vector<PoseValue> poses;         ///< In the order of the visits.

@@ -13,7 +13,7 @@
 namespace rondure::fit {
 namespace {
 
-using Plane = Eigen::Matrix<double, 3, 2>;
+using PlaneFrame = Eigen::Matrix<double, 3, 2>;
 
 /// Weights of the stations: c = sum of to_c tau, d = sum of to_d tau.
 struct Estimator {
@@ -44,7 +44,7 @@ struct OffsetPart {
 };
 
 /// The offset of t (first = 0) or of w (first = 3).
-OffsetPart part_of(const RotaryTable& table, const Estimator& estimator, const Plane& plane,
+OffsetPart part_of(const RotaryTable& table, const Estimator& estimator, const PlaneFrame& plane,
                    Eigen::Index first) {
   Complex constant = 0.0;
   Complex offset = 0.0;
@@ -96,7 +96,7 @@ core::Result<AxisOffset> axis_offset(const RotaryTable& table) {
     mean += z.back() / static_cast<double>(table.rows.size());
   }
   out.arc_factor = 1.0 / std::sqrt(1.0 - std::norm(mean));
-  const Plane plane = across(table.axis.direction);
+  const PlaneFrame plane = across(table.axis.direction);
   const Estimator estimator = estimator_of(z);
   const OffsetPart t = part_of(table, estimator, plane, 0);
   const OffsetPart w = part_of(table, estimator, plane, 3);

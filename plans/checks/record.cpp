@@ -244,6 +244,9 @@ Fault check_feature_settings(const record::Feature& feature, bool strict) {
       return check_task<record::RotaryTask>(feature, strict);
     case Shape::kCylinder:
     case Shape::kCircle:
+    case Shape::kPlane:
+    case Shape::kCone:
+    case Shape::kSphere:
       break;
   }
   if (feature.strategy == Strategy::kMerged) {

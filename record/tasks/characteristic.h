@@ -26,6 +26,9 @@ struct CharacteristicTask {
   std::optional<double> tolerance_um;
   std::string drawing_zone;
   std::vector<HarmonicLimitTask> harmonic_limits = {};  ///< For the form "harmonic-limits".
+  std::optional<double> lower_um = {};  ///< Of a diameter: deviation from nominal.
+  std::optional<double> upper_um = {};
+  Indication indication = {};
 };
 
 template <class Visitor>

@@ -1,0 +1,203 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/tasks/decision_rule.h"
+#include "record/tasks/key_spec.h"
+#include "record/words.h"
+
+namespace rondure::record {
+
+/// What a drawing indicates of a characteristic beside its form, its reference and its limits, as
+/// plan and journal spell it. A plan may leave out the optional keys; see with_defaults().
+struct Indication {
+  /// Peak to valley, peak, valley, root mean square (ISO 12180-1, 12181-1): t, p, v, q.
+  enum class Parameter { kTotal, kPeak, kValley, kRms };
+  /// ISO 14405-1. kLS is the spherical size, which no plan can have; it is a word so that the
+  /// refusal can say why.
+  enum class Size { kLP, kGG, kGX, kGN, kGC, kCC, kCA, kCV, kLS };
+  /// Rank-order (2016) or statistical (2025) size. kSD is the mid-range, kSQ the standard
+  /// deviation.
+  enum class Rank { kSX, kSN, kSA, kSM, kSD, kSR, kSQ };
+  enum class Section { kAll, kACS, kSCS };  ///< Whole feature, any section, named sections.
+  enum class Requirement { kNone, kEnvelope };
+  enum class Of { kGeneratrix, kMedianLine };
+  enum class Direction { kRadial, kAxial, kConical };
+  /// Of a datum (ISO 5459).
+  enum class Association { kOneSided, kEqualised, kLs, kZone };
+  enum class Filter { kNone, kGaussian, kRobustGaussian, kSpline };
+  enum class Outliers { kNone, kFiveScales };
+
+  Parameter parameter = Parameter::kTotal;
+  Size size = Size::kLP;
+  std::optional<Rank> rank;  ///< None with kLP: the greatest and the least, each at its limit.
+  Section section = Section::kAll;
+  std::vector<double> section_layers;  ///< From 1, the lowest first; for kSCS.
+  Requirement requirement = Requirement::kNone;
+  Of of = Of::kGeneratrix;
+  Direction direction = Direction::kRadial;
+  std::optional<double> radius_mm;  ///< Of the circle of an axial run-out; none: every circle.
+  std::optional<double> angle_deg;  ///< Nominal, of an angularity.
+  std::optional<double> from_mm;    ///< Restricted portion, part z; none: to the end.
+  std::optional<double> to_mm;
+  std::vector<std::string> datum;  ///< "A-B", "C": letters or ids of features.
+  // The following keys have defaults of the feature and of the plan.
+  std::optional<Association> association;
+  std::optional<Filter> filter;
+  std::optional<double> cutoff_upr;
+  std::optional<double> cutoff_mm;
+  std::optional<Outliers> outliers;
+  std::optional<DecisionRuleTask> decision_rule;
+};
+
+constexpr auto words_of(Indication::Parameter) {
+  using Parameter = Indication::Parameter;
+  return std::to_array<Word<Parameter>>({{Parameter::kTotal, "total"},
+                                         {Parameter::kPeak, "peak"},
+                                         {Parameter::kValley, "valley"},
+                                         {Parameter::kRms, "rms"}});
+}
+constexpr auto words_of(Indication::Size) {
+  using Size = Indication::Size;
+  return std::to_array<Word<Size>>({{Size::kLP, "LP"},
+                                    {Size::kGG, "GG"},
+                                    {Size::kGX, "GX"},
+                                    {Size::kGN, "GN"},
+                                    {Size::kGC, "GC"},
+                                    {Size::kCC, "CC"},
+                                    {Size::kCA, "CA"},
+                                    {Size::kCV, "CV"},
+                                    {Size::kLS, "LS"}});
+}
+constexpr auto words_of(Indication::Rank) {
+  using Rank = Indication::Rank;
+  return std::to_array<Word<Rank>>({{Rank::kSX, "SX"},
+                                    {Rank::kSN, "SN"},
+                                    {Rank::kSA, "SA"},
+                                    {Rank::kSM, "SM"},
+                                    {Rank::kSD, "SD"},
+                                    {Rank::kSR, "SR"},
+                                    {Rank::kSQ, "SQ"}});
+}
+constexpr auto words_of(Indication::Section) {
+  using Section = Indication::Section;
+  return std::to_array<Word<Section>>(
+      {{Section::kAll, "all"}, {Section::kACS, "ACS"}, {Section::kSCS, "SCS"}});
+}
+constexpr auto words_of(Indication::Requirement) {
+  using Requirement = Indication::Requirement;
+  return std::to_array<Word<Requirement>>(
+      {{Requirement::kNone, "none"}, {Requirement::kEnvelope, "envelope"}});
+}
+constexpr auto words_of(Indication::Of) {
+  using Of = Indication::Of;
+  return std::to_array<Word<Of>>(
+      {{Of::kGeneratrix, "generatrix"}, {Of::kMedianLine, "median-line"}});
+}
+constexpr auto words_of(Indication::Direction) {
+  using Direction = Indication::Direction;
+  return std::to_array<Word<Direction>>({{Direction::kRadial, "radial"},
+                                         {Direction::kAxial, "axial"},
+                                         {Direction::kConical, "conical"}});
+}
+constexpr auto words_of(Indication::Association) {
+  using Association = Indication::Association;
+  return std::to_array<Word<Association>>({{Association::kOneSided, "one-sided"},
+                                           {Association::kEqualised, "equalised"},
+                                           {Association::kLs, "ls"},
+                                           {Association::kZone, "zone"}});
+}
+constexpr auto words_of(Indication::Filter) {
+  using Filter = Indication::Filter;
+  return std::to_array<Word<Filter>>({{Filter::kNone, "none"},
+                                      {Filter::kGaussian, "gaussian"},
+                                      {Filter::kRobustGaussian, "robust-gaussian"},
+                                      {Filter::kSpline, "spline"}});
+}
+constexpr auto words_of(Indication::Outliers) {
+  using Outliers = Indication::Outliers;
+  return std::to_array<Word<Outliers>>(
+      {{Outliers::kNone, "none"}, {Outliers::kFiveScales, "five-scales"}});
+}
+
+/// The keys that have defaults of the feature and of the plan.
+template <class Visitor, class Keys>
+void describe_operations(Visitor& v, Keys& p) {
+  v.text("association", p.association,
+         {.meaning = "How a datum is taken from its feature: one-sided, touching it from outside "
+                     "the material (the default); equalised, in the middle of the positions "
+                     "between which it rocks; ls, least squares; zone, minimum zone."});
+  v.text("filter", p.filter,
+         {.meaning = "Filter of the profiles before anything is evaluated: none (the default), "
+                     "gaussian, robust-gaussian, spline. It needs dense sections, as of a scan."});
+  v.number("cutoff_upr", p.cutoff_upr,
+           above(0.0, 100'000.0,
+                 "Cut-off of the filter round the section, in undulations per revolution; usual "
+                 "are 15, 50, 150, 500, 1500."));
+  v.number("cutoff_mm", p.cutoff_mm,
+           above(0.0, 1000.0,
+                 "Cut-off along the axis; usual are 0.25, 0.8, 2.5, 8, 25. Left out: the profile "
+                 "is not filtered along the axis."));
+  v.text("outliers", p.outliers,
+         {.meaning = "Rule that takes single points out: none (the default), or five-scales, more "
+                     "than five robust scales from the least-squares feature. The report lists "
+                     "every point that it takes out."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Indication& p) {
+  v.text("parameter", p.parameter,
+         {.meaning = "Of a form deviation: total, peak to valley; peak; valley; rms, root mean "
+                     "square. All but total are about the least-squares feature."});
+  v.text("size", p.size,
+         {.meaning = "Of a diameter (ISO 14405-1): LP, two-point size; GG, least squares; GX, "
+                     "maximum inscribed; GN, minimum circumscribed; GC, minimax; CC, CA, CV from "
+                     "circumference, area, volume of dense sections."});
+  v.text("rank", p.rank,
+         {.meaning = "Of two-point sizes: SX maximum, SN minimum, SA average, SM median, SD "
+                     "mid-range, SR range, SQ standard deviation. Left out: the greatest is held "
+                     "against the upper limit, the least against the lower."});
+  v.text("section", p.section,
+         {.meaning = "all: of the whole feature; ACS: of any section, the worst decides; SCS: of "
+                     "the sections of section_layers."});
+  v.numbers("section_layers", p.section_layers,
+            range(1.0, 1000.0, "Layers of section SCS, from 1, the lowest first."));
+  v.text("requirement", p.requirement,
+         {.meaning = "envelope: the mating size and the two-point sizes, one verdict (ISO 14405-1, "
+                     "the letter E in a circle)."});
+  v.text("of", p.of,
+         {.meaning = "Straightness of each generatrix, or of the median line of the sections."});
+  v.text("direction", p.direction,
+         {.meaning = "Of a run-out: radial; axial, of a face; conical, normal to a cone."});
+  v.number("radius_mm", p.radius_mm,
+           above(0.0, 10'000.0,
+                 "Of an axial run-out: radius of the one circle that counts. Left out: every "
+                 "circle, the worst decides."));
+  v.number("angle_deg", p.angle_deg, range(0.0, 90.0, "Of an angularity: nominal, to the datum."));
+  v.number(
+      "from_mm", p.from_mm,
+      within(10'000.0, "Restricted portion: its lower end, part z. Left out: of the feature."));
+  v.number("to_mm", p.to_mm, within(10'000.0, "Restricted portion: its upper end, part z."));
+  v.texts("datum", p.datum,
+          {.empty_allowed = false,
+           .meaning = "Datums in their order, each the letter or id of a feature, or a common "
+                      "datum of several, e.g. \"A-B\"."});
+  describe_operations(v, p);
+  v.object("decision_rule", p.decision_rule,
+           {.meaning = "Rule of this characteristic alone, in place of that of the feature or of "
+                       "the plan."});
+}
+
+/// Defaults of a feature or of a plan for the characteristics that do not give these keys.
+struct IndicationDefaults {
+  std::optional<Indication::Association> association;
+  std::optional<Indication::Filter> filter;
+  std::optional<double> cutoff_upr;
+  std::optional<double> cutoff_mm;
+  std::optional<Indication::Outliers> outliers;
+};
+
+}  // namespace rondure::record
