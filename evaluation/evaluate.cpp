@@ -17,6 +17,7 @@
 #include "evaluation/internal/merged.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
+#include "evaluation/part/internal/clamping.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/poses/walk.h"
 #include "record/tasks/settings.h"
@@ -446,6 +447,7 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
       continue;
     }
     auto feature = evaluate_feature(record, index, out.probe, facts.kinematics);
+    feature.clamping = clamping_of(record, index);
     if (auto broken = check(feature)) {
       checked.defects.push_back({*std::move(broken), std::move(feature)});
       feature = without_values(checked.defects.back());

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/decision/verdict.h"
+#include "evaluation/results/clamping.h"
 #include "evaluation/results/merged_poses.h"
 #include "evaluation/results/stated_value.h"
 #include "evaluation/results/thermal.h"
@@ -115,6 +116,7 @@ struct FixtureUse {
 struct FeatureResult {
   record::Feature feature;
   std::vector<CloudPoint> cloud;
+  std::optional<Clamping> clamping;  ///< None: no points that datums can be held against.
   std::optional<fit::LsCylinder> ls_cylinder;
   std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Only for cylinder features.
   core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Or why there is none.
