@@ -23,6 +23,7 @@
 #include "record/tasks/decision_rule.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/spindle.h"
+#include "record/tasks/surface.h"
 #include "record/tasks/uncertainty.h"
 #include "record/tasks/wheel.h"
 
@@ -196,6 +197,12 @@ struct NominalPlan {
   double diameter_mm = 0.0;
   double from_mm = 0.0;  ///< Lower end of the surface, part z.
   double to_mm = 0.0;    ///< Upper end.
+  double z_mm = 0.0;     ///< Of a plane.
+  record::Faces faces = record::Faces::kUp;
+  double from_diameter_mm = 0.0;  ///< Ring of a plane.
+  double to_diameter_mm = 0.0;
+  double half_angle_deg = 0.0;                        ///< Of a cone; > 0: it opens along part z.
+  std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Of a sphere, part frame.
 };
 
 struct SamplingPlan {
