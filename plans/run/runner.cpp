@@ -30,10 +30,11 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
-      return targets * (feature.type == record::Shape::kCircle ? repeats : 2 + repeats);
+      return targets * (feature.type == record::Shape::kCylinder ? 2 + repeats : repeats);
     case record::Strategy::kMerged:
       return targets * repeats * feature.pose_search.poses.size();
     case record::Strategy::kVirtual:
+    case record::Strategy::kStartPose:
       return targets * repeats;
     case record::Strategy::kAsPublished:
       return targets * (25 + repeats);

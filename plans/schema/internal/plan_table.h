@@ -305,7 +305,7 @@ void describe(Visitor& v, NominalPlan& p) {
   v.text("faces", p.faces,
          {.meaning = "Of a plane: the side to which it faces, out of the material; up is along "
                      "part z. Needed where it is touched, is a datum or has a run-out."});
-  const auto edge = [](std::string_view meaning) { return range(0.0, 1000.0, meaning); };
+  const auto edge = [](std::string_view meaning) { return range(0.0, 2000.0, meaning); };
   v.number("from_diameter_mm", p.from_diameter_mm, edge("Of a plane: its inner edge."));
   v.number("to_diameter_mm", p.to_diameter_mm, edge("Of a plane: its outer edge."));
   v.numbers("center_mm", p.center_mm,
