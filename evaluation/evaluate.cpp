@@ -19,6 +19,7 @@
 #include "evaluation/invariants.h"
 #include "evaluation/part/internal/clamping.h"
 #include "evaluation/results/measured_cloud.h"
+#include "fit/least_squares/sphere.h"
 #include "fit/poses/walk.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -274,6 +275,49 @@ void evaluate_plane(const std::optional<Eigen::Vector3d>& outward, FeatureResult
   result.mz_plane = *std::move(mz);
 }
 
+/// Sets angle and height of every point about an axis, and its deviation from a surface.
+template <class Deviation>
+void place_points(const fit::Axis& axis, const Deviation& deviation_mm, FeatureResult& result) {
+  place_points(axis, 0.0, mean_of(result.cloud), result.cloud);
+  for (CloudPoint& point : result.cloud) point.deviation_mm = deviation_mm(point.tip_mm);
+}
+
+void evaluate_cone(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  auto ls = fit::ls_cone(tips, direction);
+  auto mz = fit::min_zone_cone(tips, direction);
+  if (!ls || !mz) {
+    result.failure = !ls ? ls.error() : mz.error();
+    return;
+  }
+  place_points(
+      mz->cone.axis, [&](const Eigen::Vector3d& tip_mm) { return mz->cone.deviation_mm(tip_mm); },
+      result);
+  for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
+  for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
+  result.ls_cone = *std::move(ls);
+  result.mz_cone = *std::move(mz);
+}
+
+void evaluate_sphere(FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  auto ls = fit::ls_sphere(tips);
+  auto mz = fit::min_zone_sphere(tips);
+  if (!ls || !mz) {
+    result.failure = !ls ? ls.error() : mz.error();
+    return;
+  }
+  const double middle_mm = 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm);
+  place_points(
+      fit::Axis{mz->center_mm, Eigen::Vector3d::UnitZ()},
+      [&](const Eigen::Vector3d& tip_mm) { return (tip_mm - mz->center_mm).norm() - middle_mm; },
+      result);
+  for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
+  for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
+  result.ls_sphere = *std::move(ls);
+  result.mz_sphere = *std::move(mz);
+}
+
 /// Evaluates the repeats of the final cloud: scatter of a touch, and of the zone of a single cloud.
 void evaluate_repeats(const std::vector<const Touch*>& touches,
                       const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
@@ -401,6 +445,12 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
       break;
     case record::Shape::kPlane:
       evaluate_plane(direction, result);
+      break;
+    case record::Shape::kCone:
+      evaluate_cone(direction, result);
+      break;
+    case record::Shape::kSphere:
+      evaluate_sphere(result);
       break;
     default:
       evaluate_circle(*direction, result);
