@@ -72,6 +72,8 @@ struct DecisionRule {
 
 [[nodiscard]] Measurand measurand_of(record::DecisionRuleTask::Measurand asked);
 
+[[nodiscard]] DecisionRule rule_of(const record::DecisionRuleTask& task);
+
 /// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 holds
 /// only its name. kMeaning for a rule, measurand, judged value or prior that this program does not
 /// know: every verdict is then void.

@@ -378,7 +378,8 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
     CharacteristicResult out;
     out.characteristic = characteristic;
     const auto& own = characteristic.indication.decision_rule;
-    judge({record, own ? rule_of(*own) : rule, probe, part, feature}, result, out);
+    judge({record, own ? core::Result<DecisionRule>(rule_of(*own)) : rule, probe, part, feature},
+          result, out);
     result.characteristics.push_back(std::move(out));
   }
 }
