@@ -504,13 +504,13 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
     }
     out.features.push_back(std::move(feature));
   }
-  const std::vector<MeasuredSurface> part = surfaces_of(out.features);
+  PartFindings found = find_all(record, out.features, out.probe);
   for (std::size_t i = 0; i < out.features.size(); ++i) {
     FeatureResult& feature = out.features[i];
     if (record::is_analysis(feature.feature.shape)) {
       decide_analysis(record, out.rule, feature);
     } else {
-      decide(record, out.rule, out.probe, part, i, feature);
+      decide(record, out.rule, out.probe, found[i], feature);
       apply_calibration(out.fixture, feature);
     }
   }

@@ -129,8 +129,6 @@ struct Circumstances {
   const record::RunRecord& record;
   const core::Result<DecisionRule>& rule;
   const std::optional<fit::ProbeTip>& probe;
-  std::span<const MeasuredSurface> part;
-  std::size_t feature;
 };
 
 /// Against a mask, the harmonic nearest to its limit decides; that limit is the tolerance.
@@ -236,20 +234,33 @@ void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& fo
       core::name_of(out.value.unit()));
 }
 
-/// A characteristic that find() computes: every judged value by the rule, the most severe verdict
+/// Under JCGM 106 several conditions must hold together with the probability that the rule asks.
+void judge_together(const core::Result<DecisionRule>& rule, const PartInterval& interval,
+                    Judged& out) {
+  const bool together = rule && rule->kind == DecisionRule::Kind::kJcgm106 &&
+                        interval.judged.size() > 1 && interval.conformance_1 && out.outcome;
+  if (!together) return;
+  out.outcome->conformance_1 = interval.conformance_1;
+  if (out.verdict != Verdict::kConforms || *interval.conformance_1 >= 1.0 - rule->consumer_risk_1) {
+    return;
+  }
+  out.verdict = Verdict::kUndecided;
+  out.reason = core::phrase(
+      "the probability that both conditions hold is {:.4g} %, less than the {:g} % that the rule "
+      "asks",
+      100.0 * *interval.conformance_1, 100.0 * (1.0 - rule->consumer_risk_1));
+}
+
+/// A characteristic that find() computed: every judged value by the rule, the most severe verdict
 /// is that of the characteristic.
-void judge_found(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
+void judge_found(const Circumstances& by, const FeatureResult& result, FoundCharacteristic& found,
+                 CharacteristicResult& out) {
   out.verdict = Verdict::kVoid;
-  if (result.failure) {
-    out.reason = result.failure->said();
+  if (!found.finding) {
+    out.reason = found.finding.error().said();
     return;
   }
-  auto found = find(by.part, by.feature, out.characteristic);
-  if (!found) {
-    out.reason = found.error().said();
-    return;
-  }
-  const auto finding = std::make_shared<const Finding>(*std::move(found));
+  const auto finding = std::make_shared<const Finding>(*std::move(found.finding));
   out.finding = finding;
   std::optional<Judged> worst;
   for (std::size_t i = 0; i < finding->judged.size(); ++i) {
@@ -262,14 +273,13 @@ void judge_found(const Circumstances& by, const FeatureResult& result, Character
                       SamplingTerm(sampling_words(result, out.characteristic)),
                       TipTerm(tip_words(result)), TemperatureTerm(temperature_words(result)));
     Judged judged{StatedValue(
-        value.symbol, value.value_mm, std::move(how),
-        UncertaintyStatus::none(
-            core::phrase("intervals are computed of cylindricity and roundness only")),
+        value.symbol, value.value_mm, std::move(how), found.interval.judged[i],
         by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
     if (!worst || severity(judged.verdict) > severity(worst->verdict)) worst = std::move(judged);
   }
+  judge_together(by.rule, found.interval, *worst);
   out.value = std::move(worst->value);
   if (const auto missing = reason_for_void(by.record, by.probe, result, {}, out.characteristic)) {
     out.reason = *missing;
@@ -283,7 +293,6 @@ void judge_found(const Circumstances& by, const FeatureResult& result, Character
 
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
   if (out.characteristic.form == Form::kHarmonicLimits) return judge_harmonics(by, result, out);
-  if (is_found(result.feature, out.characteristic)) return judge_found(by, result, out);
   const auto value = value_of(result, out.characteristic);
   out.verdict = Verdict::kVoid;
   if (!value) {
@@ -371,15 +380,45 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   out.risks = judged.risks;
 }
 
+PartFindings find_all(const record::RunRecord& record, std::span<const FeatureResult> features,
+                      const std::optional<fit::ProbeTip>& probe) {
+  PartFindings out(features.size());
+  const std::vector<MeasuredSurface> part = surfaces_of(features);
+  std::vector<PartQuestion> questions;
+  std::vector<PartInterval*> answers;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const record::Feature& feature = features[f].feature;
+    out[f].resize(feature.characteristics.size());
+    for (std::size_t c = 0; c < feature.characteristics.size(); ++c) {
+      const record::Characteristic& asked = feature.characteristics[c];
+      if (!is_found(feature, asked)) continue;
+      FoundCharacteristic& found = out[f][c].emplace(FoundCharacteristic{
+          features[f].failure ? core::Result<Finding>(core::fail(*features[f].failure))
+                              : find(part, f, asked)});
+      if (!found.finding) continue;
+      questions.push_back({f, &asked, &*found.finding});
+      answers.push_back(&found.interval);
+    }
+  }
+  std::vector<PartInterval> intervals = intervals_of(record, features, probe, questions);
+  for (std::size_t q = 0; q < intervals.size(); ++q) *answers[q] = std::move(intervals[q]);
+  return out;
+}
+
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-            const std::optional<fit::ProbeTip>& probe, std::span<const MeasuredSurface> part,
-            std::size_t feature, FeatureResult& result) {
-  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+            const std::optional<fit::ProbeTip>& probe,
+            std::span<std::optional<FoundCharacteristic>> found, FeatureResult& result) {
+  for (std::size_t c = 0; c < result.feature.characteristics.size(); ++c) {
     CharacteristicResult out;
-    out.characteristic = characteristic;
-    const auto& own = characteristic.indication.decision_rule;
-    judge({record, own ? core::Result<DecisionRule>(rule_of(*own)) : rule, probe, part, feature},
-          result, out);
+    out.characteristic = result.feature.characteristics[c];
+    const auto& own = out.characteristic.indication.decision_rule;
+    const core::Result<DecisionRule> its = own ? core::Result<DecisionRule>(rule_of(*own)) : rule;
+    const Circumstances by{record, its, probe};
+    if (found[c]) {
+      judge_found(by, result, *found[c], out);
+    } else {
+      judge(by, result, out);
+    }
     result.characteristics.push_back(std::move(out));
   }
 }

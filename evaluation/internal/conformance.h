@@ -5,11 +5,25 @@
 #include <span>
 #include <vector>
 
-#include "evaluation/part/surface.h"
+#include "evaluation/interval/internal/part_intervals.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
+
+/// A characteristic that find() computed, with its uncertainty.
+struct FoundCharacteristic {
+  core::Result<Finding> finding;
+  PartInterval interval = {};
+};
+
+/// What find() computes of a part: for each feature one element for each of its characteristics,
+/// empty where find() has none. The trials of all intervals move all features together.
+using PartFindings = std::vector<std::vector<std::optional<FoundCharacteristic>>>;
+
+[[nodiscard]] PartFindings find_all(const record::RunRecord& record,
+                                    std::span<const FeatureResult> features,
+                                    const std::optional<fit::ProbeTip>& probe);
 
 /// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its
 /// reason. Void when a condition is missing: no result, a reference that does not exist for the
@@ -18,11 +32,10 @@ namespace rondure::evaluation {
 /// be applied (apply_rule()).
 ///
 /// @param probe  The qualification of the run; a touched feature without a valid one is void.
-/// @param part     Surfaces of all features: a datum may be any of them.
-/// @param feature  Index of `result` among them.
+/// @param found  Those of its characteristics that find() computes.
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-            const std::optional<fit::ProbeTip>& probe, std::span<const MeasuredSurface> part,
-            std::size_t feature, FeatureResult& result);
+            const std::optional<fit::ProbeTip>& probe,
+            std::span<std::optional<FoundCharacteristic>> found, FeatureResult& result);
 
 /// How warm the part was: "20.3 degC", "20.0 degC declared, not measured", "temperature not
 /// recorded"; with what bringing it to 20 degC did.
