@@ -12,7 +12,7 @@
 #include "evaluation/decision/decision.h"
 #include "evaluation/part/surface.h"
 #include "evaluation/uncertainty/influences.h"
-#include "evaluation/uncertainty/uncertainty.h"
+#include "evaluation/uncertainty/statement.h"
 
 namespace rondure::evaluation {
 

@@ -9,7 +9,7 @@
 #include "evaluation/uncertainty/cloud.h"
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/sampler.h"
-#include "evaluation/uncertainty/uncertainty.h"
+#include "evaluation/uncertainty/statement.h"
 
 // Private to the room: the statement that trials make, and the guards that void it. Common to the
 // form values of one cloud and to the characteristics of a part.
