@@ -224,15 +224,45 @@ core::Result<void> check_surrounded(const DatumPoints& datum, const fit::Axis& a
   return {};
 }
 
-core::Result<fit::DatumAxis> settled_datum(const DatumPoints& datum,
-                                           core::Result<fit::DatumAxis> found) {
-  if (!found) return datum.fails(found.error());
-  if (found->ending == fit::ZoneEnding::kConverged) return found;
-  return core::fail(core::Code::kNotConverged,
-                    core::phrase("datum {}: the search for its axis did not come to rest; plan "
-                                 "association \"ls\", or touch more points",
-                                 datum.named.name));
-}
+/// The axis of one or several cylinders, by any association.
+class AxisAssociation {
+ public:
+  explicit AxisAssociation(const DatumPoints& datum)
+      : datum_(datum), cylinders_(datum.cylinders()), near_(start_direction(datum)) {}
+
+  [[nodiscard]] core::Result<fit::DatumAxis> find(Association association) const {
+    auto found = fit::datum_axis(cylinders_, to_fit(association), near_);
+    if (!found) return datum_.fails(found.error());
+    if (found->ending == fit::ZoneEnding::kConverged) return found;
+    if (association == Association::kOneSided && is_first_order_optimum(*found)) return found;
+    return core::fail(core::Code::kNotConverged,
+                      core::phrase("datum {}: the search for its axis did not come to rest; plan "
+                                   "association \"ls\", or touch more points",
+                                   datum_.named.name));
+  }
+  [[nodiscard]] core::Result<fit::DatumRock> rock() const {
+    const auto out = fit::datum_rock(cylinders_, near_);
+    if (!out) return datum_.fails(out.error());
+    return out;
+  }
+
+ private:
+  /// The search does not settle on five contacts where all points of a perfect form are as near.
+  /// Its radii then sum to the first-order optimum, and the axis has no room to rock.
+  [[nodiscard]] bool is_first_order_optimum(const fit::DatumAxis& found) const {
+    constexpr double kSameSum = 1e-9;
+    const auto known = rock();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < cylinders_.size(); ++i) {
+      sum += (cylinders_[i].inside ? -1.0 : 1.0) * found.radii_mm[i];
+    }
+    return known && std::abs(sum - known->sum_mm) <= kSameSum && known->play_mm < kRocks;
+  }
+
+  const DatumPoints& datum_;
+  std::vector<fit::DatumCylinder> cylinders_;
+  std::optional<Eigen::Vector3d> near_;
+};
 
 core::Result<DatumResult> axis_datum(const DatumPoints& datum) {
   if (datum.surfaces.size() == 1 && (datum.surfaces[0].of->feature.shape == Shape::kCircle ||
@@ -242,27 +272,23 @@ core::Result<DatumResult> axis_datum(const DatumPoints& datum) {
                                    "e.g. \"A-B\"",
                                    datum.named.name));
   }
-  const auto cylinders = datum.cylinders();
-  const auto near = start_direction(datum);
-  const auto associated = [&](fit::DatumAssociation association) {
-    return settled_datum(datum, fit::datum_axis(cylinders, association, near));
-  };
-  auto found = associated(fit::DatumAssociation::kLeastSquares);
+  const AxisAssociation associated(datum);
+  auto found = associated.find(Association::kLs);
   if (!found) return core::fail(found.error());
   if (datum.one_sided()) {
     if (auto round = check_surrounded(datum, found->axis); !round) return core::fail(round.error());
   }
   if (datum.association != Association::kLs) {
-    found = associated(to_fit(datum.association));
+    found = associated.find(datum.association);
     if (!found) return core::fail(found.error());
   }
   DatumResult out = datum.result(found->axis, found->radii_mm);
   out.length_mm = datum.extent_mm(out.place.direction);
   if (datum.association != Association::kOneSided) return out;
-  const auto equalised = associated(fit::DatumAssociation::kEqualised);
+  const auto equalised = associated.find(Association::kEqualised);
   if (!equalised) return core::fail(equalised.error());
-  const auto rock = fit::datum_rock(cylinders, near);
-  if (!rock) return datum.fails(rock.error());
+  const auto rock = associated.rock();
+  if (!rock) return core::fail(rock.error());
   out.equalised = equalised->axis;
   out.play_mm = rock->play_mm;
   return out;

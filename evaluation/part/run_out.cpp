@@ -37,7 +37,8 @@ struct Turned {
 };
 
 struct Circle {
-  LocalValue place;
+  int layer = 0;
+  double position_mm = 0.0;  ///< Height, or radius on a face.
   std::vector<std::size_t> points;
 };
 
@@ -128,7 +129,7 @@ bool surround(const Turned& turned, const std::vector<std::size_t>& points) {
 
 /// The one circle of a stated radius.
 core::Result<std::vector<Circle>> stated_circle(const Turned& turned, double radius_mm) {
-  Circle out{{LocalValue::Place::kRadius, 0, radius_mm}, {}};
+  Circle out{0, radius_mm, {}};
   for (std::size_t i = 0; i < turned.radius.size(); ++i) {
     if (std::abs(turned.radius[i] - radius_mm) <= kOnCircle) out.points.push_back(i);
   }
@@ -140,12 +141,12 @@ core::Result<std::vector<Circle>> stated_circle(const Turned& turned, double rad
 core::Result<std::vector<Circle>> circles_of(const Turned& turned) {
   std::vector<Circle> out;
   for (const SurfaceSection& section : turned.surface.sections) {
-    Circle circle{{LocalValue::Place::kRadius, section.layer}, section.points};
+    Circle circle{section.layer, 0.0, section.points};
     double mean = 0.0;
     for (const std::size_t i : circle.points) {
       mean += turned.radius[i] / static_cast<double>(circle.points.size());
     }
-    circle.place.position = mean;
+    circle.position_mm = mean;
     const auto off = [&](std::size_t i) { return std::abs(turned.radius[i] - mean) > kOnCircle; };
     if (std::ranges::any_of(circle.points, off) || !surround(turned, circle.points)) {
       return no_circle(mean);
@@ -166,7 +167,7 @@ core::Result<std::vector<Circle>> turned_sections(const Turned& turned) {
                                      section.layer + 1, turned.surface.of->feature.id,
                                      section.points.size(), kFewestOnTurn));
     }
-    out.push_back({{LocalValue::Place::kLayer, section.layer, section.height_mm}, section.points});
+    out.push_back({section.layer, section.height_mm, section.points});
   }
   return out;
 }
@@ -216,8 +217,9 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
   const auto found = turned_circles(*about, asked.indication);
   if (!found) return core::fail(found.error());
   for (const Circle& circle : *found) {
-    out.local.push_back(circle.place);
-    out.local.back().value_mm = measured_range(*about, circle.points).width();
+    out.local.push_back({about->axial ? LocalValue::Place::kRadius : LocalValue::Place::kLayer,
+                         circle.layer, circle.position_mm,
+                         measured_range(*about, circle.points).width()});
     if (out.local.back().value_mm > out.local[out.worst].value_mm) out.worst = out.local.size() - 1;
   }
   add_rows(*about, (*found)[out.worst].points, out);
