@@ -12,7 +12,7 @@
 #include "core/phrase.h"
 #include "core/statistics.h"
 #include "core/units.h"
-#include "evaluation/part/internal/filtering.h"
+#include "evaluation/part/internal/sections.h"
 #include "evaluation/part/internal/windows.h"
 #include "evaluation/part/outliers.h"
 #include "evaluation/results/measured_cloud.h"
@@ -26,7 +26,7 @@ namespace {
 using record::Shape;
 using record::SurfaceSettings;
 using record::WindowTask;
-using Points = std::vector<Eigen::Vector3d>;
+using SurfacePoints = std::vector<Eigen::Vector3d>;
 
 constexpr double kNewSectionMm = 0.5;
 constexpr double kThickestMm = 0.5;
@@ -54,8 +54,8 @@ bool has_layers(const FeatureResult& feature) {
                      [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
 }
 
-Points chosen_points(const Points& tips, const std::vector<bool>& chosen) {
-  Points out;
+SurfacePoints chosen_points(const SurfacePoints& tips, const std::vector<bool>& chosen) {
+  SurfacePoints out;
   for (std::size_t i = 0; i < tips.size(); ++i) {
     if (chosen[i]) out.push_back(tips[i]);
   }
@@ -318,8 +318,8 @@ class LayoutBuilder {
     return check_layers_left();
   }
 
-  [[nodiscard]] Points points_of(const std::vector<std::size_t>& rows) const {
-    Points out;
+  [[nodiscard]] SurfacePoints points_of(const std::vector<std::size_t>& rows) const {
+    SurfacePoints out;
     for (const std::size_t row : rows) out.push_back(tips_[row]);
     return out;
   }
@@ -372,7 +372,7 @@ class LayoutBuilder {
 
   const FeatureResult& feature_;
   SurfaceSettings settings_;
-  Points tips_;
+  SurfacePoints tips_;
   Eigen::Matrix3d to_part_;
   double guard_mm_;
   double first_layer_mm_ = 0.0;  ///< Added to machine z.

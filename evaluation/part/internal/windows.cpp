@@ -15,8 +15,8 @@ namespace {
 constexpr double kFullTurnDeg = 360.0;
 constexpr int kHighestHarmonic = 15;
 constexpr int kRobustSteps = 30;
-constexpr double kTukey = 4.685;        // 95 % efficient for normal residuals
-constexpr double kLeastScaleMm = 1e-4;  // as of the outlier rule
+constexpr double kTukey = 4.685;               // 95 % efficient for normal residuals
+constexpr double kLeastProfileScaleMm = 1e-4;  // as of the outlier rule
 constexpr double kSettledMm = 1e-7;
 
 /// Angle from one direction to another, counter-clockwise, in [0, 2 pi).
@@ -129,8 +129,8 @@ core::Result<std::vector<bool>> off_profile(std::span<const double> angle_rad,
       if (!in_window[i]) apart.push_back(std::abs(rest(static_cast<Eigen::Index>(i))));
     }
     const double scale =
-        kTukey *
-        std::max(core::kSigmaPerMedianDeviation * core::median(std::move(apart)), kLeastScaleMm);
+        kTukey * std::max(core::kSigmaPerMedianDeviation * core::median(std::move(apart)),
+                          kLeastProfileScaleMm);
     for (Eigen::Index i = 0; i < rest.size(); ++i) {
       const double share = 1.0 - std::pow(rest(i) / scale, 2);
       weights(i) = share > 0.0 ? share * share : 0.0;

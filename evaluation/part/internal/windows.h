@@ -1,13 +1,9 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "core/result.h"
-#include "evaluation/part/internal/layout.h"
 #include "record/tasks/surface.h"
 
 // Private to the room: which points lie in the windows of a surface.
