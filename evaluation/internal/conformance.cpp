@@ -112,10 +112,7 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
                         characteristic.tolerance_mm &&
                         value.value_mm > *characteristic.tolerance_mm;
   if (value.unseen_rad > 0.0 && !too_wide) {
-    return core::phrase(
-        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
-        "deviation; measure the whole turn",
-        value.unseen_rad / core::kDegree);
+    return unseen_words(value.unseen_rad);
   }
   if (record.ending != "finished") return core::phrase("the run did not finish");
   if (result.feature.strategy != record::Strategy::kPointsFile) {

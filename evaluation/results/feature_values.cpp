@@ -110,7 +110,11 @@ std::string_view symbol_of(record::Shape shape) {
 }
 
 std::string symbol_of(const record::Characteristic& characteristic) {
-  return std::string(record::facts_of(characteristic.form).symbol);
+  std::string symbol(record::facts_of(characteristic.form).symbol);
+  constexpr std::string_view kParameters = "tpvq";  // in the order of the enumerators
+  const auto parameter = static_cast<std::size_t>(characteristic.indication.parameter);
+  if (parameter > 0) symbol.back() = kParameters[parameter];
+  return symbol;
 }
 
 std::string reference_of(const record::Characteristic& characteristic) {
@@ -122,6 +126,7 @@ std::string reference_of(const record::Characteristic& characteristic) {
 std::string reference_of(record::Reference reference, record::Shape shape) {
   std::string symbol;
   for (const char c : record::name_of(reference)) symbol += static_cast<char>(c - 'a' + 'A');
+  if (shape == record::Shape::kPlane) return symbol + "PL";
   return symbol + (shape == record::Shape::kCylinder ? "CY" : "CI");
 }
 

@@ -56,7 +56,8 @@ struct OneSided {
 /// "minimum circumscribed cylinder", "maximum inscribed circle", ...
 [[nodiscard]] const char* words_of(record::Reference reference, record::Shape shape);
 
-/// "CYLt" or "RONt"; "MZCY", "LSCY", "MCCY", "MICY", "MZCI", "LSCI", "MCCI" or "MICI".
+/// "CYLt", "RONt", with the letter of its parameter; "MZCY", "LSCY", "MCCY", "MICY", "MZCI", "LSCI",
+/// "MCCI", "MICI", "MZPL" or "LSPL".
 [[nodiscard]] std::string symbol_of(const record::Characteristic& characteristic);
 /// Symbol of the zone of a feature: "CYLt", or "RONt" for a circle.
 [[nodiscard]] std::string_view symbol_of(record::Shape shape);
