@@ -87,7 +87,7 @@ void fill_sections(const SurfaceLayout& layout, const std::vector<bool>& taken,
 }
 
 /// Names the points far off that take part.
-void warn_of_outlying(const SurfaceLayout& layout, const Indication& indication,
+void name_outlying(const SurfaceLayout& layout, const Indication& indication,
                       const std::vector<bool>& taken, PreparedSurface& out) {
   if (leaves_out_outliers(indication) || layout.too_many) return;
   std::size_t named = 0;
@@ -160,7 +160,7 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
   const Warnings warnings = is_as_measured(surface) ? Warnings::kFind : Warnings::kSkip;
   if (warnings == Warnings::kFind) {
     out.warnings = layout->warnings;
-    warn_of_outlying(*layout, indication, *taken, out);
+    name_outlying(*layout, indication, *taken, out);
   }
   if (auto done = filter(out, indication, warnings); !done) return core::fail(done.error());
   const bool filtered =

@@ -54,15 +54,15 @@ fit::ProfileFilter fit_filter(Filter filter) {
 
 core::Result<void> check_carries(const Spacing& spacing, int layer, double cutoff_upr) {
   if (carries(spacing, cutoff_upr)) return {};
-  if (spacing.points * (1.0 + kRoundOff) < kPointsPerUndulation * cutoff_upr) {
+  if (spacing.points * (1.0 + kRoundOff) < kProfilePointsPerUndulation * cutoff_upr) {
     return core::fail(error_of(
         core::Code::kSampling,
         core::phrase("layer {}: {:.0f} points in a turn are {:.2f} per undulation at {:g} UPR, at "
                      "least 7 are needed: {:.0f} points, or a cut-off of at most {:.4g} UPR; "
                      "scan, or plan filter \"none\"",
                      layer + 1, spacing.points, spacing.points / cutoff_upr, cutoff_upr,
-                     std::ceil(kPointsPerUndulation * cutoff_upr * (1.0 - kRoundOff)),
-                     spacing.points / kPointsPerUndulation)));
+                     std::ceil(kProfilePointsPerUndulation * cutoff_upr * (1.0 - kRoundOff)),
+                     spacing.points / kProfilePointsPerUndulation)));
   }
   return core::fail(error_of(
       core::Code::kSampling,
@@ -222,7 +222,8 @@ core::Result<void> check_layers(const PreparedSurface& surface,
   const double apart = gaps.empty() ? 0.0
                        : windows    ? core::median(gaps)
                                     : *std::max_element(gaps.begin(), gaps.end());
-  const bool fine = gaps.size() >= 2 && kPointsPerUndulation * apart <= cutoff_mm * (1 + 1e-3) &&
+  const bool fine = gaps.size() >= 2 &&
+                    kProfilePointsPerUndulation * apart <= cutoff_mm * (1 + 1e-3) &&
                     length >= 2.0 * cutoff_mm;
   if (fine) return {};
   return core::fail(error_of(
@@ -230,8 +231,8 @@ core::Result<void> check_layers(const PreparedSurface& surface,
       core::phrase("{} layers {:.4g} mm apart over {:.4g} mm do not carry a cut-off of {:g} mm "
                    "along the axis: at most {:.4g} mm apart and at least {:g} mm long; leave "
                    "cutoff_mm out",
-                   heights.size(), apart, length, cutoff_mm, cutoff_mm / kPointsPerUndulation,
-                   2.0 * cutoff_mm)));
+                   heights.size(), apart, length, cutoff_mm,
+                   cutoff_mm / kProfilePointsPerUndulation, 2.0 * cutoff_mm)));
 }
 
 /// Filters along the axis, at each angle, about the least-squares axis: 6.3 keeps straight lines.

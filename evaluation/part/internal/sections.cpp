@@ -52,7 +52,7 @@ Spacing spacing_of(const fit::AngularProfile& profile, bool windows) {
 }
 
 bool carries(const Spacing& spacing, double cutoff_upr) {
-  return spacing.points * (1.0 + kPointsRoundOff) >= kPointsPerUndulation * cutoff_upr &&
+  return spacing.points * (1.0 + kPointsRoundOff) >= kProfilePointsPerUndulation * cutoff_upr &&
          spacing.gap_rad < 0.25 * core::kTwoPi / cutoff_upr;
 }
 

@@ -14,7 +14,7 @@
 namespace rondure::evaluation {
 
 /// Points per undulation at a cut-off.
-inline constexpr double kPointsPerUndulation = 7.0;
+inline constexpr double kProfilePointsPerUndulation = 7.0;
 
 /// A section about its least-squares circle.
 struct RoundProfile {
