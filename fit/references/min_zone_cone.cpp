@@ -31,22 +31,22 @@ struct ConeZoneModel {
   [[nodiscard]] double scale_mm() const { return frame.length_mm(); }
 };
 
-/// A bound this close counts as the value; results are required to 1e-9 mm.
-constexpr double kProvenCone = 1e-9;
+/// A gap this small counts as none; results are required to 1e-9 mm.
+constexpr double kNoConeGap = 1e-9;
 
 /// Width minus the lower bound that the contacts give for all cones whose unknowns are within a
 /// width of these.
 double first_order_gap(const CoupledZone<ConeZoneModel>& zone, double width) {
-  double supported = 0.0;
+  if (zone.contacts.empty()) return width;
+  double gap = 0.0;
   ConeFrame::Step imbalance = ConeFrame::Step::Zero();
   for (const CoupledContact& c : zone.contacts) {
     const double share = c.bound == 0 ? c.multiplier : -c.multiplier;
     const auto [value, slope] = zone.model.slope(c.row);
-    // Relative to one side, so that the difference keeps its digits.
-    supported += share * (value - zone.bounds(1));
+    gap += share * (zone.bounds(static_cast<Eigen::Index>(c.bound)) - value);
     imbalance += share * slope;
   }
-  return std::max(0.0, width - supported + imbalance.lpNorm<1>() * width);
+  return std::clamp(gap + imbalance.lpNorm<1>() * width, 0.0, width);
 }
 
 }  // namespace
@@ -64,10 +64,9 @@ core::Result<MinZoneCone> min_zone_cone(SpacePoints points_mm,
   }
   Axis axis = start->cone.axis;
   axis.point_mm -= mean;
-  const auto zone = CoupledDescent<ConeZoneModel>(
-                        {points, ConeFrame(axis, 0.5 * start->cone.full_angle_rad, length)},
-                        {{0, points.size(), true}, {0, points.size(), false}})
-                        .run();
+  const std::vector<CoupledBound> sides = {{0, points.size(), true}, {0, points.size(), false}};
+  const ConeZoneModel from{points, ConeFrame(axis, 0.5 * start->cone.full_angle_rad, length)};
+  const auto zone = CoupledDescent<ConeZoneModel>(from, sides).run();
   MinZoneCone out;
   out.ending = zone.ending;
   out.width_mm = zone.bounds(0) - zone.bounds(1);
@@ -93,7 +92,7 @@ core::Result<MinZoneCone> min_zone_cone(SpacePoints points_mm,
   }
   // Where one generatrix holds the zone, cones that turn about it are as good to first order, and
   // no single one of them is a minimum to second order.
-  if (out.certificate.gap_mm <= kProvenCone) out.ending = ZoneEnding::kConverged;
+  if (out.certificate.gap_mm <= kNoConeGap) out.ending = ZoneEnding::kConverged;
   out.certificate.reason = core::phrase("the contacts hold the zone to first order only");
   return out;
 }
