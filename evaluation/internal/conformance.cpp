@@ -160,13 +160,6 @@ void judge_harmonics(const Circumstances& by, const FeatureResult& result,
   out.reason = core::phrase("{} ({})", out.reason, where);
 }
 
-/// Unit of the value of a characteristic in texts.
-core::LengthUnit unit_of(const record::Characteristic& asked) {
-  const bool size =
-      record::limits_of(asked.form, asked.indication.rank) == record::LimitKind::kSize;
-  return size ? core::LengthUnit::kMm : core::LengthUnit::kUm;
-}
-
 /// A judged value with its verdict.
 struct Judged {
   StatedValue value;
