@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/interval/internal/form_interval.h"
+#include "evaluation/part/contacts.h"
 #include "evaluation/part/find.h"
 #include "evaluation/part/internal/families.h"
 #include "evaluation/results/feature_values.h"
@@ -271,7 +272,13 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   }
   judge_together(by.rule, found.interval, *worst);
   out.value = std::move(worst->value);
-  if (const auto missing = reason_for_void(by.record, by.probe, result, {}, out.characteristic)) {
+  auto missing = reason_for_void(by.record, by.probe, result, {}, out.characteristic);
+  if (!missing) missing = finding->no_verdict;
+  if (!missing && !finding->unique && by.rule && by.rule->needs_interval()) {
+    missing = core::phrase(
+        "the reference circle is not unique, and the interval is that of one of several circles");
+  }
+  if (missing) {
     out.reason = *missing;
     return;
   }
@@ -386,6 +393,7 @@ PartFindings find_all(const record::RunRecord& record, std::span<const FeatureRe
           features[f].failure ? core::Result<Finding>(core::fail(*features[f].failure))
                               : find(part, f, asked)});
       if (!found.finding) continue;
+      warn_of_shares(part, f, asked, *found.finding);
       questions.push_back({f, &asked, &*found.finding});
       answers.push_back(&found.interval);
     }

@@ -137,7 +137,7 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
     }
     trial.values = [feature = question.feature, task = question.asked,
                     count](std::span<const MeasuredSurface> part) {
-      return judged_values(find(part, feature, *task), count);
+      return judged_values(find(part, feature, *task, Proof::kNone), count);
     };
     places.push_back(q);
     asked.push_back(std::move(trial));
