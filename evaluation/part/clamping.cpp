@@ -49,7 +49,7 @@ core::Phrase why_apart(const FeatureResult& datum, const FeatureResult& to) {
   if (a.merged || b.merged) {
     return core::phrase(
         "the cloud of {} is made of several poses, in a frame of its own: measure {} and {} in "
-        "one pose, e.g. with pose_search.strategy \"virtual\"",
+        "one pose, e.g. with pose_search.strategy \"start-pose\"",
         a.merged ? first : second, first, second);
   }
   if (a.located_again != b.located_again) {
@@ -61,7 +61,7 @@ core::Phrase why_apart(const FeatureResult& datum, const FeatureResult& to) {
   if (a.reached == b.reached) return {};
   return core::phrase(
       "{} was measured in pose ({:g}, {:g}) deg and {} in ({:g}, {:g}) deg: measure both in one "
-      "pose, e.g. with pose_search.strategy \"virtual\"",
+      "pose, e.g. with pose_search.strategy \"start-pose\"",
       first, core::degrees(a.reached.alpha_rad), core::degrees(a.reached.beta_rad), second,
       core::degrees(b.reached.alpha_rad), core::degrees(b.reached.beta_rad));
 }

@@ -15,7 +15,9 @@
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/plane.h"
 #include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
 #include "fit/references/min_zone_plane.h"
+#include "fit/references/one_sided_cylinder.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 
@@ -231,10 +233,16 @@ class AxisAssociation {
       : datum_(datum), cylinders_(datum.cylinders()), near_(start_direction(datum)) {}
 
   [[nodiscard]] core::Result<fit::DatumAxis> find(Association association) const {
-    auto found = fit::datum_axis(cylinders_, to_fit(association), near_);
+    // One feature has the minimum zone that the report states of it.
+    const bool own_zone = association == Association::kZone && cylinders_.size() == 1;
+    auto found =
+        own_zone ? zone_cylinder() : fit::datum_axis(cylinders_, to_fit(association), near_);
     if (!found) return datum_.fails(found.error());
     if (found->ending == fit::ZoneEnding::kConverged) return found;
-    if (association == Association::kOneSided && is_first_order_optimum(*found)) return found;
+    if (association == Association::kOneSided) {
+      if (auto reference = reference_cylinder()) return *std::move(reference);
+      if (is_first_order_optimum(*found)) return found;
+    }
     return core::fail(core::Code::kNotConverged,
                       core::phrase("datum {}: the search for its axis did not come to rest; plan "
                                    "association \"ls\", or touch more points",
@@ -247,6 +255,29 @@ class AxisAssociation {
   }
 
  private:
+  [[nodiscard]] core::Result<fit::DatumAxis> zone_cylinder() const {
+    const auto zone = fit::min_zone_cylinder(cylinders_.front().points_mm, near_);
+    if (!zone) return core::fail(zone.error());
+    fit::DatumAxis out;
+    out.axis = zone->axis;
+    out.ending = zone->ending;
+    out.radii_mm = {0.5 * (zone->inner_radius_mm + zone->outer_radius_mm)};
+    return out;
+  }
+  /// The envelope cylinder of a single feature, by the search that passes over places from which
+  /// the radius falls to second order only.
+  [[nodiscard]] std::optional<fit::DatumAxis> reference_cylinder() const {
+    if (cylinders_.size() > 1) return std::nullopt;
+    const auto search =
+        cylinders_.front().inside ? fit::max_inscribed_cylinder : fit::min_circumscribed_cylinder;
+    const auto found = search(cylinders_.front().points_mm, near_, {});
+    if (!found || found->certificate.kind == fit::Certificate::Kind::kNone) return std::nullopt;
+    fit::DatumAxis out;
+    out.axis = found->axis;
+    out.radii_mm = {found->radius_mm};
+    out.contacts = found->contacts;
+    return out;
+  }
   /// The search does not settle on five contacts where all points of a perfect form are as near.
   /// Its radii then sum to the first-order optimum, and the axis has no room to rock.
   [[nodiscard]] bool is_first_order_optimum(const fit::DatumAxis& found) const {

@@ -144,6 +144,29 @@ TEST(DrawingDatums, ThatRockAreNamedWithTheirPlayLengthAndDistance) {
   EXPECT_EQ(found->reference.english(), "about A, one-sided");
 }
 
+TEST(DrawingDatums, OfARockingBoreAreItsMaximumInscribedCylinder) {
+  // The radius falls to second order only from where the contacts lie in one section.
+  const Layers bore = {{{15.7195, 0.2556, 0.0046},
+                        {-0.4723, 16.4492, 0.0282},
+                        {-16.6654, 0.2556, -0.0071},
+                        {-0.4723, -15.9374, -0.0355}},
+                       {{15.7597, 0.1576, 48.554},
+                        {-0.4352, 16.3538, 48.5697},
+                        {-16.6314, 0.1576, 48.5653},
+                        {-0.4352, -16.0379, 48.5238}}};
+  DrawnPart part;
+  part.cylinder("A", bore, Side::kInside);
+  part.cylinder("C", test::w3_c());
+  const auto found = part.last(about(Form::kRunOut, {"A"}, Association::kOneSided));
+  ASSERT_TRUE(found.has_value()) << found.error().what;
+  // By a search over all sets of contacts with 34 digits.
+  EXPECT_NEAR(found->datums[0].radii_mm.at(0), 16.192441981600, 1e-9);
+  const Eigen::Vector3d& w = found->datums[0].place.direction;
+  EXPECT_NEAR(w.x() / w.z(), 0.000699977965, 1e-6);
+  EXPECT_NEAR(w.y() / w.z(), -0.001965319848, 1e-6);
+  EXPECT_TRUE(rocks(*found));
+}
+
 struct FaceRow {
   Association association;
   double inner, outer, total;
@@ -813,7 +836,7 @@ TEST(DrawingDatums, OfAnotherClampingAreRefused) {
   EXPECT_EQ(apart.error().code, core::Code::kMeaning);
   EXPECT_EQ(apart.error().what,
             "datum A: A was measured in pose (0, 0) deg and C in (1.14592, 0.286479) deg: measure "
-            "both in one pose, e.g. with pose_search.strategy \"virtual\"");
+            "both in one pose, e.g. with pose_search.strategy \"start-pose\"");
   auto moved_between = touched_run(level, level);
   moved_between.decisions.push_back(
       {-1, 0.0, {core::MessageCode::kPartLocatedAgain, {16.0, std::string("moved")}}});
