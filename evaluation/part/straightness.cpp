@@ -42,7 +42,8 @@ struct TouchedLine {
 class LineSection {
  public:
   LineSection(const PreparedSurface& surface, const SurfaceSection& section) : of_(section) {
-    for (const std::size_t i : by_pass(surface, section).front().points) {
+    const SurfaceSection pass = by_pass(surface, section).front();
+    for (const std::size_t i : pass.points) {
       const Eigen::Vector3d& p = surface.points_mm[i];
       places_.push_back({angle_rad(surface, p),
                          (p - surface.axis.point_mm).dot(surface.axis.direction),

@@ -329,7 +329,7 @@ TEST(DrawingSize, OfOddLayersSaysToPlanAnEvenNumber) {
   const Finding less = found(one_out, size_asked(Size::kLP));
   EXPECT_EQ(number(less, "pairs"), 5.0);
   EXPECT_EQ(number(less, "lost pairs"), 1.0);
-  const auto spoilt = drawn(test::turned_layers(2, 4, round_12), kShaft, {0, 1});
+  const auto spoilt = drawn(test::turned_layers(2, 6, round_12), kShaft, {0, 1, 2});
   EXPECT_EQ(refusal(spoilt, size_asked(Size::kLP)).what,
             "the windows leave no opposite points in layer 1; turn sampling.start_deg, or plan "
             "more points");
@@ -428,7 +428,7 @@ TEST(DrawingRelations, OfSizesHoldWithTheirSlack) {
     const double radius = 15.0;
     const auto slack = [&](const fit::OneSidedCylinder& cylinder) {
       const double t = cylinder.axis.direction.cross(part.surface.axis.direction).norm();
-      const double eps = 0.5 * core::kDegree;
+      const double eps = 0.003;
       const double q = 0.02;  // no section centre is farther from such an axis
       return radius * t * t + 0.5 * radius * eps * eps + q * q / radius;
     };

@@ -29,6 +29,19 @@ double within_one_turn(double angle_rad) {
   return angle < 0.0 ? angle + core::kTwoPi : angle;
 }
 
+/// Whether sorted angles are those of equal steps. The circle of a lobed section lies beside the
+/// centre of its scan by the square of the lobes over the radius, which turns equal steps by much
+/// less than this; circumference, area and two-point sizes change by the square of that.
+bool is_uniform(std::span<const double> theta_rad) {
+  const double step = core::kTwoPi / static_cast<double>(theta_rad.size());
+  constexpr double kOfAStep = 1e-3;
+  for (std::size_t i = 0; i < theta_rad.size(); ++i) {
+    const double even = theta_rad.front() + static_cast<double>(i) * step;
+    if (std::abs(theta_rad[i] - even) > kOfAStep * step) return false;
+  }
+  return true;
+}
+
 double unseen_of(const PreparedSurface& surface, std::span<const std::size_t> points,
                  std::span<const std::size_t> windows, std::size_t a_turn) {
   std::vector<double> angles_rad;
@@ -46,6 +59,7 @@ double unseen_of(const PreparedSurface& surface, std::span<const std::size_t> po
 core::Result<Sections> asked_sections(const PreparedSurface& surface,
                                       const Indication& indication) {
   Sections all = surface.sections;
+  std::erase_if(all, [](const SurfaceSection& section) { return section.points.empty(); });
   if (all.empty() && surface.of->feature.shape == record::Shape::kCircle) {
     SurfaceSection section;
     section.points.resize(surface.points_mm.size());
@@ -80,9 +94,9 @@ Sections by_pass(const PreparedSurface& surface, const SurfaceSection& section) 
     const std::size_t row = surface.rows[i];
     const auto pass =
         row < surface.of->cloud.size() ? surface.of->cloud[row].pass : std::optional<int>();
-    auto& one = passes.try_emplace(pass, section).first->second;
-    if (one.points.size() == section.points.size()) one.points.clear();
-    one.points.push_back(i);
+    const auto [one, is_new] = passes.try_emplace(pass, section);
+    if (is_new) one->second.points.clear();
+    one->second.points.push_back(i);
   }
   Sections out;
   for (auto& [pass, one] : passes) out.push_back(std::move(one));
@@ -112,7 +126,8 @@ core::Result<fit::ResampledProfile> section_profile(const fit::Section& section)
   }
   const auto profile = fit::ordered_profile(theta_rad, r_mm);
   if (!profile) return core::fail(profile.error());
-  return fit::resampled(*profile);
+  if (!is_uniform(profile->theta_rad)) return fit::resampled(*profile);
+  return fit::ResampledProfile{.profile = {profile->theta_rad.front(), profile->r_mm}};
 }
 
 void add_rows(const PreparedSurface& surface, std::span<const std::size_t> points, Finding& out) {

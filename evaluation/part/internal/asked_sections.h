@@ -35,8 +35,8 @@ using Sections = std::vector<SurfaceSection>;
 [[nodiscard]] core::Result<std::vector<fit::Section>> projected(const PreparedSurface& surface,
                                                                 std::span<const SurfaceSection> of);
 
-/// Profile of a dense section about its circle [mm], at uniform angles. Its points are kept where
-/// they are uniform.
+/// Profile of a dense section about its circle [mm], at uniform angles: its points where they stand
+/// at equal steps to a thousandth, else interpolated.
 [[nodiscard]] core::Result<fit::ResampledProfile> section_profile(const fit::Section& section);
 
 /// Adds the rows of some points to those that carry a value.
