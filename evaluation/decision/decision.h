@@ -75,6 +75,8 @@ struct DecisionRule {
 /// only its name. kMeaning for a rule, measurand, judged value or prior that this program does not
 /// know: every verdict is then void.
 [[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
+/// The rule of one characteristic, in place of that of the run.
+[[nodiscard]] core::Result<DecisionRule> rule_of(const record::DecisionRuleTask& task);
 
 /// A measured value with its uncertainty statement.
 struct KnownValue {
