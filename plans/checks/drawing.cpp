@@ -149,7 +149,8 @@ void check_idle_keys(const Asked& asked) {
                         Indication::Filter::kNone;
   if (filtered) return;
   for (const std::string_view key : {"cutoff_upr", "cutoff_mm"}) {
-    if (record::takes(form, key)) {
+    const bool refused = straight && key == (median ? "cutoff_mm" : "cutoff_upr");
+    if (record::takes(form, key) && !refused) {
       asked.refuse_idle(key, "there is no filter here, in the feature or in the plan");
     }
   }

@@ -33,7 +33,8 @@ std::string documented_plan() {
 /// A touched cylinder; `keys` and `characteristics` are spliced in.
 PlanOrProblems touched(const std::string& characteristics, const std::string& keys = "") {
   return parse_plan(
-      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"}, "machine": {}, "fixture": {},
+      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
+      "machine": {}, "fixture": {},
       "probe": {}, "simulation": {}, "features": [{"id": "A", "type": "cylinder",
       "nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 40},)" +
           keys + R"("characteristics": [)" + characteristics + "]}]}",
@@ -96,7 +97,8 @@ TEST(PlanDrawing, TouchedCylindersMayHaveEachFormThatNeedsNoDatum) {
 
 TEST(PlanDrawing, ADatumMayBeTouched) {
   const auto plan = parse_plan(
-      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"}, "machine": {}, "fixture": {}, "probe": {},
+      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
+          "machine": {}, "fixture": {}, "probe": {},
           "simulation": {}, "features": [
           {"id": "low-end", "type": "cylinder",
            "nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 0}},
