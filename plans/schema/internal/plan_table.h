@@ -405,8 +405,9 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("file", p.file,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z; for a spindle, of "
-                     "readings (docs/spindle.md). Relative to the plan."});
+          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z, beside them "
+                     "layer (whole numbers from 0, the lowest) and feature (a name); for a "
+                     "spindle, of readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
