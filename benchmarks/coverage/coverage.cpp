@@ -90,7 +90,8 @@ void judge_decisions(const evaluation::UncertaintyResult& found, double truth_um
   const evaluation::KnownValue value{found.uncorrected_mm, found.sampled};
   for (std::size_t k = 0; k < kMargins_um.size(); ++k) {
     const double limit_mm = (truth_um + kMargins_um[k]) / 1000.0;
-    const auto outcome = evaluation::apply_rule(rule, value, limit_mm);
+    const auto outcome =
+        evaluation::apply_rule(rule, value, {.lower_mm = {}, .upper_mm = limit_mm});
     if (!outcome) {
       ++tally.voids["decision: " + without_numbers(outcome.error().what)];
       continue;

@@ -90,7 +90,7 @@ struct CharacteristicResult {
   std::optional<RuleOutcome> outcome;  ///< Outcome of the rule; none for void, not toleranced.
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
   /// How find() came to the value; null for values of other origin.
-  std::shared_ptr<const Finding> finding;
+  std::shared_ptr<const Finding> finding = {};
 
   /// The value as measured, without its qualifying words: for computing, not for writing.
   [[nodiscard]] std::optional<double> value_mm() const {

@@ -24,10 +24,10 @@ struct CharacteristicTask {
   Form form = Form::kCylindricity;
   std::optional<Reference> reference;
   std::optional<double> tolerance_um;
-  std::optional<double> lower_um;  ///< Of a diameter: deviation from nominal.
-  std::optional<double> upper_um;
   std::string drawing_zone;
   std::vector<HarmonicLimitTask> harmonic_limits = {};  ///< For the form "harmonic-limits".
+  std::optional<double> lower_um = {};  ///< Of a diameter: deviation from nominal.
+  std::optional<double> upper_um = {};
   Indication indication = {};
 };
 
