@@ -193,15 +193,16 @@ struct EnvironmentPlan {
   std::optional<double> assumed_degC;  ///< Temperature of part and scales when not measured.
 };
 
+/// The keys that count depend on the type of the feature.
 struct NominalPlan {
-  double diameter_mm = 0.0;
-  double from_mm = 0.0;  ///< Lower end of the surface, part z.
-  double to_mm = 0.0;    ///< Upper end.
-  double z_mm = 0.0;     ///< Of a plane.
-  record::Faces faces = record::Faces::kUp;
-  double from_diameter_mm = 0.0;  ///< Ring of a plane.
-  double to_diameter_mm = 0.0;
+  double diameter_mm = 0.0;                           ///< Of a cone at from_mm; 0: not given.
+  double from_mm = 0.0;                               ///< Lower end of the surface, part z.
+  double to_mm = 0.0;                                 ///< Upper end.
   double half_angle_deg = 0.0;                        ///< Of a cone; > 0: it opens along part z.
+  double z_mm = 0.0;                                  ///< Of a plane.
+  std::optional<record::Faces> faces;                 ///< Of a plane.
+  double from_diameter_mm = 0.0;                      ///< Inner edge of a plane.
+  double to_diameter_mm = 0.0;                        ///< Outer edge of a plane; 0: not given.
   std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Of a sphere, part frame.
 };
 

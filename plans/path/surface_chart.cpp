@@ -21,7 +21,7 @@ SurfaceChart::SurfaceChart(const FeaturePlan& feature)
     : shape_(feature.type),
       radius_mm_(0.5 * feature.nominal.diameter_mm),
       inside_(feature.side == record::Side::kInside),
-      faces_(feature.nominal.faces),
+      faces_(feature.nominal.faces.value_or(record::Faces::kUp)),
       from_mm_(feature.nominal.from_mm),
       half_angle_rad_(feature.nominal.half_angle_deg * core::kDegree),
       center_mm_(feature.nominal.center_mm[0], feature.nominal.center_mm[1],

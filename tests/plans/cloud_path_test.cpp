@@ -285,6 +285,7 @@ TEST(FacePath, IsRefusedWhereAShaftRisesBesideTheTouch) {
   face.nominal = {};
   face.nominal.from_diameter_mm = 30.0;
   face.nominal.to_diameter_mm = 60.0;
+  face.nominal.faces = record::Faces::kUp;
   face.sampling = {2, 6, 5.0, 0.0, 1.0};
   const auto refused = [&] {
     return reachable_targets(plan, 0) ? std::string() : reachable_targets(plan, 0).error().what;

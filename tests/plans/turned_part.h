@@ -34,6 +34,7 @@ inline Plan turned_part() {
   NominalPlan face;
   face.from_diameter_mm = 30.0;
   face.to_diameter_mm = 60.0;
+  face.faces = record::Faces::kUp;
   add("face", Shape::kPlane, face, 5.0);
   NominalPlan cone = {30.0, 30.0, 50.0};
   cone.half_angle_deg = -10.0;

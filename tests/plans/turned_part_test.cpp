@@ -3,16 +3,21 @@
 #include "tests/plans/turned_part.h"
 
 #include <cmath>
+#include <string>
+#include <variant>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/surface_chart.h"
+#include "plans/run/runner.h"
 #include "tests/plans/random_inspection.h"
+#include "tests/record/sample_run.h"
 
 namespace rondure::plans {
 namespace {
@@ -89,7 +94,11 @@ Vector3d in_part(const Plan& plan, const Vector3d& tip_W_mm) {
 
 TEST(SimulatedPart, IsTouchedOnAllItsSurfacesInOneClamping) {
   const Plan plan = testing::turned_part();
-  const record::RunRecord run = test::inspect(plan).record;
+  const record::Scratch scratch;
+  const auto done = run_plan(plan, testing::options_for(scratch / "run"));
+  ASSERT_TRUE(done) << done.error().what;
+  ASSERT_FALSE(done->failure) << done->failure->what;
+  const record::RunRecord run = testing::journal_of(scratch / "run");
   ASSERT_EQ(run.ending, "finished");
   ASSERT_EQ(run.poses.size(), plan.features.size());
   for (const record::PoseVisit& pose : run.poses) {
@@ -165,6 +174,75 @@ TEST(SimulatedPart, HasAFaceInThePlaceOfTheFlatEndInItsPlane) {
             1U)
       << "a bore is a block of its own";
   EXPECT_EQ(simulated_part(plan.features, *plan.simulation, plan.features[2]).surfaces.size(), 5U);
+}
+
+/// The problems of an example plan whose feature and simulation are changed.
+std::string problems(const nlohmann::json& feature, const nlohmann::json& simulated = {}) {
+  auto plan = nlohmann::json::parse(testing::bytes_of(testing::example("08_shaft_scanned.json")));
+  nlohmann::json& seat = plan["features"][0];
+  seat.erase("characteristics");
+  seat.erase("nominal");
+  seat["sampling"] = {{"layers", 2}, {"points_per_layer", 6}, {"margin_mm", 5}};
+  seat["pose_search"] = {{"strategy", "start-pose"}};
+  seat.merge_patch(feature);
+  if (!simulated.is_null()) plan["simulation"]["features"] = {simulated};
+  return testing::lines_of(parse_plan(plan.dump(), {}, "plan"));
+}
+
+const nlohmann::json kFace = {
+    {"type", "plane"},
+    {"nominal", {{"z_mm", 0}, {"faces", "up"}, {"from_diameter_mm", 20}, {"to_diameter_mm", 80}}}};
+
+nlohmann::json with(nlohmann::json feature, const nlohmann::json& patch) {
+  feature.merge_patch(patch);
+  return feature;
+}
+
+TEST(TurnedPlan, OfAFaceIsAccepted) {
+  EXPECT_EQ(problems(kFace), "");
+  EXPECT_EQ(problems(kFace, {{"id", "seat"}, {"saucer_um", -4}}), "");
+}
+
+TEST(TurnedPlan, SaysWhatAFaceLacksAndDoesNotTake) {
+  EXPECT_THAT(problems(with(kFace, {{"nominal", {{"to_diameter_mm", nullptr}}}})),
+              HasSubstr("the outer diameter of the ring"));
+  EXPECT_THAT(problems(with(kFace, {{"nominal", {{"faces", nullptr}}}})),
+              HasSubstr("the side of the plane that is free to touch"));
+  EXPECT_THAT(problems(with(kFace, {{"nominal", {{"diameter_mm", 50}}}})),
+              HasSubstr("it is no dimension of a plane"));
+  EXPECT_THAT(problems(with(kFace, {{"nominal", {{"from_diameter_mm", 90}}}})),
+              HasSubstr("the inner diameter 90 mm is not below the outer diameter 80 mm"));
+  EXPECT_THAT(problems(with(kFace, {{"sampling", {{"margin_mm", 15}}}})),
+              HasSubstr("leave nothing of a surface 30 mm long"));
+  EXPECT_THAT(problems(with(kFace, {{"sampling", {{"method", "scan"}}}})),
+              HasSubstr("a plane is touched, not scanned"));
+  EXPECT_THAT(problems(with(kFace, {{"side", "inside"}})), HasSubstr("a plane has no inside"));
+}
+
+TEST(TurnedPlan, RefusesConesAndSpheresThatCannotBe) {
+  const nlohmann::json cone = {
+      {"type", "cone"},
+      {"nominal", {{"diameter_mm", 40}, {"from_mm", -20}, {"to_mm", 20}, {"half_angle_deg", 10}}}};
+  EXPECT_EQ(problems(cone), "");
+  EXPECT_THAT(problems(with(cone, {{"nominal", {{"half_angle_deg", 0.01}}}})),
+              HasSubstr("a half angle of 0.01 deg is below 0.05 deg"));
+  EXPECT_THAT(problems(with(cone, {{"nominal", {{"half_angle_deg", -30}}}})),
+              HasSubstr("comes to its apex below its upper end"));
+  EXPECT_THAT(problems(with(cone, {{"side", "inside"}})),
+              HasSubstr("the machine touches a cone only outside"));
+  EXPECT_THAT(problems(with(cone, {{"sampling", {{"layers", 1}}}})),
+              HasSubstr("leaves the tilt of the cone undetermined"));
+  const nlohmann::json ball = {{"type", "sphere"},
+                               {"nominal", {{"diameter_mm", 40}, {"from_mm", -5}, {"to_mm", 15}}}};
+  EXPECT_EQ(problems(ball), "");
+  EXPECT_THAT(problems(with(ball, {{"nominal", {{"center_mm", {0, 0, -6}}}}})),
+              HasSubstr("go beyond a sphere of 40 mm about z = -6 mm"));
+}
+
+TEST(TurnedPlan, KnowsTheSurfacesOfTheSimulatedPart) {
+  EXPECT_THAT(problems(kFace, {{"id", "neck"}}), HasSubstr("no touched feature has the id"));
+  EXPECT_THAT(problems(kFace, {{"id", "seat"}, {"taper_um", 2}}),
+              HasSubstr("it is no form of a plane"));
 }
 
 }  // namespace

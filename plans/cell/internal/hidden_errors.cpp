@@ -146,7 +146,8 @@ cmm::SimulatedPart::Placed placed_face(const SimulationPlan& simulation,
 bool is_faced(const std::vector<FeaturePlan>& features, double z_mm, record::Faces faces) {
   constexpr double kOnePlane_mm = 0.5;
   return std::any_of(features.begin(), features.end(), [&](const FeaturePlan& f) {
-    return f.type == record::Shape::kPlane && is_touched(f) && f.nominal.faces == faces &&
+    return f.type == record::Shape::kPlane && is_touched(f) &&
+           f.nominal.faces.value_or(record::Faces::kUp) == faces &&
            std::abs(f.nominal.z_mm - z_mm) < kOnePlane_mm;
   });
 }

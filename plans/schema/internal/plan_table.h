@@ -290,8 +290,8 @@ void describe(Visitor& v, NominalPlan& p) {
             .at_most = 1000.0,
             .code = core::Code::kUnits,
             .hint = "that suggests metres or micrometres, give the diameter in mm",
-            .meaning = "Diameter on the drawing, of a cone at from_mm. Needed, but of a plane, "
-                       "unless the points come from a file."});
+            .meaning = "Diameter on the drawing, of a cone at from_mm. Needed unless the points "
+                       "come from a file; the limits of a diameter are deviations from it."});
   v.number(
       "from_mm", p.from_mm,
       {.at_least = -kMaxCoordinate_mm,
@@ -299,20 +299,17 @@ void describe(Visitor& v, NominalPlan& p) {
        .meaning =
            "Lower end of the surface, part z. A circle is touched in the middle of its surface."});
   v.number("to_mm", p.to_mm, within(kMaxCoordinate_mm, "Upper end of the surface, part z."));
-  v.number("z_mm", p.z_mm, within(kMaxCoordinate_mm, "plane: its height, part z."));
-  v.text("faces", p.faces, {.meaning = "plane: the side that is free to touch, along part z."});
-  v.number("from_diameter_mm", p.from_diameter_mm,
-           range(0.0, 2000.0, "plane: inner diameter of the ring."));
-  v.number("to_diameter_mm", p.to_diameter_mm,
-           range(0.0, 2000.0, "plane: outer diameter of the ring."));
   v.number("half_angle_deg", p.half_angle_deg,
-           within(85.0,
-                  "cone: between axis and generatrix; above 0 where it opens along part z. At "
-                  "least 0.05 in size."));
+           within(85.0, "Of a cone: half of its angle; > 0: it opens along part z."));
+  v.number("z_mm", p.z_mm, within(kMaxCoordinate_mm, "Of a plane: its place, part z."));
+  v.text("faces", p.faces,
+         {.meaning = "Of a plane: the side to which it faces, out of the material; up is along "
+                     "part z. Needed where it is touched, is a datum or has a run-out."});
+  const auto edge = [](std::string_view meaning) { return range(0.0, 1000.0, meaning); };
+  v.number("from_diameter_mm", p.from_diameter_mm, edge("Of a plane: its inner edge."));
+  v.number("to_diameter_mm", p.to_diameter_mm, edge("Of a plane: its outer edge."));
   v.numbers("center_mm", p.center_mm,
-            within(kMaxCoordinate_mm,
-                   "sphere: its centre, x, y, z in the part frame; touched on circles of latitude "
-                   "from from_mm to to_mm."));
+            within(kMaxCoordinate_mm, "Of a sphere: its centre, part frame."));
 }
 
 template <class Visitor>
