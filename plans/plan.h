@@ -275,22 +275,43 @@ struct LobePlan {
   double twist_deg = 0.0;
 };
 
-struct SimulatedPartPlan {
+/// Form of a simulated surface.
+struct SimulatedFormPlan {
   double diameter_error_um = 0.0;
   std::vector<LobePlan> lobes;
   double taper_um = 0.0;
   double barrel_um = 0.0;
   double bend_um = 0.0;
   double bend_phase_deg = 0.0;
+  std::vector<KeywayPlan> keyways;
+};
+
+/// The part of a simulation. Its form is that of every surface without an entry of its own.
+struct SimulatedPartPlan : SimulatedFormPlan {
   double tilt_deg = 0.0;  ///< Tilt of the part in the clamping ring.
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
   double expansion_per_K = 0.0;  ///< True value.
-  std::vector<KeywayPlan> keyways;
   std::vector<BurrPlan> burrs;
   double dust_share = 0.0;  ///< Share of the touches.
   double dust_um = 0.0;     ///< Largest particle.
+};
+
+/// One surface of a simulated part: how its own axis lies against that of the part, and its form.
+struct SimulatedFeaturePlan : SimulatedFormPlan {
+  std::string id;  ///< Of the feature.
+  double offset_x_um = 0.0;
+  double offset_y_um = 0.0;
+  double slope_x_urad = 0.0;
+  double slope_y_urad = 0.0;
+  std::vector<FlatPlan> flats;
+  // Of a plane.
+  double tilt_urad = 0.0;
+  double tilt_toward_deg = 0.0;
+  double saucer_um = 0.0;
+  double wave_um = 0.0;
+  int wave_order = 2;
 };
 
 struct SimulatedProbePlan {
@@ -323,6 +344,7 @@ struct SimulationPlan {
   std::uint64_t seed = 1;
   double temperature_degC = 20.0;
   SimulatedPartPlan part;
+  std::vector<SimulatedFeaturePlan> features;
   SimulatedMachinePlan machine;
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;

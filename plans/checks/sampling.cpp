@@ -38,7 +38,7 @@ bool check_nominal_given(const FeaturePlan& feature, const std::string& nominal,
       {"z_mm", "the height of the plane, part z", {kPlane}},
       {"from_diameter_mm", "the inner diameter of the ring; 0: the whole disc", {kPlane}},
       {"to_diameter_mm", "the outer diameter of the ring", {kPlane}},
-      {"faces", "", {kPlane}, false},
+      {"faces", "the side of the plane that is free to touch", {kPlane}},
       {"center_mm", "", {kSphere}, false},
   };
   bool complete = true;

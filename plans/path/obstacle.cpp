@@ -21,7 +21,7 @@ using Corners = std::array<Vector3d, 4>;  // around the parallelogram
 constexpr double kGraze_mm = 1e-6;   // round-off of paths laid exactly at the limit
 constexpr double kFacet_mm = 0.02;   // largest distance of a facet from a round wall
 constexpr double kFlat_mm2 = 1e-12;  // area below which a parallelogram is a segment
-constexpr int kArcSides = 3;         // around an edge
+constexpr double kArcSide_rad = std::numbers::pi / 6.0;  // longest side around an edge
 
 Corners corners_of(const Sweep& s) {
   return {s.start_mm, s.start_mm + s.along_mm, s.start_mm + s.along_mm + s.up_mm,
@@ -69,13 +69,14 @@ bool surely_apart(const Revolved& solid, double room_mm, const Corners& c) {
 /// Adds the corners of a polygon around a part of a circle, tangent to it at both ends.
 void add_arc(const Vector2d& center, double radius_mm, double start_rad, double turn_rad,
              std::vector<Vector2d>& out) {
-  const double side_rad = turn_rad / kArcSides;
+  const int sides = std::max(1, static_cast<int>(std::ceil(turn_rad / kArcSide_rad - 1e-9)));
+  const double side_rad = turn_rad / sides;
   const double corner_mm = radius_mm / std::cos(0.5 * side_rad);
   const auto add = [&](double distance_mm, double angle_rad) {
     out.push_back(center + distance_mm * Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
   };
   add(radius_mm, start_rad);
-  for (int i = 0; i < kArcSides; ++i) add(corner_mm, start_rad + (i + 0.5) * side_rad);
+  for (int i = 0; i < sides; ++i) add(corner_mm, start_rad + (i + 0.5) * side_rad);
   add(radius_mm, start_rad + turn_rad);
 }
 

@@ -124,7 +124,8 @@ void Scene::add_part(const Plan& plan, const FeaturePlan& feature) {
   const auto is_flush = [&](const PartPiece& piece) {
     switch (feature.type) {
       case record::Shape::kPlane:  // the material behind it
-        return n.faces == record::Faces::kUp ? piece.to_mm() <= n.z_mm : piece.from_mm() >= n.z_mm;
+        return n.faces != record::Faces::kDown ? piece.to_mm() <= n.z_mm
+                                               : piece.from_mm() >= n.z_mm;
       case record::Shape::kCone:
         return piece.radius_mm() <= own.solid.outer_mm + std::min(0.0, own.solid.widens_mm);
       case record::Shape::kSphere:

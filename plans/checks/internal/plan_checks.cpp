@@ -315,6 +315,7 @@ void check_plan(const Plan& plan, Findings& findings) {
   check_equipment(plan, findings);
   check_archive(plan, findings);
   check_uncertainty(plan, findings);
+  check_simulated_part(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
     if (is_touched(plan, i, findings)) {

@@ -65,6 +65,10 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 /// inputs.
 void check_uncertainty(const Plan& plan, Findings& findings);
 
+/// Checks that each surface of the simulated part is a touched feature of the plan, with keys of its
+/// type.
+void check_simulated_part(const Plan& plan, Findings& findings);
+
 /// Whether a feature is touched by the machine: neither read from a file nor an analysis of series.
 [[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);
 

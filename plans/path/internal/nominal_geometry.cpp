@@ -57,7 +57,7 @@ PartPiece piece_of(const FeaturePlan& feature) {
   const double radius_mm = 0.5 * n.diameter_mm;
   switch (feature.type) {
     case record::Shape::kPlane: {
-      const double behind_mm = n.faces == record::Faces::kUp ? -kDisc_mm : kDisc_mm;
+      const double behind_mm = n.faces != record::Faces::kDown ? -kDisc_mm : kDisc_mm;
       return {Eigen::Vector3d::Zero(),
               {0.5 * n.from_diameter_mm, 0.5 * n.to_diameter_mm,
                std::min(n.z_mm, n.z_mm + behind_mm), std::max(n.z_mm, n.z_mm + behind_mm)}};
