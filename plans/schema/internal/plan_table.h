@@ -356,13 +356,10 @@ void describe(Visitor& v, PoseSearchPlan& p) {
   v.text("strategy", p.strategy,
          {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kRefined),
                      name_of(Strategy::kAsPublished), name_of(Strategy::kVirtual),
-                     name_of(Strategy::kStartPose), name_of(Strategy::kMerged)},
+                     name_of(Strategy::kMerged)},
           .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
-                     "halved steps. virtual: one cloud, turned in software. start-pose: no search; "
-                     "several features share the clamping of one start pose, as a datum and what "
-                     "refers to it must. A circle, plane, cone or sphere is always measured in its "
-                     "start pose. merged: no search; the "
+                     "halved steps. virtual: one cloud, turned in software. merged: no search; the "
                      "part is measured in each of `poses`, where it can be reached, and the "
                      "clouds are one (docs/several-poses.md)."});
   v.list("poses", p.poses,
@@ -408,8 +405,9 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("file", p.file,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z; for a spindle, of "
-                     "readings (docs/spindle.md). Relative to the plan."});
+          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z, beside them "
+                     "layer (whole numbers from 0, the lowest) and feature (a name); for a "
+                     "spindle, of readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -420,6 +418,12 @@ void describe(Visitor& v, SourcePlan& p) {
   v.list("columns", p.columns,
          {.meaning = "Columns that the file of a spindle names otherwise; with this list columns "
                      "that nobody asks for are passed over."});
+  v.text("feature", p.feature,
+         {.meaning = "Takes only the rows whose column feature says this. All features of a file "
+                     "were measured in one clamping."});
+  v.text("clamping", p.clamping,
+         {.meaning = "Name of the clamping in which the points were measured, in one coordinate "
+                     "system. A datum in another file needs the same name in both."});
 }
 
 template <class Visitor>
@@ -435,6 +439,9 @@ void describe(Visitor& v, FeaturePlan& p) {
                      "crank pins in follow grinding, and what of their error follows the axes; "
                      "rotary_axes: calibration of the fixture with balls that it carries."});
   v.text("side", p.side, {.meaning = "outside: a shaft; inside: a bore."});
+  v.text("letter", p.letter,
+         {.meaning = "Datum letter on the drawing, e.g. A, unique in the plan; up to 3 letters. "
+                     "Left out: the id names the feature where it is a datum."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
@@ -445,6 +452,12 @@ void describe(Visitor& v, FeaturePlan& p) {
            {.meaning = "Balls, stations and poses of the type rotary_axes."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
+  v.list("exclude", p.exclude,
+         {.meaning = "Windows that are left out of the surface: a keyway, an oil hole."});
+  v.object("defaults", p.defaults,
+           {.meaning = "For the characteristics of this feature that do not give these keys."});
+  v.object("decision_rule", p.decision_rule,
+           {.meaning = "Rule of this feature, as a whole in place of that of the plan."});
   v.list("characteristics", p.characteristics,
          {.meaning = "What the drawing asks for, and what else is to be reported."});
 }
@@ -482,6 +495,9 @@ void describe(Visitor& v, Plan& p) {
                        "files and series only where this object stands."});
   v.list("features", p.features,
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
+  v.object("defaults", p.defaults,
+           {.meaning = "For the characteristics of all features that do not give these keys, and "
+                       "whose feature does not."});
   v.object("decision_rule", p.decision_rule,
            {.meaning = "How a value and its tolerance make a verdict."});
   v.object("uncertainty", p.uncertainty,
