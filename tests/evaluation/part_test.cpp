@@ -122,7 +122,8 @@ Layers w8(double center_x = 0.0) { return {ring(360, 0.0, w8_profile, center_x)}
 
 double ron_ls(const PreparedSurface& surface, std::size_t section = 0) {
   std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector3d& p : layers_of(surface)[section]) points.push_back(p.head<2>());
+  const auto layers = layers_of(surface);
+  for (const Eigen::Vector3d& p : layers[section]) points.push_back(p.head<2>());
   return fit::ls_circle(points)->deviation_mm;
 }
 
@@ -369,8 +370,9 @@ TEST(SurfaceSections, OfAPlaneAreCirclesAndItsNormalPointsOut) {
   face.feature.strategy = record::Strategy::kPointsFile;
   face.feature.layers = 2;
   face.feature.settings = record::settings_of_task(settings);
+  const Layers circles = test::w4_face();
   for (const int layer : {0, 1}) {
-    for (const Eigen::Vector3d& p : test::w4_face()[static_cast<std::size_t>(layer)]) {
+    for (const Eigen::Vector3d& p : circles[static_cast<std::size_t>(layer)]) {
       CloudPoint point;
       point.layer = layer;
       point.tip_mm = p;
@@ -384,6 +386,17 @@ TEST(SurfaceSections, OfAPlaneAreCirclesAndItsNormalPointsOut) {
   EXPECT_NEAR(surface->sections[0].height_mm, 15.0, 0.01);
   EXPECT_NEAR(surface->sections[1].height_mm, 30.0, 0.01);
   EXPECT_EQ(prepared_of(face, gaussian(15.0)).error().code, core::Code::kMeaning);
+}
+
+TEST(SurfaceSections, OfAConeAreSquareToItsOwnAxis) {
+  FeatureResult cone = cylinder_of(test::w7());
+  cone.feature.shape = record::Shape::kCone;
+  cone.ls_cylinder.reset();
+  const auto surface = prepared_of(cone);
+  ASSERT_TRUE(surface) << surface.error().what;
+  EXPECT_EQ(surface->sections.size(), 3U);
+  EXPECT_NEAR(surface->axis.direction.x(), 0.00019696673504, 1e-10);
+  EXPECT_NEAR(surface->axis.direction.y(), -0.00009347580125, 1e-10);
 }
 
 // ---- Filters.
@@ -425,7 +438,8 @@ TEST(SurfaceFilter, KeepsTheEccentricity) {
   EXPECT_NEAR(ron_ls(*eccentric), ron_ls(*centred), 1e-9);
   std::vector<Eigen::Vector2d> before;
   std::vector<Eigen::Vector2d> after;
-  for (const Eigen::Vector3d& p : w8(0.05)[0]) before.push_back(p.head<2>());
+  const Layers sections = w8(0.05);
+  for (const Eigen::Vector3d& p : sections[0]) before.push_back(p.head<2>());
   for (const Eigen::Vector3d& p : eccentric->points_mm) after.push_back(p.head<2>());
   EXPECT_LT((fit::ls_circle(before)->center_mm - fit::ls_circle(after)->center_mm).norm(), 1e-9);
 }

@@ -17,6 +17,7 @@
 #include "evaluation/part/outliers.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/cone.h"
 #include "fit/least_squares/sphere.h"
 #include "record/tasks/settings.h"
 
@@ -444,7 +445,13 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
       fill([&](const Eigen::Vector3d& p) { return (p - sphere->center_mm).norm(); });
       return out;
     }
-    case Shape::kCone:
+    case Shape::kCone: {
+      const auto cone = fit::ls_cone(points_mm, near);
+      if (!cone) return core::fail(cone.error());
+      out.axis = cone->cone.axis;
+      fill([&](const Eigen::Vector3d& p) { return cone->cone.deviation_mm(p); });
+      return out;
+    }
     case Shape::kSpindle:
     case Shape::kWheel:
     case Shape::kContour:
