@@ -245,7 +245,7 @@ class AxisAssociation {
     }
     return core::fail(core::Code::kNotConverged,
                       core::phrase("datum {}: the search for its axis did not come to rest; plan "
-                                   "association \"ls\", or touch more points",
+                                   "association \"equalised\" or \"ls\"",
                                    datum_.named.name));
   }
   [[nodiscard]] core::Result<fit::DatumRock> rock() const {

@@ -382,6 +382,23 @@ TEST(DrawingDatums, OfPerfectFormAreTheirAxis) {
   }
 }
 
+TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
+  // All points of the narrow end touch; the wide one leaves room to rock.
+  Layers bore(2);
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    const double radius = layer == 0 ? 15.0 : 14.991;
+    for (int i = 0; i < 7; ++i) {
+      const double t = core::kTwoPi * i / 7;
+      bore[layer].emplace_back(std::round(1e4 * radius * std::cos(t)) / 1e4,
+                               std::round(1e4 * radius * std::sin(t)) / 1e4, 20.0 * layer);
+    }
+  }
+  DrawnPart part;
+  part.cylinder("A", bore, Side::kInside);
+  part.cylinder("C", round_journal(20.0, {60.0, 70.0, 80.0}, 36));
+  EXPECT_LT(part.value(about(Form::kTotalRunOut, {"A"}, Association::kEqualised)), 1e-3);
+}
+
 TEST(DrawingRunOut, AboutItsOwnCircumscribedAxisIsTheCylindricity) {
   DrawnPart part;
   part.cylinder("A", test::w1());
