@@ -384,15 +384,11 @@ TEST(DrawingDatums, OfPerfectFormAreTheirAxis) {
 
 TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
   // All points of the narrow end touch; the wide one leaves room to rock.
-  Layers bore(2);
-  for (std::size_t layer = 0; layer < 2; ++layer) {
-    const double radius = layer == 0 ? 15.0 : 14.991;
-    for (int i = 0; i < 7; ++i) {
-      const double t = core::kTwoPi * i / 7;
-      bore[layer].emplace_back(std::round(1e4 * radius * std::cos(t)) / 1e4,
-                               std::round(1e4 * radius * std::sin(t)) / 1e4, 20.0 * layer);
-    }
-  }
+  const Layers bore = turned_surface({0.0, 20.0}, 7, [](double t, double z) {
+    const double r = 15.0 - 4.5e-4 * z;
+    return Eigen::Vector2d(std::round(1e4 * r * std::cos(t)), std::round(1e4 * r * std::sin(t))) /
+           1e4;
+  });
   DrawnPart part;
   part.cylinder("A", bore, Side::kInside);
   part.cylinder("C", round_journal(20.0, {60.0, 70.0, 80.0}, 36));
