@@ -386,8 +386,8 @@ TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
   // All points of the narrow end touch; the wide one leaves room to rock.
   const Layers bore = turned_surface({0.0, 20.0}, 7, [](double t, double z) {
     const double r = 15.0 - 4.5e-4 * z;
-    return Eigen::Vector2d(std::round(1e4 * r * std::cos(t)), std::round(1e4 * r * std::sin(t))) /
-           1e4;
+    return Eigen::Vector2d(std::round(1e4 * r * std::cos(t)) / 1e4,
+                           std::round(1e4 * r * std::sin(t)) / 1e4);
   });
   DrawnPart part;
   part.cylinder("A", bore, Side::kInside);
