@@ -383,15 +383,26 @@ TEST(DrawingDatums, OfPerfectFormAreTheirAxis) {
 }
 
 TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
-  // All points of the narrow end touch; the wide one leaves room to rock.
-  const Layers bore = turned_surface({0.0, 20.0}, 7, [](double t, double z) {
-    const double r = 15.0 - 4.5e-4 * z;
-    return Eigen::Vector2d(std::round(1e4 * r * std::cos(t)) / 1e4,
-                           std::round(1e4 * r * std::sin(t)) / 1e4);
-  });
+  // All points of the narrow end touch, and round-off chooses among them.
   DrawnPart part;
-  part.cylinder("A", bore, Side::kInside);
-  part.cylinder("C", round_journal(20.0, {60.0, 70.0, 80.0}, 36));
+  part.cylinder("A",
+                {{{14.9931, 0.0, 0.0},
+                  {9.3455, 11.7275, 0.0},
+                  {-3.3447, 14.6239, 0.0},
+                  {-13.5214, 6.5083, 0.0},
+                  {-13.5214, -6.5083, 0.0},
+                  {-3.3447, -14.6239, 0.0},
+                  {9.3455, -11.7275, 0.0}},
+                 {{14.9841, 0.0, 17.938},
+                  {9.3398, 11.7204, 17.938},
+                  {-3.3427, 14.6151, 17.938},
+                  {-13.5133, 6.5043, 17.938},
+                  {-13.5133, -6.5043, 17.938},
+                  {-3.3427, -14.6151, 17.938},
+                  {9.3398, -11.7204, 17.938}}},
+                Side::kInside);
+  part.cylinder("C", round_journal(20.0, {60.0, 70.0, 80.0}, 36,
+                                   [](double /*z*/) { return Eigen::Vector2d(-0.0069, 0.0); }));
   EXPECT_LT(part.value(about(Form::kTotalRunOut, {"A"}, Association::kEqualised)), 1e-3);
 }
 
