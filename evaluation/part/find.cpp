@@ -12,16 +12,16 @@ using Indication = record::Indication;
 
 /// The family of a characteristic that needs no datum.
 core::Result<Finding> find_alone(const PreparedSurface& surface,
-                                 const record::Characteristic& asked) {
+                                 const record::Characteristic& asked, Proof proof) {
   switch (asked.form) {
     case Form::kDiameter:
-      return find_size(surface, asked);
+      return find_size(surface, asked, proof);
     case Form::kStraightness:
     case Form::kTaper:
     case Form::kGeneratrixParallelism:
-      return find_straightness(surface, asked);
+      return find_straightness(surface, asked, proof);
     default:
-      return find_form(surface, asked);
+      return find_form(surface, asked, proof);
   }
 }
 
@@ -100,12 +100,12 @@ bool is_found(const record::Feature& feature, const record::Characteristic& aske
 }
 
 core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t feature,
-                           const record::Characteristic& asked) {
+                           const record::Characteristic& asked, Proof proof) {
   const auto surface = prepared(part[feature], asked.indication);
   if (!surface) return core::fail(surface.error());
   core::Result<Finding> found = core::fail(core::Code::kMeaning, "not evaluated");
   if (asked.indication.datum.empty()) {
-    found = find_alone(*surface, asked);
+    found = find_alone(*surface, asked, proof);
   } else {
     auto datums = datums_of(part, feature, asked);
     if (!datums) return core::fail(datums.error());

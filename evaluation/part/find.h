@@ -23,6 +23,7 @@ namespace rondure::evaluation {
 ///         plan instead.
 /// Source: methods, drawing.
 [[nodiscard]] core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t feature,
-                                         const record::Characteristic& asked);
+                                         const record::Characteristic& asked,
+                                         Proof proof = Proof::kFull);
 
 }  // namespace rondure::evaluation

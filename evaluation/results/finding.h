@@ -15,6 +15,10 @@
 
 namespace rondure::evaluation {
 
+/// What a finding is needed for. A trial of the uncertainty takes the optimum next to the
+/// least-squares feature without its proof, and no notes for a verdict.
+enum class Proof { kFull, kNone };
+
 /// A value with the limits that it is held against. Most characteristics have one; the envelope
 /// requirement and two-point sizes without a rank have two, one for each limit.
 struct JudgedValue {
@@ -81,6 +85,10 @@ struct Finding {
   std::vector<double> about_equalised_mm;
   std::vector<LeftOut> left_out;
   std::vector<core::Error> warnings;
+  /// Why no verdict may rest on the value: no certificate, a part of the turn unseen, several
+  /// equally good circles with the limit between their deviations.
+  std::optional<core::Phrase> no_verdict;
+  bool unique = true;      ///< False: an interval would be that of one of several equal circles.
   core::Phrase reference;  ///< Words of the operator: "GN, as felt by the tip", "about A-B".
   core::Phrase filter;     ///< "unfiltered", "gaussian 50 UPR".
 };

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
+#include "fit/datums/datum.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/internal/gauss_newton.h"
@@ -399,6 +401,12 @@ core::Result<Plane> datum_plane_square_to(const Axis& primary, SpacePoints point
       extremes_of(points_mm, [&](const auto& p) { return height_mm(out, p); }).high;
   out.point_mm += farthest * out.normal;
   return out;
+}
+
+core::Result<Plane> datum_plane_square_to(const Plane& primary, SpacePoints points_mm,
+                                          const Eigen::Vector3d& outward) {
+  return inclined_zone(points_mm, primary.normal, 0.25 * core::kTwoPi, outward)
+      .map([](const InclinedZone& zone) { return zone.outer; });
 }
 
 }  // namespace rondure::fit

@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {
@@ -67,6 +68,53 @@ double range_from_line(const Generatrix& line, double slope) {
   }
   return out.width() / std::hypot(1.0, slope);
 }
+
+/// The harmonic series through the samples of a section, about the centre of its circle.
+class SectionSeries {
+ public:
+  explicit SectionSeries(const DenseSection& section)
+      : center_(section.center_mm),
+        start_(section.profile.start_rad),
+        harmonics_(spectrum(section.profile.r_mm)) {
+    const double count = static_cast<double>(section.profile.r_mm.size());
+    for (Complex& value : harmonics_) value *= 2.0 / count;
+    // The mean appears once in the sum, and so does the last harmonic of an even number of samples.
+    harmonics_.front() *= 0.5;
+    if (section.profile.r_mm.size() % 2 == 0) harmonics_.back() *= 0.5;
+  }
+
+  /// Distance from the axis, at the origin, of the surface at an angle about the axis.
+  [[nodiscard]] double distance_at(double angle) const {
+    constexpr int kRounds = 30;
+    const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+    const double beside = along.y() * center_.x() - along.x() * center_.y();
+    // The point at the angle t about the centre lies beside the ray by r sin(t - angle) - beside.
+    double turn = 0.0;
+    for (int i = 0; i < kRounds; ++i) {
+      const double next = std::asin(std::clamp(beside / radius(angle + turn), -1.0, 1.0));
+      const bool rests = std::abs(next - turn) <= 1e-15;
+      turn = next;
+      if (rests) break;
+    }
+    return along.dot(center_) + radius(angle + turn) * std::cos(turn);
+  }
+
+ private:
+  [[nodiscard]] double radius(double angle) const {
+    const Complex step = std::polar(1.0, angle - start_);
+    Complex turned = 1.0;
+    double sum = 0.0;
+    for (const Complex& value : harmonics_) {
+      sum += (value * turned).real();
+      turned *= step;
+    }
+    return sum;
+  }
+
+  Eigen::Vector2d center_;
+  double start_;
+  Spectrum harmonics_;
+};
 
 }  // namespace
 
@@ -142,6 +190,34 @@ core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis&
       line.distances_mm.push_back(distance_mm(axis, *nearest));
     }
     out.push_back(std::move(line));
+  }
+  return out;
+}
+
+core::Result<std::vector<Generatrix>> dense_generatrices(std::span<const DenseSection> sections,
+                                                         int count) {
+  constexpr std::size_t kFewestSamples = 8;
+  if (sections.empty()) return core::fail(core::Code::kNoPoints, "there is no section");
+  if (count < 1) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} generatrices; at least 1 is needed", count));
+  }
+  std::vector<Generatrix> out(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].angle_rad = core::kTwoPi * static_cast<double>(k) / count;
+  }
+  for (std::size_t j = 0; j < sections.size(); ++j) {
+    if (sections[j].profile.r_mm.size() < kFewestSamples) {
+      return core::fail(core::Code::kSampling,
+                        fmt::format("section {} has {} samples; a generatrix between points needs "
+                                    "at least {}: scan the section",
+                                    j, sections[j].profile.r_mm.size(), kFewestSamples));
+    }
+    const SectionSeries series(sections[j]);
+    for (Generatrix& line : out) {
+      line.heights_mm.push_back(sections[j].height_mm);
+      line.distances_mm.push_back(series.distance_at(line.angle_rad));
+    }
   }
   return out;
 }

@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "fit/datums/datum.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/sections.h"
@@ -254,6 +255,27 @@ TEST(DatumSystem, OfAnAxisAndAPlaneStandsOnTheFarthestPoint) {
     for (const auto& p : face) highest = std::max(highest, side * p.z());
     EXPECT_EQ(plane->normal.z(), side);
     EXPECT_NEAR(side * plane->point_mm.z(), highest, 1e-12);
+  }
+}
+
+TEST(DatumSystem, OfTwoPlanesLeansTheSecondOnItsHighestPoints) {
+  const Plane primary =
+      min_zone_plane(test::w5_plane(), Eigen::Vector3d(Eigen::Vector3d::UnitZ()))->outer;
+  // A side face, 0.05 deg out of square, with a hollow.
+  const Space face = {{60.0, -20.0, -5.0},   {60.004, 0.0, -6.0},  {60.013, 20.0, -5.0},
+                      {60.01, -20.0, -25.0}, {60.001, 0.0, -24.0}, {60.021, 20.0, -25.0}};
+  const auto plane = datum_plane_square_to(primary, face, Eigen::Vector3d(1.0, 0.1, 0.2));
+  ASSERT_TRUE(plane.has_value()) << plane.error().what;
+  EXPECT_NEAR(plane->normal.dot(primary.normal), 0.0, 1e-14);
+  EXPECT_GT(plane->normal.x(), 0.9);
+  const auto depth = [&](const Eigen::Vector3d& normal) {
+    return extremes_of(face, [&](const auto& p) { return normal.dot(p); }).width();
+  };
+  const Extremes heights = extremes_of(face, [&](const auto& p) { return height_mm(*plane, p); });
+  EXPECT_NEAR(heights.high, 0.0, 1e-11);
+  for (int i = -4000; i <= 4000; ++i) {
+    const Eigen::AngleAxisd turn(1e-2 * std::pow(i / 4000.0, 3), primary.normal);
+    EXPECT_GE(depth(turn * plane->normal), heights.width() - 1e-11);
   }
 }
 

@@ -15,13 +15,14 @@ namespace rondure::evaluation {
 
 /// diameter.
 [[nodiscard]] core::Result<Finding> find_size(const PreparedSurface& surface,
-                                              const record::Characteristic& asked);
+                                              const record::Characteristic& asked, Proof proof);
 /// cylindricity, roundness, flatness as t, p, v, q about any reference.
 [[nodiscard]] core::Result<Finding> find_form(const PreparedSurface& surface,
-                                              const record::Characteristic& asked);
+                                              const record::Characteristic& asked, Proof proof);
 /// straightness, taper, generatrix-parallelism.
 [[nodiscard]] core::Result<Finding> find_straightness(const PreparedSurface& surface,
-                                                      const record::Characteristic& asked);
+                                                      const record::Characteristic& asked,
+                                                      Proof proof);
 
 /// The datums of a characteristic, in their order.
 /// @param part  As in find(); windows of the datum features are left out, nothing is filtered.

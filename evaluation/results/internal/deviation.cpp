@@ -33,27 +33,13 @@ core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
   return certified_deviation(fit->deviation_mm, *fit);
 }
 
-/// Computes Deviation::unseen_rad.
-/// @param a_turn  Number of points on one turn if they were evenly spread.
-double unseen(std::vector<double> angles_rad, std::size_t a_turn) {
-  if (angles_rad.size() < 3) return 0.0;
-  std::sort(angles_rad.begin(), angles_rad.end());
-  double gap = angles_rad.front() + core::kTwoPi - angles_rad.back();
-  for (std::size_t i = 1; i < angles_rad.size(); ++i) {
-    gap = std::max(gap, angles_rad[i] - angles_rad[i - 1]);
-  }
-  const double allowed =
-      std::max(0.25 * core::kTwoPi, 1.5 * core::kTwoPi / static_cast<double>(a_turn));
-  return gap > allowed * (1.0 + 1e-6) ? gap : 0.0;
-}
-
 double unseen_in(const FeatureResult& result, const LayerResult& layer) {
   std::vector<double> angles_rad;
   for (const std::size_t row : layer.rows) {
     if (row < result.cloud.size()) angles_rad.push_back(result.cloud[row].angle_rad);
   }
   const std::size_t count = angles_rad.size();
-  return unseen(std::move(angles_rad), count);
+  return unseen_rad(std::move(angles_rad), count);
 }
 
 /// The same for all points together, projected along the axis.
@@ -62,7 +48,7 @@ double unseen_in(const FeatureResult& result) {
   for (const CloudPoint& point : result.cloud) angles_rad.push_back(point.angle_rad);
   std::size_t a_turn = result.layers.empty() ? result.cloud.size() : 1;
   for (const LayerResult& layer : result.layers) a_turn = std::max(a_turn, layer.rows.size());
-  return unseen(std::move(angles_rad), a_turn);
+  return unseen_rad(std::move(angles_rad), a_turn);
 }
 
 /// The deviation about one reference, or why that reference does not exist.
@@ -101,6 +87,25 @@ core::Result<Deviation> deviation_about(const FeatureResult& result, Reference r
 }
 
 }  // namespace
+
+double unseen_rad(std::vector<double> angles_rad, std::size_t a_turn) {
+  if (angles_rad.size() < 3) return 0.0;
+  std::sort(angles_rad.begin(), angles_rad.end());
+  double gap = angles_rad.front() + core::kTwoPi - angles_rad.back();
+  for (std::size_t i = 1; i < angles_rad.size(); ++i) {
+    gap = std::max(gap, angles_rad[i] - angles_rad[i - 1]);
+  }
+  const double allowed =
+      std::max(0.25 * core::kTwoPi, 1.5 * core::kTwoPi / static_cast<double>(a_turn));
+  return gap > allowed * (1.0 + 1e-6) ? gap : 0.0;
+}
+
+core::Phrase unseen_words(double unseen_rad) {
+  return core::phrase(
+      "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
+      "deviation; measure the whole turn",
+      core::degrees(unseen_rad));
+}
 
 core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Reference reference) {
   auto out = deviation_about(result, reference);

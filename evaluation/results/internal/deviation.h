@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/result.h"
 #include "evaluation/results/evaluation.h"
@@ -18,10 +20,16 @@ struct Deviation {
   bool certified = true;   ///< The reference has a certificate; least squares needs none.
   bool exact_fit = false;  ///< The deviation is 0 by construction.
   const LayerResult* layer = nullptr;  ///< RONt: the section that gave the value.
-  /// Largest angle without a point, where it is too wide for a value: above 90 deg, and above one
-  /// and a half steps of evenly spread points. Otherwise 0.
-  double unseen_rad = 0.0;
+  double unseen_rad = 0.0;             ///< See unseen_rad().
 };
+
+/// Largest angle without a point, where it is too wide for a value: above 90 deg, and above one and
+/// a half steps of evenly spread points. Otherwise 0.
+/// @param angles_rad  Within one turn.
+/// @param a_turn      Number of points on one turn if they were evenly spread.
+[[nodiscard]] double unseen_rad(std::vector<double> angles_rad, std::size_t a_turn);
+/// Why such points have no verdict.
+[[nodiscard]] core::Phrase unseen_words(double unseen_rad);
 
 /// CYLt about a reference; or why that reference does not exist.
 [[nodiscard]] core::Result<Deviation> cylinder_deviation(const FeatureResult& result,

@@ -102,6 +102,7 @@ class FormModel {
   FormColumns columns_;
   bool declared_ = false;
   bool absolute_ = false;
+  Eigen::VectorXd removed_;  ///< Position, size and tilt in the deviations.
   Eigen::VectorXd y_;        ///< Deviations, free of position, size and tilt.
   Eigen::VectorXd imputed_;  ///< y_, as the start imputes it.
   std::vector<std::size_t> flagged_;
@@ -127,7 +128,9 @@ class FormModel {
 
 /// One form that is compatible with the deviations.
 struct FormDraw {
-  Eigen::VectorXd form_mm;         ///< Form at the points.
+  Eigen::VectorXd form_mm;  ///< Form at the points.
+  /// Position, size and tilt at the points: deviations are place, form and errors.
+  Eigen::VectorXd place_mm;
   std::vector<std::size_t> spots;  ///< Rows of the spots.
   Eigen::VectorXd coefficients;    ///< For all columns of the model.
   double unresolved_mm2 = 0.0;     ///< Variance of form rougher than the columns.

@@ -44,7 +44,7 @@ template <class Model>
 struct CoupledZone {
   Model model;
   Eigen::VectorXd bounds;
-  std::vector<CoupledContact> contacts;
+  std::vector<CoupledContact> contacts;    ///< Unless converged, of the longest step from here.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< kConverged: a local minimum to second order.
 };
 
@@ -76,6 +76,7 @@ class CoupledDescent {
     for (int i = 0; i < kSteps && reach > kNearest; ++i) {
       const auto step = proximal_step(reach);
       if (!step.solved) break;
+      if (state_.contacts.empty()) state_.contacts = contacts_of(step);
       if (polish(step)) {
         state_.ending = ZoneEnding::kConverged;
         return state_;
@@ -85,6 +86,7 @@ class CoupledDescent {
       if (value_of(there) < value_of(state_.bounds)) {
         state_.model = next;
         state_.bounds = there;
+        state_.contacts.clear();
         reach = std::min(4.0 * reach, kFarthest);
         if (!state_.model.strayed(start_)) continue;
         state_.ending = ZoneEnding::kStrayed;
@@ -149,15 +151,20 @@ class CoupledDescent {
     return solve_quadratic_program(hessian, gradient, normals, limits, round_off());
   }
 
+  [[nodiscard]] std::vector<CoupledContact> contacts_of(const QuadraticStep& step) const {
+    std::vector<CoupledContact> out;
+    for (std::size_t i = 0; i < step.active.size(); ++i) {
+      out.push_back(rows_[step.active[i]]);
+      out.back().multiplier = step.multipliers[i];
+    }
+    return out;
+  }
+
   /// Newton's method on the contacts of a step. Changes the state only if it ends at a minimum.
   bool polish(const QuadraticStep& step) {
     constexpr int kRounds = 30;
     CoupledZone<Model> at = state_;
-    at.contacts.clear();
-    for (std::size_t i = 0; i < step.active.size(); ++i) {
-      at.contacts.push_back(rows_[step.active[i]]);
-      at.contacts.back().multiplier = step.multipliers[i];
-    }
+    at.contacts = contacts_of(step);
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
       const double size = newton_step(at);

@@ -290,7 +290,8 @@ void describe(Visitor& v, NominalPlan& p) {
             .at_most = 1000.0,
             .code = core::Code::kUnits,
             .hint = "that suggests metres or micrometres, give the diameter in mm",
-            .meaning = "Diameter on the drawing. Needed unless the points come from a file."});
+            .meaning = "Diameter on the drawing, of a cone at from_mm. Needed unless the points "
+                       "come from a file; the limits of a diameter are deviations from it."});
   v.number(
       "from_mm", p.from_mm,
       {.at_least = -kMaxCoordinate_mm,
@@ -298,6 +299,17 @@ void describe(Visitor& v, NominalPlan& p) {
        .meaning =
            "Lower end of the surface, part z. A circle is touched in the middle of its surface."});
   v.number("to_mm", p.to_mm, within(kMaxCoordinate_mm, "Upper end of the surface, part z."));
+  v.number("half_angle_deg", p.half_angle_deg,
+           within(85.0, "Of a cone: half of its angle; > 0: it opens along part z."));
+  v.number("z_mm", p.z_mm, within(kMaxCoordinate_mm, "Of a plane: its place, part z."));
+  v.text("faces", p.faces,
+         {.meaning = "Of a plane: the side to which it faces, out of the material; up is along "
+                     "part z. Needed where it is touched, is a datum or has a run-out."});
+  const auto edge = [](std::string_view meaning) { return range(0.0, 1000.0, meaning); };
+  v.number("from_diameter_mm", p.from_diameter_mm, edge("Of a plane: its inner edge."));
+  v.number("to_diameter_mm", p.to_diameter_mm, edge("Of a plane: its outer edge."));
+  v.numbers("center_mm", p.center_mm,
+            within(kMaxCoordinate_mm, "Of a sphere: its centre, part frame."));
 }
 
 template <class Visitor>
@@ -344,10 +356,13 @@ void describe(Visitor& v, PoseSearchPlan& p) {
   v.text("strategy", p.strategy,
          {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kRefined),
                      name_of(Strategy::kAsPublished), name_of(Strategy::kVirtual),
-                     name_of(Strategy::kMerged)},
+                     name_of(Strategy::kStartPose), name_of(Strategy::kMerged)},
           .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
-                     "halved steps. virtual: one cloud, turned in software. merged: no search; the "
+                     "halved steps. virtual: one cloud, turned in software. start-pose: no search; "
+                     "several features share the clamping of one start pose, as a datum and what "
+                     "refers to it must. A circle, plane, cone or sphere is always measured in its "
+                     "start pose. merged: no search; the "
                      "part is measured in each of `poses`, where it can be reached, and the "
                      "clouds are one (docs/several-poses.md)."});
   v.list("poses", p.poses,

@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "evaluation/part/internal/asked_sections.h"
+#include "evaluation/part/internal/associated.h"
+#include "evaluation/part/internal/datum.h"
+#include "evaluation/part/internal/families.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/internal/deviation.h"
+#include "fit/geometry/points.h"
+#include "fit/least_squares/plane.h"
+#include "fit/profiles/form_parameters.h"
+#include "fit/references/min_zone_plane.h"
+#include "record/tasks/form_facts.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using Indication = record::Indication;
+using record::Form;
+using record::Reference;
+
+/// A form deviation with its evidence, as evaluation::Deviation is that of a whole feature.
+struct SurfaceForm {
+  double value_mm = 0.0;
+  fit::FormParameters ls = {};  // about least squares only
+  std::optional<fit::DeviationRange> range = {};
+  bool certified = true;
+  double unseen_rad = 0.0;
+};
+
+double value_of_parameter(const fit::FormParameters& form, Indication::Parameter parameter) {
+  switch (parameter) {
+    case Indication::Parameter::kTotal:
+      return form.total_mm;
+    case Indication::Parameter::kPeak:
+      return form.peak_mm;
+    case Indication::Parameter::kValley:
+      return form.valley_mm;
+    case Indication::Parameter::kRms:
+      return form.rms_mm;
+  }
+  return form.total_mm;
+}
+
+core::Result<void> check_parameter(const record::Characteristic& asked) {
+  const bool total = asked.indication.parameter == Indication::Parameter::kTotal;
+  if (total || asked.reference == Reference::kLeastSquares) return {};
+  return core::fail(core::Code::kMeaning,
+                    core::phrase("peak, valley and rms are defined about the least-squares "
+                                 "reference; plan reference \"ls\""));
+}
+
+/// Value about least squares, with the other parameters beside it.
+void add_parameters(const record::Characteristic& asked, const fit::FormParameters& form,
+                    Finding& out) {
+  const std::string symbol = symbol_of(asked);
+  const std::array<std::pair<char, double>, 4> all = {
+      {{'t', form.total_mm}, {'p', form.peak_mm}, {'v', form.valley_mm}, {'q', form.rms_mm}}};
+  for (const auto& [letter, value] : all) {
+    if (symbol.back() == letter) continue;
+    out.numbers.push_back({symbol.substr(0, symbol.size() - 1) + letter, value});
+  }
+}
+
+/// What a verdict needs beside the value, in the order of the evaluation of a feature.
+void note_evidence(const record::Characteristic& asked, record::Shape about,
+                   const SurfaceForm& found, Finding& out) {
+  // A zone of some points is never wider than that of all: above the tolerance it is proof enough.
+  const bool too_wide = asked.reference == Reference::kMinimumZone && asked.tolerance_mm &&
+                        found.value_mm > *asked.tolerance_mm;
+  out.unique = !found.range;
+  if (!found.certified) {
+    out.no_verdict = core::phrase("no certificate stands behind the {}",
+                                  core::Phrase(words_of(asked.reference, about)));
+  } else if (found.unseen_rad > 0.0 && !too_wide) {
+    out.no_verdict = unseen_words(found.unseen_rad);
+  } else if (found.range) {
+    out.no_verdict = undecided_range(*found.range, asked.tolerance_mm);
+  }
+}
+
+core::Result<Finding> find_cylindricity(const PreparedSurface& surface,
+                                        const record::Characteristic& asked, Proof proof) {
+  const auto cylinder = associated_cylinder(surface, asked.reference, proof);
+  if (!cylinder) return core::fail(cylinder.error());
+  SurfaceForm found{.value_mm = cylinder->deviation_mm, .certified = cylinder->certified};
+  Finding out;
+  if (asked.reference == Reference::kLeastSquares) {
+    const auto form = fit::cylindricity_parameters(surface.points_mm, cylinder->axis,
+                                                   cylinder->radius_mm, surface.material.inside);
+    if (!form) return core::fail(form.error());
+    found.value_mm = value_of_parameter(*form, asked.indication.parameter);
+    add_parameters(asked, *form, out);
+    std::vector<double> distances_mm;
+    for (const Eigen::Vector3d& p : surface.points_mm) {
+      distances_mm.push_back(fit::distance_mm(cylinder->axis, p));
+    }
+    add_extreme_rows(surface, distances_mm, out);
+  }
+  add_rows(surface, cylinder->contacts, out);
+  out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
+  out.reference = core::as_it_is(reference_of(asked));
+  if (proof == Proof::kNone) return out;
+  found.unseen_rad = unseen_in(surface);
+  note_evidence(asked, record::Shape::kCylinder, found, out);
+  return out;
+}
+
+/// Form of one section, with the points of the surface that carry it.
+struct SectionForm {
+  SurfaceForm form;
+  std::vector<std::size_t> points;
+};
+
+core::Result<SectionForm> form_of_section(const PreparedSurface& surface,
+                                          const SurfaceSection& section,
+                                          const record::Characteristic& asked, Proof proof) {
+  const auto flat = projected(surface, std::span(&section, 1));
+  if (!flat) return core::fail(flat.error());
+  const auto& points_mm = flat->front().points_mm;
+  const auto exact = [&] {
+    return core::fail(core::Code::kTooFewPoints,
+                      core::phrase("layer {}: a section of three different points has no "
+                                   "roundness; plan at least 4 points a layer",
+                                   section.layer + 1));
+  };
+  if (fit::distinct_points(points_mm, 4) < 4) return exact();
+  const auto circle = associated_circle(points_mm, asked.reference, proof);
+  if (!circle) return core::fail(in_layer(section, circle.error()));
+  if (circle->exact_fit) return exact();
+  SectionForm out;
+  out.form = {.value_mm = circle->deviation_mm,
+              .range = circle->range,
+              .certified = circle->certified,
+              .unseen_rad = unseen_in(surface, section)};
+  for (const std::size_t contact : circle->contacts) out.points.push_back(section.points[contact]);
+  if (asked.reference != Reference::kLeastSquares) return out;
+  std::vector<double> deviations_mm;
+  for (const Eigen::Vector2d& p : points_mm) {
+    deviations_mm.push_back(surface.material.sign() *
+                            ((p - circle->center_mm).norm() - circle->radius_mm));
+  }
+  out.form.ls = fit::form_parameters(deviations_mm);
+  out.form.value_mm = value_of_parameter(out.form.ls, asked.indication.parameter);
+  const auto [low, high] = std::ranges::minmax_element(deviations_mm);
+  for (const auto at : {high, low}) {
+    out.points.push_back(section.points[static_cast<std::size_t>(at - deviations_mm.begin())]);
+  }
+  return out;
+}
+
+core::Result<Finding> find_roundness(const PreparedSurface& surface,
+                                     const record::Characteristic& asked, Proof proof) {
+  const auto sections = asked_sections(surface, asked.indication);
+  if (!sections) return core::fail(sections.error());
+  Finding out;
+  SurfaceForm found;
+  fit::DeviationRange range;
+  bool unique = true;
+  std::vector<SectionForm> forms;
+  for (const SurfaceSection& section : *sections) {
+    auto own = form_of_section(surface, section, asked, proof);
+    if (!own) return core::fail(own.error());
+    const SurfaceForm& form = own->form;
+    out.local.push_back(
+        {.layer = section.layer, .position = section.height_mm, .value_mm = form.value_mm});
+    found.certified = found.certified && form.certified;
+    found.unseen_rad = std::max(found.unseen_rad, form.unseen_rad);
+    const auto least_most = form.range.value_or(fit::DeviationRange{form.value_mm, form.value_mm});
+    range.low_mm = std::max(range.low_mm, least_most.low_mm);
+    range.high_mm = std::max(range.high_mm, least_most.high_mm);
+    unique = unique && !form.range;
+    forms.push_back(*std::move(own));
+  }
+  const auto worst = std::ranges::max_element(
+      forms, {}, [](const SectionForm& section) { return section.form.value_mm; });
+  out.worst = static_cast<std::size_t>(worst - forms.begin());
+  if (!unique && range.high_mm > range.low_mm) found.range = range;
+  found.value_mm =
+      found.range ? deciding_mm(*found.range, asked.tolerance_mm) : worst->form.value_mm;
+  if (asked.reference == Reference::kLeastSquares) add_parameters(asked, worst->form.ls, out);
+  add_rows(surface, worst->points, out);
+  out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
+  out.reference = of_sections(core::as_it_is(reference_of(asked)), asked.indication);
+  if (proof == Proof::kFull) note_evidence(asked, record::Shape::kCircle, found, out);
+  return out;
+}
+
+core::Result<Finding> find_flatness(const PreparedSurface& surface,
+                                    const record::Characteristic& asked) {
+  const auto& points_mm = surface.points_mm;
+  const bool zone_asked = asked.reference == Reference::kMinimumZone;
+  if (!zone_asked && asked.reference != Reference::kLeastSquares) {
+    return core::fail(core::Code::kMeaning,
+                      core::phrase("a plane has no circumscribed and no inscribed reference; plan "
+                                   "reference \"mz\" or \"ls\""));
+  }
+  constexpr std::size_t kFewest = 4;
+  if (points_mm.size() < kFewest) {
+    return core::fail(core::Code::kTooFewPoints,
+                      core::phrase("{} points determine a plane and leave nothing to judge; plan "
+                                   "at least {}",
+                                   points_mm.size(), kFewest));
+  }
+  Finding out;
+  SurfaceForm found;
+  if (zone_asked) {
+    const auto zone = fit::min_zone_plane(points_mm, surface.axis.direction);
+    if (!zone) return core::fail(zone.error());
+    found.value_mm = zone->width_mm;
+    found.certified = zone->certificate.kind != fit::Certificate::Kind::kNone;
+    for (const auto* contacts : {&zone->top, &zone->bottom}) {
+      for (const fit::Contact& contact : *contacts) out.rows.push_back(surface.rows[contact.index]);
+    }
+  } else {
+    const auto plane = fit::ls_plane(points_mm, surface.axis.direction);
+    if (!plane) return core::fail(plane.error());
+    const auto form = fit::flatness_parameters(points_mm, plane->plane);
+    if (!form) return core::fail(form.error());
+    found.value_mm = value_of_parameter(*form, asked.indication.parameter);
+    add_parameters(asked, *form, out);
+    std::vector<double> heights_mm;
+    for (const Eigen::Vector3d& p : points_mm) heights_mm.push_back(height_mm(plane->plane, p));
+    add_extreme_rows(surface, heights_mm, out);
+  }
+  out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
+  out.reference = core::as_it_is(reference_of(asked.reference, record::Shape::kPlane));
+  note_evidence(asked, record::Shape::kPlane, found, out);
+  return out;
+}
+
+}  // namespace
+
+core::Result<Finding> find_form(const PreparedSurface& surface, const record::Characteristic& asked,
+                                Proof proof) {
+  if (auto checked = check_parameter(asked); !checked) return core::fail(checked.error());
+  switch (asked.form) {
+    case Form::kCylindricity:
+      return find_cylindricity(surface, asked, proof);
+    case Form::kRoundness:
+      return find_roundness(surface, asked, proof);
+    case Form::kFlatness:
+      return find_flatness(surface, asked);
+    default:
+      return core::fail(
+          core::Code::kMeaning,
+          core::phrase("{} is not a form deviation of a surface", record::name_of(asked.form)));
+  }
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,181 @@
+#include "evaluation/part/internal/associated.h"
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided_cylinder.h"
+#include "fit/zone/fit.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using record::Reference;
+
+constexpr std::size_t kFewestOfCylinder = 6;
+
+template <class Contacts>
+void add_contacts(const Contacts& contacts, Associated& out) {
+  for (const fit::Contact& contact : contacts) out.contacts.push_back(contact.index);
+}
+
+bool has_certificate(const fit::Certificate& certificate) {
+  return certificate.kind != fit::Certificate::Kind::kNone;
+}
+
+template <class Zone>
+Associated of_zone(const Zone& zone) {
+  Associated out;
+  out.radius_mm = 0.5 * (zone.outer_radius_mm + zone.inner_radius_mm);
+  out.deviation_mm = zone.width_mm();
+  out.certified = has_certificate(zone.certificate);
+  add_contacts(zone.outer, out);
+  add_contacts(zone.inner, out);
+  return out;
+}
+
+template <class Fit>
+Associated of_one_sided(const Fit& fit) {
+  Associated out;
+  out.radius_mm = fit.radius_mm;
+  out.deviation_mm = fit.deviation_mm;
+  out.certified = has_certificate(fit.certificate);
+  add_contacts(fit.contacts, out);
+  return out;
+}
+
+core::Result<Associated> proven_cylinder(fit::SpacePoints points_mm, Reference reference,
+                                         const Eigen::Vector3d& direction,
+                                         const fit::CylinderProofOptions& options) {
+  if (reference == Reference::kMinimumZone) {
+    const auto zone = fit::min_zone_cylinder(points_mm, direction, options);
+    if (!zone) return core::fail(zone.error());
+    Associated out = of_zone(*zone);
+    out.axis = zone->axis;
+    return out;
+  }
+  const auto fit = reference == Reference::kMinimumCircumscribed
+                       ? fit::min_circumscribed_cylinder(points_mm, direction, options)
+                       : fit::max_inscribed_cylinder(points_mm, direction, options);
+  if (!fit) return core::fail(fit.error());
+  Associated out = of_one_sided(*fit);
+  out.axis = fit->axis;
+  return out;
+}
+
+core::Result<Associated> next_cylinder(fit::SpacePoints points_mm, Reference reference,
+                                       const Eigen::Vector3d& direction) {
+  const fit::ZoneWeights& weights = reference == Reference::kMinimumZone ? fit::kMinimumZone
+                                    : reference == Reference::kMinimumCircumscribed
+                                        ? fit::kMinimumCircumscribed
+                                        : fit::kMaximumInscribed;
+  const auto zone = fit::CylinderZoneFitter().fit(points_mm, direction, weights);
+  if (!zone) return core::fail(zone.error());
+  if (zone->ending != fit::ZoneEnding::kConverged) {
+    return core::fail(core::Code::kNotConverged,
+                      core::phrase("the search for the reference did not reach its optimum"));
+  }
+  Associated out;
+  out.radius_mm = reference == Reference::kMinimumCircumscribed ? zone->outer_radius_mm
+                  : reference == Reference::kMaximumInscribed
+                      ? zone->inner_radius_mm
+                      : 0.5 * (zone->outer_radius_mm + zone->inner_radius_mm);
+  out.deviation_mm = zone->width_mm();
+  out.axis = zone->place;
+  add_contacts(zone->outer, out);
+  add_contacts(zone->inner, out);
+  return out;
+}
+
+/// Whether a cylinder can rest on the points, and something is left of them to judge.
+core::Result<void> check_cylinder(const PreparedSurface& surface) {
+  if (surface.points_mm.size() < kFewestOfCylinder) {
+    return core::fail(core::Code::kTooFewPoints,
+                      core::phrase("{} points determine a cylinder and leave nothing to judge; "
+                                   "plan at least {}",
+                                   surface.points_mm.size(), kFewestOfCylinder));
+  }
+  if (surface.sections.size() == 1) {
+    return core::fail(core::Code::kRank,
+                      core::phrase("1 section leaves the axis undetermined: plan at least 2 "
+                                   "layers, or ask for the size of the section (section \"SCS\")"));
+  }
+  return {};
+}
+
+core::Result<void> check_turn(fit::SpacePoints points_mm, const fit::Axis& axis) {
+  const auto frame = fit::across(axis.direction);
+  std::vector<Eigen::Vector2d> flat;
+  for (const Eigen::Vector3d& p : points_mm) {
+    flat.emplace_back(frame.transpose() * (p - axis.point_mm));
+  }
+  const double open_deg = core::degrees(fit::largest_gap_rad(flat, Eigen::Vector2d::Zero()));
+  constexpr double kRoundOff = 1e-6;
+  if (open_deg < 180.0 - kRoundOff) return {};
+  return core::fail(core::Code::kReferenceAbsent,
+                    core::phrase("the points leave {:.0f} deg of the turn open: no cylinder rests "
+                                 "on them; measure all round",
+                                 open_deg));
+}
+
+}  // namespace
+
+core::Result<Associated> associated_cylinder(const PreparedSurface& surface, Reference reference,
+                                             Proof proof) {
+  if (auto checked = check_cylinder(surface); !checked) return core::fail(checked.error());
+  const fit::SpacePoints points_mm = surface.points_mm;
+  const auto ls = fit::ls_cylinder(points_mm, surface.axis.direction);
+  if (!ls) return core::fail(ls.error());
+  const Eigen::Vector3d& direction = ls->axis.direction;
+  if (auto checked = check_turn(points_mm, ls->axis); !checked) return core::fail(checked.error());
+  if (reference == Reference::kLeastSquares) {
+    Associated out;
+    out.radius_mm = ls->radius_mm;
+    out.deviation_mm = ls->deviation_mm;
+    out.axis = ls->axis;
+    return out;
+  }
+  if (proof == Proof::kNone) return next_cylinder(points_mm, reference, direction);
+  // As the evaluation of the feature: nothing is known of the direction of a points file.
+  fit::CylinderProofOptions options;
+  if (surface.of->feature.strategy == record::Strategy::kPointsFile) {
+    options.scopes.push_back({.kind = fit::AxisScope::Kind::kHalfSphere});
+  }
+  options.scopes.push_back({.kind = fit::AxisScope::Kind::kCone, .nominal = direction});
+  return proven_cylinder(points_mm, reference, direction, options);
+}
+
+core::Result<Associated> associated_circle(fit::PlanePoints points_mm, Reference reference,
+                                           Proof proof) {
+  const fit::CenterProofOptions options{.global = proof == Proof::kFull, .search = {}};
+  if (reference == Reference::kLeastSquares) {
+    const auto circle = fit::ls_circle(points_mm);
+    if (!circle) return core::fail(circle.error());
+    Associated out;
+    out.radius_mm = circle->radius_mm;
+    out.deviation_mm = circle->deviation_mm;
+    out.center_mm = circle->center_mm;
+    return out;
+  }
+  if (reference == Reference::kMinimumZone) {
+    const auto zone = fit::min_zone_circle(points_mm, options);
+    if (!zone) return core::fail(zone.error());
+    Associated out = of_zone(*zone);
+    out.center_mm = zone->center_mm;
+    out.exact_fit = zone->exact_fit;
+    return out;
+  }
+  const auto circle = reference == Reference::kMinimumCircumscribed
+                          ? fit::min_circumscribed_circle(points_mm)
+                          : fit::max_inscribed_circle(points_mm, options);
+  if (!circle) return core::fail(circle.error());
+  Associated out = of_one_sided(*circle);
+  out.center_mm = circle->center_mm;
+  out.range = circle->range;
+  return out;
+}
+
+}  // namespace rondure::evaluation
