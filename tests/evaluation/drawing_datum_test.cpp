@@ -571,7 +571,7 @@ TEST(DrawingLocation, ConcentricityIsOfTheNamedSections) {
   EXPECT_EQ(std::max(part.value(asked), found->judged[0].value_mm),
             part.value(about(Form::kCoaxiality, {"A-B"})));
   asked.indication.section_layers = {3.0};
-  EXPECT_EQ(refusal(part, asked).what, "layer 3 of section_layers has no points; C has 2 layers");
+  EXPECT_EQ(refusal(part, asked).code, core::Code::kRank);
 }
 
 /// Plane through the origin whose normal leans by an angle to z, with a crown and a wave.
@@ -662,7 +662,7 @@ TEST(DrawingOrientation, OfAnAxisHasARoundZoneOnlyWhereItsDirectionIsThatOfTheDa
   EXPECT_NEAR(part.value(asked(Form::kPerpendicularity, "E", 0)), kRange, 1e-9);
   EXPECT_EQ(symbol(asked(Form::kPerpendicularity, "E", 0)), "PER \u00d8");
   EXPECT_NEAR(part.value(asked(Form::kAngularity, "A", 0)), kRange, 1e-9);
-  EXPECT_EQ(symbol(asked(Form::kAngularity, "A", 0)), "ANG");
+  EXPECT_EQ(symbol(asked(Form::kAngularity, "A", 0)), "ANG \u00d8");
   part.cylinder("H", leaning_cylinder(0.25 * core::kTwoPi + kLean));
   EXPECT_NEAR(part.value(asked(Form::kParallelism, "E", 0)), kRange, 1e-9);
   EXPECT_EQ(symbol(asked(Form::kParallelism, "E", 0)), "PAR");
@@ -786,6 +786,38 @@ TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
   EXPECT_EQ(refusal(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 15.0;
   EXPECT_GT(part.value(asked), 0.0);
+}
+
+TEST(DrawingRefusals, OfAPartOfTheTurnLeaveNoVerdict) {
+  Layers open = round_journal(20.0, {80.0, 100.0}, 24,
+                              [](double /*z*/) { return Eigen::Vector2d(0.002, 0.0); });
+  for (auto& layer : open) layer.resize(15);  // 150 deg are not touched
+  DrawnPart part;
+  part.cylinder("A", round_journal(15.0, {0.0, 40.0}, 24));
+  part.cylinder("C", open);
+  for (const Form form :
+       {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality, Form::kParallelism}) {
+    SCOPED_TRACE(name_of(form));
+    auto asked = about(form, {"A"});
+    asked.tolerance_mm = 0.01;
+    const auto found = part.last(asked);
+    ASSERT_TRUE(found.has_value()) << found.error().what;
+    EXPECT_TRUE(found->no_verdict.has_value());
+  }
+  // The rest of the turn can only add to a run-out that fails already.
+  auto asked = about(Form::kRunOut, {"A"});
+  asked.tolerance_mm = 0.001;
+  EXPECT_FALSE(part.last(asked)->no_verdict.has_value());
+}
+
+TEST(DrawingDatums, OfATrialAreTheStatedOnesAlone) {
+  const DrawnPart shaft = stepped_shaft();
+  const auto asked = about(Form::kTotalRunOut, {"A"}, Association::kOneSided);
+  const auto trial = find(surfaces_of(shaft.features), 2, asked, Proof::kNone);
+  ASSERT_TRUE(trial.has_value());
+  EXPECT_EQ(trial->judged[0].value_mm, shaft.value(asked));
+  EXPECT_TRUE(trial->about_equalised_mm.empty());
+  EXPECT_FALSE(rocks(*trial));
 }
 
 TEST(DrawingAttack, NoValueComesOutOfPointsThatFixNothing) {
