@@ -205,7 +205,7 @@ std::vector<double> about_first(std::span<const MeasuredSurface> part) {
   return out;
 }
 
-Influences noise_of(double sigma_mm) {
+Influences noise_alone(double sigma_mm) {
   Influences out;
   out.probe.emplace().repeatability_mm = sigma_mm;
   return out;
@@ -283,7 +283,7 @@ TEST(PartTrials, GiveTheUncertaintyOfASizeOfTheSpecification) {
   SimulatedPart part;
   part.add({.layers = 3, .points = 12}, 1.0);
   part.touch(0.5 * kMicrometre, core::KeyedNoise(3, {1}));
-  Influences influences = noise_of(0.5 * kMicrometre);
+  Influences influences = noise_alone(0.5 * kMicrometre);
   std::vector<TrialSurface> surfaces = part.surfaces(influences);
   const auto gg = question_of({0}, gg_of(0), part.measured());
   const auto of = [&](const std::vector<TrialSurface>& with) {
@@ -298,11 +298,11 @@ TEST(PartTrials, GiveTheUncertaintyOfASizeOfTheSpecification) {
 /// The sphere that the tip was qualified on is measured with the scale of the part: eps 1e-5,
 /// R = R_ref = 12.5 moves no shaft, and a bore by 2 eps (R + R_ref) = 0.5 um.
 TEST(PartTrials, AScaleErrorIsThatOfTheQualificationToo) {
-  constexpr double kTip = 1.0;
+  constexpr double kBall = 1.0;
   SimulatedPart part;
-  part.add({.layers = 3, .points = 12}, kTip);
-  part.add({.layers = 3, .points = 12, .inside = true}, kTip);
-  Influences influences = noise_of(1e-4 * kMicrometre);
+  part.add({.layers = 3, .points = 12}, kBall);
+  part.add({.layers = 3, .points = 12, .inside = true}, kBall);
+  Influences influences = noise_alone(1e-4 * kMicrometre);
   // Three scales of one error each: the error common to all is their mean.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     influences.machine.emplace(influences.machine.value_or(MachineInfluences()))
@@ -319,7 +319,7 @@ TEST(PartTrials, AScaleErrorIsThatOfTheQualificationToo) {
   };
   // The radius of the part takes x and y by half each; the tip takes all three by a third each,
   // or as the touches of the sphere weigh them. Independent scales: squares add.
-  const auto sphere = reference_touches(12.5 + kTip);
+  const auto sphere = reference_touches(12.5 + kBall);
   const auto [shaft, bore] = spread(sphere);
   const auto [shaft_alone, bore_alone] = spread({});
   EXPECT_NEAR(shaft_alone, 1e-2 * 2.0 * 13.5 * std::sqrt(0.5), 0.02 * 0.19);
@@ -351,7 +351,7 @@ TEST(PartTrials, TheTipMovesShaftAndBoreAgainstEachOther) {
   part.add({.layers = 3, .points = 12}, 1.0);
   part.add({.layers = 3, .points = 12, .inside = true}, 1.0);
   part.touch(0.01 * kMicrometre, core::KeyedNoise(4, {1}));
-  Influences influences = noise_of(0.01 * kMicrometre);
+  Influences influences = noise_alone(0.01 * kMicrometre);
   const std::vector<TrialQuestion> questions = {question_of({0}, gg_of(0), part.measured()),
                                                 question_of({1}, gg_of(1), part.measured())};
   influences.probe->reference_sphere_mm = 0.3 * kMicrometre;
@@ -367,7 +367,7 @@ TEST(PartTrials, AnErrorThatAllFeaturesShareMovesOneAgainstTheOther) {
   for (const double z : {0.0, 100.0, 200.0}) {
     part.add({.low_mm = z, .high_mm = z + 10.0, .layers = 2, .points = 12}, 1.0);
   }
-  Influences influences = noise_of(1e-4 * kMicrometre);
+  Influences influences = noise_alone(1e-4 * kMicrometre);
   MachineInfluences& machine = influences.machine.emplace();
   machine.terms.axes[2].translation[0].quadratic_1_mm2 = 1e-7;  // 1 um over 100 mm, from the middle
   const ValueFunction bow = [](std::span<const MeasuredSurface> features) -> std::vector<double> {
@@ -407,7 +407,7 @@ TEST(PartTrials, AreTheSameAtAnyNumberOfThreads) {
   options.least_trials = 200;
   const auto rows = [&](int threads) {
     options.threads = threads;
-    return PartTrials(part.surfaces(noise_of(0.3 * kMicrometre)), {}, options)
+    return PartTrials(part.surfaces(noise_alone(0.3 * kMicrometre)), {}, options)
         .answers(questions)
         .front()
         .rows_mm;
@@ -419,7 +419,7 @@ TEST(PartTrials, StateNoIntervalWithoutNoiseOfATouch) {
   SimulatedPart part;
   part.add({}, 1.0);
   part.add({.low_mm = 50.0, .high_mm = 80.0}, 1.0);
-  std::vector<TrialSurface> surfaces = part.surfaces(noise_of(0.3 * kMicrometre));
+  std::vector<TrialSurface> surfaces = part.surfaces(noise_alone(0.3 * kMicrometre));
   surfaces[1].influences.probe.emplace().repeatability_known = false;
   const std::vector<TrialQuestion> questions = {question_of({0}, gg_of(0), part.measured()),
                                                 question_of({1, 0}, gg_of(1), part.measured()),
@@ -445,7 +445,7 @@ TEST(PartTrials, AValueThatSomeTrialsLackHasNoInterval) {
     return std::vector<double>{moved > 0.5 * kMicrometre ? kNone : 1.0, 2.0};
   };
   const auto question = question_of({0}, fragile, part.measured());
-  const auto found = PartTrials(part.surfaces(noise_of(0.3 * kMicrometre)), {}, options_of(400))
+  const auto found = PartTrials(part.surfaces(noise_alone(0.3 * kMicrometre)), {}, options_of(400))
                          .answers({&question, 1})
                          .front();
   ASSERT_FALSE(found.values[0]);
@@ -458,7 +458,7 @@ TEST(PartTrials, PointsThatTakeNoPartStayWhereTheyAre) {
   part.add({}, 1.0);
   part.touch(0.3 * kMicrometre, core::KeyedNoise(7, {1}));
   const MeasuredSurface read = part.measured().front();
-  std::vector<TrialSurface> surfaces = part.surfaces(noise_of(0.3 * kMicrometre));
+  std::vector<TrialSurface> surfaces = part.surfaces(noise_alone(0.3 * kMicrometre));
   surfaces[0].rows.erase(surfaces[0].rows.begin() + 3);
   const ValueFunction how_far = [&](std::span<const MeasuredSurface> features) {
     return std::vector<double>{(features[0].tips_mm[3] - read.tips_mm[3]).norm(),
@@ -568,7 +568,7 @@ TEST_P(PartCoverage, TheIntervalsHoldTheTruth) {
     options.seed = number + 1;
     const auto questions = questions_about(part.measured());
     const auto found =
-        PartTrials(part.surfaces(noise_of(c.sigma_mm)), {}, options).answers(questions);
+        PartTrials(part.surfaces(noise_alone(c.sigma_mm)), {}, options).answers(questions);
     std::size_t v = 0;
     for (std::size_t q = 0; q < found.size(); ++q) {
       for (std::size_t k = 0; k < found[q].values.size(); ++k, ++v) {
