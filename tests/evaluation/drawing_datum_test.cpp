@@ -50,7 +50,7 @@ record::Characteristic along(record::Characteristic asked, Direction direction) 
   return asked;
 }
 
-core::Error refusal(const DrawnPart& part, const record::Characteristic& asked) {
+core::Error why_refused(const DrawnPart& part, const record::Characteristic& asked) {
   const auto found = part.last(asked);
   EXPECT_FALSE(found.has_value()) << "there is a value: " << found->judged.front().value_mm;
   return found ? core::Error{} : found.error();
@@ -252,8 +252,8 @@ TEST(DrawingDatums, OfAnAxisAndAPlaneAreTheAxis) {
             part.value(about(Form::kTotalRunOut, {"D"})));
 }
 
-DrawnPart moved(const DrawnPart& part,
-                const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& move) {
+DrawnPart moved_part(const DrawnPart& part,
+                     const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& move) {
   DrawnPart out = part;
   for (FeatureResult& feature : out.features) {
     for (CloudPoint& point : feature.cloud) point.tip_mm = move(point.tip_mm);
@@ -276,10 +276,11 @@ TEST(DrawingInvariance, ShiftTurnOrderMirrorAndSwap) {
   const DrawnPart part = stepped_shaft();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.3, Eigen::Vector3d(2, -1, 0.5).normalized()));
   const DrawnPart others[] = {
-      moved(part, [](const auto& p) { return Eigen::Vector3d(p + Eigen::Vector3d(1e3, 0, -1e3)); }),
-      moved(part, [&](const auto& p) { return Eigen::Vector3d(turn * p); }),
-      moved(part, [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }),
-      moved(part, [](const auto& p) { return Eigen::Vector3d(p.x(), -p.y(), -p.z()); }),
+      moved_part(part,
+                 [](const auto& p) { return Eigen::Vector3d(p + Eigen::Vector3d(1e3, 0, -1e3)); }),
+      moved_part(part, [&](const auto& p) { return Eigen::Vector3d(turn * p); }),
+      moved_part(part, [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }),
+      moved_part(part, [](const auto& p) { return Eigen::Vector3d(p.x(), -p.y(), -p.z()); }),
       reordered(part)};
   for (const Association association :
        {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
@@ -300,7 +301,7 @@ TEST(DrawingInvariance, OfAFaceWhicheverWayItsAxisPoints) {
   const auto asked = along(about(Form::kRunOut, {"D"}), Direction::kAxial);
   const double value = part.value(asked);
   const Eigen::Quaterniond over(Eigen::AngleAxisd(3.0, Eigen::Vector3d(1, 2, 0).normalized()));
-  const DrawnPart turned = moved(
+  const DrawnPart turned = moved_part(
       part, [&](const auto& p) { return Eigen::Vector3d(over * p + Eigen::Vector3d(0, 1e3, 0)); });
   EXPECT_NEAR(turned.value(asked), value, 1e-9);
   EXPECT_NEAR(reordered(part).value(asked), value, 1e-9);
@@ -571,7 +572,7 @@ TEST(DrawingLocation, ConcentricityIsOfTheNamedSections) {
   EXPECT_EQ(std::max(part.value(asked), found->judged[0].value_mm),
             part.value(about(Form::kCoaxiality, {"A-B"})));
   asked.indication.section_layers = {3.0};
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kRank);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kRank);
 }
 
 /// Plane through the origin whose normal leans by an angle to z, with a crown and a wave.
@@ -623,7 +624,7 @@ TEST(DrawingOrientation, OfAPlaneIsFreeToTurnAboutTheDatum) {
   asked.indication.angle_deg = 60.0;
   EXPECT_NEAR(part.value(asked), value, 1e-9);
   asked.indication.angle_deg.reset();
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kMissingKey);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kMissingKey);
   // The same zone by its other names.
   const Layers upright = leaning_plane(90.0 * core::kDegree + 1e-4, 2.1, 0.002);
   part.plane("L", upright);
@@ -691,14 +692,15 @@ TEST(DrawingDatums, AreNamedByLetterOrIdAndSplitAtHyphens) {
   EXPECT_NEAR(part.value(coaxiality("left journal-B")), 0.013283035987, 1e-10);
   EXPECT_NEAR(part.value(coaxiality("left journal")), 0.018443767895, 1e-10);
   EXPECT_TRUE(part.last(coaxiality("right-journal")).has_value());
-  EXPECT_EQ(refusal(part, coaxiality("A-D")).what,
+  EXPECT_EQ(why_refused(part, coaxiality("A-D")).what,
             "datum \"A-D\": no feature has the letter or id \"D\"; the plan has A, B, other, C");
-  EXPECT_EQ(refusal(part, coaxiality("A-A")).what, "datum \"A-A\" names \"A\" twice");
-  EXPECT_EQ(refusal(part, coaxiality("A-C")).what,
+  EXPECT_EQ(why_refused(part, coaxiality("A-A")).what, "datum \"A-A\" names \"A\" twice");
+  EXPECT_EQ(why_refused(part, coaxiality("A-C")).what,
             "datum \"A-C\": a feature is no datum of itself");
-  EXPECT_EQ(refusal(part, coaxiality("C")).code, core::Code::kMeaning);
-  EXPECT_EQ(refusal(part, coaxiality("A-")).code, core::Code::kMeaning);
-  EXPECT_EQ(refusal(part, about(Form::kCoaxiality, {"A", "nothing"})).code, core::Code::kMeaning);
+  EXPECT_EQ(why_refused(part, coaxiality("C")).code, core::Code::kMeaning);
+  EXPECT_EQ(why_refused(part, coaxiality("A-")).code, core::Code::kMeaning);
+  EXPECT_EQ(why_refused(part, about(Form::kCoaxiality, {"A", "nothing"})).code,
+            core::Code::kMeaning);
 }
 
 TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
@@ -718,7 +720,7 @@ TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
   part.cylinder("A", test::w3_a());
   part.cylinder("C", test::w3_c());
   const auto why = [&](std::vector<std::string> datum, Association association) {
-    return refusal(part, about(Form::kCoaxiality, std::move(datum), association)).what;
+    return why_refused(part, about(Form::kCoaxiality, std::move(datum), association)).what;
   };
   EXPECT_EQ(why({"K"}, Association::kLs),
             "datum \"K\": a cone gives no datum here; name a cylinder or a plane");
@@ -749,7 +751,7 @@ TEST(DrawingRefusals, OfRunOutAndLocationSayWhatToPlanInstead) {
     return out;
   };
   const auto what = [&](Shape shape, const Layers& layers, const record::Characteristic& asked) {
-    return refusal(part_with(shape, layers), asked).what;
+    return why_refused(part_with(shape, layers), asked).what;
   };
   const auto run_out = about(Form::kRunOut, {"A"});
   EXPECT_EQ(what(Shape::kCylinder, test::w3_c(), along(run_out, Direction::kAxial)),
@@ -765,7 +767,8 @@ TEST(DrawingRefusals, OfRunOutAndLocationSayWhatToPlanInstead) {
             "perpendicularity");
   // A face of scattered points has no circle about the datum.
   EXPECT_EQ(
-      refusal(part_with(Shape::kPlane, {test::w5_plane()}), along(run_out, Direction::kAxial)).code,
+      why_refused(part_with(Shape::kPlane, {test::w5_plane()}), along(run_out, Direction::kAxial))
+          .code,
       core::Code::kSampling);
   auto at_radius = along(run_out, Direction::kAxial);
   at_radius.indication.radius_mm = 20.0;
@@ -781,9 +784,9 @@ TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
   half[1].resize(11);
   part.plane("F", half);
   auto asked = along(about(Form::kRunOut, {"A"}), Direction::kAxial);
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kSampling);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 30.0;
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kSampling);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 15.0;
   EXPECT_GT(part.value(asked), 0.0);
 }
@@ -849,7 +852,7 @@ TEST(DrawingAttack, NoValueComesOutOfPointsThatFixNothing) {
 }
 
 /// Two cylinders, touched in the stated poses.
-record::RunRecord touched_run(const core::Pose& first, const core::Pose& second) {
+record::RunRecord two_clouds(const core::Pose& first, const core::Pose& second) {
   record::RunRecord out;
   out.ending = "finished";
   const Layers clouds[] = {round_journal(15.0, {0.0, 20.0}, 8),
@@ -886,14 +889,14 @@ core::Result<Finding> coaxiality_of(const record::RunRecord& record) {
 TEST(DrawingDatums, OfAnotherClampingAreRefused) {
   const core::Pose level{0.0, 0.0};
   const core::Pose leaning{0.02, 0.005};
-  EXPECT_TRUE(coaxiality_of(touched_run(level, level)).has_value());
-  const auto apart = coaxiality_of(touched_run(level, leaning));
+  EXPECT_TRUE(coaxiality_of(two_clouds(level, level)).has_value());
+  const auto apart = coaxiality_of(two_clouds(level, leaning));
   ASSERT_FALSE(apart.has_value());
   EXPECT_EQ(apart.error().code, core::Code::kMeaning);
   EXPECT_EQ(apart.error().what,
             "datum A: A was measured in pose (0, 0) deg and C in (1.14592, 0.286479) deg: measure "
             "both in one pose, e.g. with pose_search.strategy \"start-pose\"");
-  auto moved_between = touched_run(level, level);
+  auto moved_between = two_clouds(level, level);
   moved_between.decisions.push_back(
       {-1, 0.0, {core::MessageCode::kPartLocatedAgain, {16.0, std::string("moved")}}});
   EXPECT_FALSE(coaxiality_of(moved_between).has_value());
@@ -903,7 +906,7 @@ TEST(DrawingDatums, OfAnotherClampingAreRefused) {
 
 TEST(DrawingDatums, OfAnotherFileNeedTheSameClampingName) {
   const auto files = [](const std::string& first, const std::string& second) {
-    auto out = touched_run({}, {});
+    auto out = two_clouds({}, {});
     out.features[0].points_sha256 = first;
     out.features[1].points_sha256 = second;
     for (auto& feature : out.features) feature.strategy = record::Strategy::kPointsFile;
