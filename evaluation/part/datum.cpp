@@ -245,7 +245,7 @@ class AxisAssociation {
     }
     return core::fail(core::Code::kNotConverged,
                       core::phrase("datum {}: the search for its axis did not come to rest; plan "
-                                   "association \"ls\", or touch more points",
+                                   "association \"equalised\" or \"ls\"",
                                    datum_.named.name));
   }
   [[nodiscard]] core::Result<fit::DatumRock> rock() const {
@@ -295,7 +295,7 @@ class AxisAssociation {
   std::optional<Eigen::Vector3d> near_;
 };
 
-core::Result<DatumResult> axis_datum(const DatumPoints& datum) {
+core::Result<DatumResult> axis_datum(const DatumPoints& datum, Proof proof) {
   if (datum.surfaces.size() == 1 && (datum.surfaces[0].of->feature.shape == Shape::kCircle ||
                                      layers_in(datum.surfaces[0].sections) == 1)) {
     return core::fail(core::Code::kRank,
@@ -315,7 +315,7 @@ core::Result<DatumResult> axis_datum(const DatumPoints& datum) {
   }
   DatumResult out = datum.result(found->axis, found->radii_mm);
   out.length_mm = datum.extent_mm(out.place.direction);
-  if (datum.association != Association::kOneSided) return out;
+  if (datum.association != Association::kOneSided || proof == Proof::kNone) return out;
   const auto equalised = associated.find(Association::kEqualised);
   if (!equalised) return core::fail(equalised.error());
   const auto rock = associated.rock();
@@ -404,7 +404,7 @@ bool needs_axis(record::Form form) {
 
 core::Result<std::vector<DatumResult>> datums_of(std::span<const MeasuredSurface> part,
                                                  std::size_t feature,
-                                                 const record::Characteristic& asked) {
+                                                 const record::Characteristic& asked, Proof proof) {
   const auto letters = letters_of(part);
   if (!letters) return core::fail(letters.error());
   std::vector<NamedDatum> named;
@@ -420,7 +420,7 @@ core::Result<std::vector<DatumResult>> datums_of(std::span<const MeasuredSurface
   const FeatureResult& toleranced = *part[feature].of;
   const auto primary = datum_points(part, named.front(), association, toleranced);
   if (!primary) return core::fail(primary.error());
-  auto first = primary->named.plane ? plane_datum(*primary) : axis_datum(*primary);
+  auto first = primary->named.plane ? plane_datum(*primary) : axis_datum(*primary, proof);
   if (!first) return core::fail(first.error());
   std::vector<DatumResult> out = {*std::move(first)};
   if (!out.front().plane || !needs_axis(asked.form) || named.size() < 2 || named[1].plane) {

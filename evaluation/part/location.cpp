@@ -4,11 +4,10 @@
 
 #include "core/phrase.h"
 #include "core/units.h"
+#include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
 #include "fit/datums/datum.h"
-#include "fit/geometry/column_extremes.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/sections.h"
 #include "record/tasks/form_facts.h"
 
@@ -20,7 +19,7 @@ using record::Shape;
 
 /// The extracted median line: centres of sections square to the axis of the feature itself.
 struct MedianLine {
-  std::vector<SurfaceSection> sections;
+  Sections sections;
   std::vector<Eigen::Vector3d> centers_mm;
 };
 
@@ -30,34 +29,24 @@ tl::unexpected<core::Error> of_feature(const PreparedSurface& surface, const cor
 
 core::Result<MedianLine> median_line_of(const PreparedSurface& surface,
                                         const record::Indication& asked) {
-  const bool fixed = asked.section == record::Indication::Section::kSCS;
-  MedianLine out;
-  std::vector<std::vector<Eigen::Vector3d>> layers;
-  const auto all = layers_of(surface);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double layer = surface.sections[i].layer + 1.0;
-    const bool named = std::ranges::find(asked.section_layers, layer) != asked.section_layers.end();
-    if (fixed && !named) continue;
-    out.sections.push_back(surface.sections[i]);
-    layers.push_back(all[i]);
-  }
-  for (const double layer : asked.section_layers) {
-    const auto is_it = [&](const SurfaceSection& section) { return section.layer + 1.0 == layer; };
-    if (!fixed || std::ranges::any_of(out.sections, is_it)) continue;
-    return core::fail(core::Code::kSampling,
-                      core::phrase("layer {:g} of section_layers has no points; {} has {} layers",
-                                   layer, surface.of->feature.id, layers_in(surface.sections)));
-  }
-  if (layers.empty()) {
-    return core::fail(core::Code::kSampling,
-                      core::phrase("the points of {} fall into no sections: give the file a column "
-                                   "\"layer\"",
-                                   surface.of->feature.id));
-  }
-  const auto sections = fit::sections_across(layers, surface.axis);
+  auto sections = asked_sections(surface, asked);
   if (!sections) return of_feature(surface, sections.error());
-  out.centers_mm = fit::median_line(*sections);
-  return out;
+  const auto circles = projected(surface, *sections);
+  if (!circles) return of_feature(surface, circles.error());
+  return MedianLine{*std::move(sections), fit::median_line(*circles)};
+}
+
+/// The centre of a section that is not touched all round is not known well enough for a verdict.
+void note_unseen_centers(const PreparedSurface& surface, const MedianLine& line, Finding& out) {
+  for (const SurfaceSection& section : line.sections) {
+    const double unseen = unseen_in(surface, section);
+    if (unseen <= 0.0) continue;
+    out.no_verdict = core::phrase(
+        "layer {} leaves {:.0f} deg of the turn unseen: its centre is not known well enough; "
+        "measure the whole turn",
+        section.layer + 1, core::degrees(unseen));
+    return;
+  }
 }
 
 core::Result<void> check_direction(const PreparedSurface& surface, const MedianLine& line) {
@@ -117,94 +106,8 @@ core::Result<Finding> find_place(const PreparedSurface& surface,
                          2.0 * fit::distance_mm(datum->place, line->centers_mm[i])});
     if (out.local.back().value_mm > out.local[out.worst].value_mm) out.worst = i;
   }
+  note_unseen_centers(surface, *line, out);
   out.centers_mm = std::move(line->centers_mm);
-  return out;
-}
-
-/// A direction at an angle to another, turned about it by an azimuth.
-struct Leaning {
-  Eigen::Vector3d along;
-  Eigen::Matrix<double, 3, 2> across;
-  double cosine = 1.0;
-  double sine = 0.0;
-
-  [[nodiscard]] Eigen::Vector3d at(double azimuth_rad) const {
-    return cosine * along + sine * outward(azimuth_rad);
-  }
-  /// Square to at(), in one plane with it and `along`.
-  [[nodiscard]] Eigen::Vector3d square_to(double azimuth_rad) const {
-    return cosine * outward(azimuth_rad) - sine * along;
-  }
-  [[nodiscard]] Eigen::Vector3d outward(double azimuth_rad) const {
-    return across * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad));
-  }
-  [[nodiscard]] double azimuth_of(const Eigen::Vector3d& direction) const {
-    const Eigen::Vector2d part = across.transpose() * direction;
-    return std::atan2(part.y(), part.x());
-  }
-};
-
-Leaning leaning(const Eigen::Vector3d& along, double angle_rad) {
-  return {along, fit::across(along), std::cos(angle_rad), std::sin(angle_rad)};
-}
-
-/// The normal at an angle to the datum direction between whose planes the points have the least
-/// distance: the turn about the datum is free.
-/// @param near  Normal of the points.
-Eigen::Vector3d tightest_normal(fit::SpacePoints points, const Leaning& zone,
-                                const Eigen::Vector3d& near) {
-  const double start = zone.azimuth_of(near);
-  const auto range = [&](const Eigen::Vector3d& n) {
-    return fit::extremes_of(points, [&](const auto& p) { return (p - points.front()).dot(n); })
-        .width();
-  };
-  // A turn moves the points apart by their extent along the turn, so that the least range lies
-  // where that does not exceed the range at the start.
-  const double growth = zone.sine * range(zone.outward(start + 0.25 * core::kTwoPi));
-  if (!(growth > 0.0)) return zone.at(start);
-  const double reach = std::min(2.0 * range(zone.at(start)) / growth, 0.125 * core::kTwoPi);
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  constexpr int kSteps = 80;  // the bracket shrinks to 2e-17 of its width
-  double low = start - reach;
-  double high = start + reach;
-  double a = high - golden * (high - low);
-  double b = low + golden * (high - low);
-  double at_a = range(zone.at(a));
-  double at_b = range(zone.at(b));
-  for (int i = 0; i < kSteps; ++i) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - golden * (high - low);
-      at_a = range(zone.at(a));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + golden * (high - low);
-      at_b = range(zone.at(b));
-    }
-  }
-  return zone.at(0.5 * (low + high));
-}
-
-/// The zone of parallel planes with a normal, or the round one along it.
-core::Result<Finding> find_zone(const PreparedSurface& surface, const record::Characteristic& asked,
-                                std::span<const DatumResult> datums, fit::SpacePoints points,
-                                const Eigen::Vector3d& normal, bool round) {
-  const auto value = round ? fit::orientation_of_axis_mm(points, normal)
-                           : fit::orientation_of_plane_mm(points, normal);
-  if (!value) return of_feature(surface, value.error());
-  Finding out = found_about(surface, datums, datums.front());
-  add_value(asked, *value, round, out);
-  if (has_axis(surface)) {
-    out.centers_mm.assign(points.begin(), points.end());
-    return out;
-  }
-  std::vector<double> heights;
-  for (const auto& p : points) heights.push_back((p - points.front()).dot(normal));
-  add_extreme_rows(surface, heights, out);
   return out;
 }
 
@@ -224,31 +127,58 @@ core::Result<double> nominal_angle_rad(const record::Characteristic& asked, bool
   return same_kind ? between : square - between;
 }
 
+/// Orientation of a plane: two planes square to the datum direction, or at an angle to it.
+core::Result<Finding> find_plane(const PreparedSurface& surface,
+                                 const record::Characteristic& asked,
+                                 std::span<const DatumResult> datums, double angle_rad) {
+  const auto& points = surface.points_mm;
+  Eigen::Vector3d normal = datums.front().place.direction;
+  if (angle_rad > core::kSameAngle) {
+    const auto zone = fit::inclined_zone(points, normal, angle_rad, surface.axis.direction);
+    if (!zone) return of_feature(surface, zone.error());
+    normal = zone->outer.normal;
+  }
+  const auto value = fit::orientation_of_plane_mm(points, normal);
+  if (!value) return of_feature(surface, value.error());
+  Finding out = found_about(surface, datums, datums.front());
+  add_value(asked, *value, false, out);
+  std::vector<double> heights;
+  for (const auto& p : points) heights.push_back((p - points.front()).dot(normal));
+  add_extreme_rows(surface, heights, out);
+  return out;
+}
+
+/// Orientation of an axis: a round zone along the datum direction or at the angle of an angularity;
+/// two planes where the axis is to be square to it.
+core::Result<Finding> find_axis(const PreparedSurface& surface, const record::Characteristic& asked,
+                                std::span<const DatumResult> datums, double angle_rad) {
+  auto line = median_line_of(surface, record::Indication{});
+  if (!line) return core::fail(line.error());
+  if (auto enough = check_direction(surface, *line); !enough) return core::fail(enough.error());
+  const Eigen::Vector3d& to = datums.front().place.direction;
+  const bool along = angle_rad < core::kSameAngle;
+  const bool inclined = asked.form == Form::kAngularity && !along;
+  const auto value = along      ? fit::orientation_of_axis_mm(line->centers_mm, to)
+                     : inclined ? fit::angularity_of_axis_mm(line->centers_mm, to, angle_rad)
+                                : fit::orientation_of_plane_mm(line->centers_mm, to);
+  if (!value) return of_feature(surface, value.error());
+  Finding out = found_about(surface, datums, datums.front());
+  add_value(asked, *value, along || inclined, out);
+  note_unseen_centers(surface, *line, out);
+  out.centers_mm = std::move(line->centers_mm);
+  return out;
+}
+
 /// Parallelism, perpendicularity, angularity of an axis or of a plane to either.
 core::Result<Finding> find_orientation(const PreparedSurface& surface,
                                        const record::Characteristic& asked,
                                        std::span<const DatumResult> datums) {
   const bool plane = surface.of->feature.shape == Shape::kPlane;
   if (!plane && !has_axis(surface)) return not_of_shape(surface, asked);
-  const Eigen::Vector3d& to = datums.front().place.direction;
   const auto angle = nominal_angle_rad(asked, plane == datums.front().plane);
   if (!angle) return core::fail(angle.error());
-  const bool along = std::abs(*angle) < core::kSameAngle;
-  const Leaning zone = leaning(surface.axis.direction.dot(to) < 0.0 ? -to : to, *angle);
-  if (plane) {
-    const Eigen::Vector3d normal =
-        along ? to : tightest_normal(surface.points_mm, zone, surface.axis.direction);
-    return find_zone(surface, asked, datums, surface.points_mm, normal, false);
-  }
-  const auto line = median_line_of(surface, record::Indication{});
-  if (!line) return core::fail(line.error());
-  if (auto enough = check_direction(surface, *line); !enough) return core::fail(enough.error());
-  if (asked.form != Form::kAngularity) {
-    return find_zone(surface, asked, datums, line->centers_mm, to, along);
-  }
-  // Two planes, square to the plane in which the axis leans from the datum (ISO 1101).
-  const Eigen::Vector3d normal = zone.square_to(zone.azimuth_of(surface.axis.direction));
-  return find_zone(surface, asked, datums, line->centers_mm, normal, false);
+  return plane ? find_plane(surface, asked, datums, *angle)
+               : find_axis(surface, asked, datums, *angle);
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 
 #include "core/phrase.h"
 #include "core/units.h"
+#include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
+#include "evaluation/results/internal/deviation.h"
 #include "fit/datums/datum.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"
@@ -138,9 +140,9 @@ core::Result<std::vector<Circle>> stated_circle(const Turned& turned, double rad
 }
 
 /// The planned circles of a face; each must be one about the datum axis.
-core::Result<std::vector<Circle>> circles_of(const Turned& turned) {
+core::Result<std::vector<Circle>> circles_of(const Turned& turned, const Sections& sections) {
   std::vector<Circle> out;
-  for (const SurfaceSection& section : turned.surface.sections) {
+  for (const SurfaceSection& section : sections) {
     Circle circle{section.layer, 0.0, section.points};
     double mean = 0.0;
     for (const std::size_t i : circle.points) {
@@ -157,9 +159,9 @@ core::Result<std::vector<Circle>> circles_of(const Turned& turned) {
 }
 
 /// The sections of a cylinder or cone: all of them, never one.
-core::Result<std::vector<Circle>> turned_sections(const Turned& turned) {
+core::Result<std::vector<Circle>> turned_sections(const Turned& turned, const Sections& sections) {
   std::vector<Circle> out;
-  for (const SurfaceSection& section : turned.surface.sections) {
+  for (const SurfaceSection& section : sections) {
     if (section.points.size() < kFewestOnTurn) {
       return core::fail(core::Code::kSampling,
                         core::phrase("layer {} of {} has {} points, run-out needs at least {}: "
@@ -175,17 +177,29 @@ core::Result<std::vector<Circle>> turned_sections(const Turned& turned) {
 core::Result<std::vector<Circle>> turned_circles(const Turned& turned,
                                                  const record::Indication& asked) {
   if (turned.axial && asked.radius_mm) return stated_circle(turned, *asked.radius_mm);
-  if (turned.surface.sections.empty()) {
-    return core::fail(core::Code::kSampling,
-                      core::phrase("the points of {} fall into no sections: give the file a column "
-                                   "\"layer\"",
-                                   turned.surface.of->feature.id));
+  const auto sections = asked_sections(turned.surface, record::Indication{});
+  if (!sections) {
+    return core::fail(sections.error().code, core::phrase("{}: {}", turned.surface.of->feature.id,
+                                                          sections.error().said()));
   }
-  return turned.axial ? circles_of(turned) : turned_sections(turned);
+  return turned.axial ? circles_of(turned, *sections) : turned_sections(turned, *sections);
+}
+
+/// What no point and no window names of a turn can only add to the run-out.
+void note_unseen_turn(const PreparedSurface& surface, const record::Characteristic& asked,
+                      Finding& out) {
+  const auto& limit = asked.tolerance_mm;
+  if (limit && out.judged.front().value_mm > *limit) return;
+  double unseen = surface.sections.empty() ? unseen_in(surface) : 0.0;
+  for (const SurfaceSection& section : surface.sections) {
+    if (!section.points.empty()) unseen = std::max(unseen, unseen_in(surface, section));
+  }
+  if (unseen > 0.0) out.no_verdict = unseen_words(unseen);
 }
 
 /// The rows at both ends of the measure among some points, the greatest first.
-void add_rows(const Turned& turned, const std::vector<std::size_t>& points, Finding& finding) {
+void add_turned_rows(const Turned& turned, const std::vector<std::size_t>& points,
+                     Finding& finding) {
   const auto [least, greatest] =
       std::ranges::minmax_element(points, {}, [&](std::size_t i) { return turned.measure[i]; });
   finding.rows = {turned.surface.rows[*greatest], turned.surface.rows[*least]};
@@ -210,8 +224,9 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
   if (asked.form == Form::kTotalRunOut) {
     std::vector<std::size_t> all(surface.points_mm.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    add_rows(*about, all, out);
+    add_turned_rows(*about, all, out);
     out.judged.push_back({symbol, measured_range(*about, all).width(), limits_of(asked)});
+    note_unseen_turn(surface, asked, out);
     return out;
   }
   const auto found = turned_circles(*about, asked.indication);
@@ -222,8 +237,9 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
                          measured_range(*about, circle.points).width()});
     if (out.local.back().value_mm > out.local[out.worst].value_mm) out.worst = out.local.size() - 1;
   }
-  add_rows(*about, (*found)[out.worst].points, out);
+  add_turned_rows(*about, (*found)[out.worst].points, out);
   out.judged.push_back({symbol, out.local[out.worst].value_mm, limits_of(asked)});
+  note_unseen_turn(surface, asked, out);
   return out;
 }
 

@@ -50,7 +50,7 @@ record::Characteristic along(record::Characteristic asked, Direction direction) 
   return asked;
 }
 
-core::Error refusal(const DrawnPart& part, const record::Characteristic& asked) {
+core::Error why_refused(const DrawnPart& part, const record::Characteristic& asked) {
   const auto found = part.last(asked);
   EXPECT_FALSE(found.has_value()) << "there is a value: " << found->judged.front().value_mm;
   return found ? core::Error{} : found.error();
@@ -252,8 +252,8 @@ TEST(DrawingDatums, OfAnAxisAndAPlaneAreTheAxis) {
             part.value(about(Form::kTotalRunOut, {"D"})));
 }
 
-DrawnPart moved(const DrawnPart& part,
-                const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& move) {
+DrawnPart moved_part(const DrawnPart& part,
+                     const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& move) {
   DrawnPart out = part;
   for (FeatureResult& feature : out.features) {
     for (CloudPoint& point : feature.cloud) point.tip_mm = move(point.tip_mm);
@@ -276,10 +276,11 @@ TEST(DrawingInvariance, ShiftTurnOrderMirrorAndSwap) {
   const DrawnPart part = stepped_shaft();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.3, Eigen::Vector3d(2, -1, 0.5).normalized()));
   const DrawnPart others[] = {
-      moved(part, [](const auto& p) { return Eigen::Vector3d(p + Eigen::Vector3d(1e3, 0, -1e3)); }),
-      moved(part, [&](const auto& p) { return Eigen::Vector3d(turn * p); }),
-      moved(part, [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }),
-      moved(part, [](const auto& p) { return Eigen::Vector3d(p.x(), -p.y(), -p.z()); }),
+      moved_part(part,
+                 [](const auto& p) { return Eigen::Vector3d(p + Eigen::Vector3d(1e3, 0, -1e3)); }),
+      moved_part(part, [&](const auto& p) { return Eigen::Vector3d(turn * p); }),
+      moved_part(part, [](const auto& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); }),
+      moved_part(part, [](const auto& p) { return Eigen::Vector3d(p.x(), -p.y(), -p.z()); }),
       reordered(part)};
   for (const Association association :
        {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
@@ -300,7 +301,7 @@ TEST(DrawingInvariance, OfAFaceWhicheverWayItsAxisPoints) {
   const auto asked = along(about(Form::kRunOut, {"D"}), Direction::kAxial);
   const double value = part.value(asked);
   const Eigen::Quaterniond over(Eigen::AngleAxisd(3.0, Eigen::Vector3d(1, 2, 0).normalized()));
-  const DrawnPart turned = moved(
+  const DrawnPart turned = moved_part(
       part, [&](const auto& p) { return Eigen::Vector3d(over * p + Eigen::Vector3d(0, 1e3, 0)); });
   EXPECT_NEAR(turned.value(asked), value, 1e-9);
   EXPECT_NEAR(reordered(part).value(asked), value, 1e-9);
@@ -380,6 +381,30 @@ TEST(DrawingDatums, OfPerfectFormAreTheirAxis) {
       }
     }
   }
+}
+
+TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
+  // All points of the narrow end touch, and round-off chooses among them.
+  DrawnPart part;
+  part.cylinder("A",
+                {{{14.9931, 0.0, 0.0},
+                  {9.3455, 11.7275, 0.0},
+                  {-3.3447, 14.6239, 0.0},
+                  {-13.5214, 6.5083, 0.0},
+                  {-13.5214, -6.5083, 0.0},
+                  {-3.3447, -14.6239, 0.0},
+                  {9.3455, -11.7275, 0.0}},
+                 {{14.9841, 0.0, 17.938},
+                  {9.3398, 11.7204, 17.938},
+                  {-3.3427, 14.6151, 17.938},
+                  {-13.5133, 6.5043, 17.938},
+                  {-13.5133, -6.5043, 17.938},
+                  {-3.3427, -14.6151, 17.938},
+                  {9.3398, -11.7204, 17.938}}},
+                Side::kInside);
+  part.cylinder("C", round_journal(20.0, {60.0, 70.0, 80.0}, 36,
+                                   [](double /*z*/) { return Eigen::Vector2d(-0.0069, 0.0); }));
+  EXPECT_LT(part.value(about(Form::kTotalRunOut, {"A"}, Association::kEqualised)), 1e-3);
 }
 
 TEST(DrawingRunOut, AboutItsOwnCircumscribedAxisIsTheCylindricity) {
@@ -547,7 +572,7 @@ TEST(DrawingLocation, ConcentricityIsOfTheNamedSections) {
   EXPECT_EQ(std::max(part.value(asked), found->judged[0].value_mm),
             part.value(about(Form::kCoaxiality, {"A-B"})));
   asked.indication.section_layers = {3.0};
-  EXPECT_EQ(refusal(part, asked).what, "layer 3 of section_layers has no points; C has 2 layers");
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kRank);
 }
 
 /// Plane through the origin whose normal leans by an angle to z, with a crown and a wave.
@@ -599,7 +624,7 @@ TEST(DrawingOrientation, OfAPlaneIsFreeToTurnAboutTheDatum) {
   asked.indication.angle_deg = 60.0;
   EXPECT_NEAR(part.value(asked), value, 1e-9);
   asked.indication.angle_deg.reset();
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kMissingKey);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kMissingKey);
   // The same zone by its other names.
   const Layers upright = leaning_plane(90.0 * core::kDegree + 1e-4, 2.1, 0.002);
   part.plane("L", upright);
@@ -638,7 +663,7 @@ TEST(DrawingOrientation, OfAnAxisHasARoundZoneOnlyWhereItsDirectionIsThatOfTheDa
   EXPECT_NEAR(part.value(asked(Form::kPerpendicularity, "E", 0)), kRange, 1e-9);
   EXPECT_EQ(symbol(asked(Form::kPerpendicularity, "E", 0)), "PER \u00d8");
   EXPECT_NEAR(part.value(asked(Form::kAngularity, "A", 0)), kRange, 1e-9);
-  EXPECT_EQ(symbol(asked(Form::kAngularity, "A", 0)), "ANG");
+  EXPECT_EQ(symbol(asked(Form::kAngularity, "A", 0)), "ANG \u00d8");
   part.cylinder("H", leaning_cylinder(0.25 * core::kTwoPi + kLean));
   EXPECT_NEAR(part.value(asked(Form::kParallelism, "E", 0)), kRange, 1e-9);
   EXPECT_EQ(symbol(asked(Form::kParallelism, "E", 0)), "PAR");
@@ -667,14 +692,15 @@ TEST(DrawingDatums, AreNamedByLetterOrIdAndSplitAtHyphens) {
   EXPECT_NEAR(part.value(coaxiality("left journal-B")), 0.013283035987, 1e-10);
   EXPECT_NEAR(part.value(coaxiality("left journal")), 0.018443767895, 1e-10);
   EXPECT_TRUE(part.last(coaxiality("right-journal")).has_value());
-  EXPECT_EQ(refusal(part, coaxiality("A-D")).what,
+  EXPECT_EQ(why_refused(part, coaxiality("A-D")).what,
             "datum \"A-D\": no feature has the letter or id \"D\"; the plan has A, B, other, C");
-  EXPECT_EQ(refusal(part, coaxiality("A-A")).what, "datum \"A-A\" names \"A\" twice");
-  EXPECT_EQ(refusal(part, coaxiality("A-C")).what,
+  EXPECT_EQ(why_refused(part, coaxiality("A-A")).what, "datum \"A-A\" names \"A\" twice");
+  EXPECT_EQ(why_refused(part, coaxiality("A-C")).what,
             "datum \"A-C\": a feature is no datum of itself");
-  EXPECT_EQ(refusal(part, coaxiality("C")).code, core::Code::kMeaning);
-  EXPECT_EQ(refusal(part, coaxiality("A-")).code, core::Code::kMeaning);
-  EXPECT_EQ(refusal(part, about(Form::kCoaxiality, {"A", "nothing"})).code, core::Code::kMeaning);
+  EXPECT_EQ(why_refused(part, coaxiality("C")).code, core::Code::kMeaning);
+  EXPECT_EQ(why_refused(part, coaxiality("A-")).code, core::Code::kMeaning);
+  EXPECT_EQ(why_refused(part, about(Form::kCoaxiality, {"A", "nothing"})).code,
+            core::Code::kMeaning);
 }
 
 TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
@@ -694,7 +720,7 @@ TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
   part.cylinder("A", test::w3_a());
   part.cylinder("C", test::w3_c());
   const auto why = [&](std::vector<std::string> datum, Association association) {
-    return refusal(part, about(Form::kCoaxiality, std::move(datum), association)).what;
+    return why_refused(part, about(Form::kCoaxiality, std::move(datum), association)).what;
   };
   EXPECT_EQ(why({"K"}, Association::kLs),
             "datum \"K\": a cone gives no datum here; name a cylinder or a plane");
@@ -725,7 +751,7 @@ TEST(DrawingRefusals, OfRunOutAndLocationSayWhatToPlanInstead) {
     return out;
   };
   const auto what = [&](Shape shape, const Layers& layers, const record::Characteristic& asked) {
-    return refusal(part_with(shape, layers), asked).what;
+    return why_refused(part_with(shape, layers), asked).what;
   };
   const auto run_out = about(Form::kRunOut, {"A"});
   EXPECT_EQ(what(Shape::kCylinder, test::w3_c(), along(run_out, Direction::kAxial)),
@@ -741,7 +767,8 @@ TEST(DrawingRefusals, OfRunOutAndLocationSayWhatToPlanInstead) {
             "perpendicularity");
   // A face of scattered points has no circle about the datum.
   EXPECT_EQ(
-      refusal(part_with(Shape::kPlane, {test::w5_plane()}), along(run_out, Direction::kAxial)).code,
+      why_refused(part_with(Shape::kPlane, {test::w5_plane()}), along(run_out, Direction::kAxial))
+          .code,
       core::Code::kSampling);
   auto at_radius = along(run_out, Direction::kAxial);
   at_radius.indication.radius_mm = 20.0;
@@ -757,11 +784,43 @@ TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
   half[1].resize(11);
   part.plane("F", half);
   auto asked = along(about(Form::kRunOut, {"A"}), Direction::kAxial);
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kSampling);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 30.0;
-  EXPECT_EQ(refusal(part, asked).code, core::Code::kSampling);
+  EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 15.0;
   EXPECT_GT(part.value(asked), 0.0);
+}
+
+TEST(DrawingRefusals, OfAPartOfTheTurnLeaveNoVerdict) {
+  Layers open = round_journal(20.0, {80.0, 100.0}, 24,
+                              [](double /*z*/) { return Eigen::Vector2d(0.002, 0.0); });
+  for (auto& layer : open) layer.resize(15);  // 150 deg are not touched
+  DrawnPart part;
+  part.cylinder("A", round_journal(15.0, {0.0, 40.0}, 24));
+  part.cylinder("C", open);
+  for (const Form form :
+       {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality, Form::kParallelism}) {
+    SCOPED_TRACE(name_of(form));
+    auto asked = about(form, {"A"});
+    asked.tolerance_mm = 0.01;
+    const auto found = part.last(asked);
+    ASSERT_TRUE(found.has_value()) << found.error().what;
+    EXPECT_TRUE(found->no_verdict.has_value());
+  }
+  // The rest of the turn can only add to a run-out that fails already.
+  auto asked = about(Form::kRunOut, {"A"});
+  asked.tolerance_mm = 0.001;
+  EXPECT_FALSE(part.last(asked)->no_verdict.has_value());
+}
+
+TEST(DrawingDatums, OfATrialAreTheStatedOnesAlone) {
+  const DrawnPart shaft = stepped_shaft();
+  const auto asked = about(Form::kTotalRunOut, {"A"}, Association::kOneSided);
+  const auto trial = find(surfaces_of(shaft.features), 2, asked, Proof::kNone);
+  ASSERT_TRUE(trial.has_value());
+  EXPECT_EQ(trial->judged[0].value_mm, shaft.value(asked));
+  EXPECT_TRUE(trial->about_equalised_mm.empty());
+  EXPECT_FALSE(rocks(*trial));
 }
 
 TEST(DrawingAttack, NoValueComesOutOfPointsThatFixNothing) {
@@ -793,7 +852,7 @@ TEST(DrawingAttack, NoValueComesOutOfPointsThatFixNothing) {
 }
 
 /// Two cylinders, touched in the stated poses.
-record::RunRecord touched_run(const core::Pose& first, const core::Pose& second) {
+record::RunRecord two_clouds(const core::Pose& first, const core::Pose& second) {
   record::RunRecord out;
   out.ending = "finished";
   const Layers clouds[] = {round_journal(15.0, {0.0, 20.0}, 8),
@@ -830,14 +889,14 @@ core::Result<Finding> coaxiality_of(const record::RunRecord& record) {
 TEST(DrawingDatums, OfAnotherClampingAreRefused) {
   const core::Pose level{0.0, 0.0};
   const core::Pose leaning{0.02, 0.005};
-  EXPECT_TRUE(coaxiality_of(touched_run(level, level)).has_value());
-  const auto apart = coaxiality_of(touched_run(level, leaning));
+  EXPECT_TRUE(coaxiality_of(two_clouds(level, level)).has_value());
+  const auto apart = coaxiality_of(two_clouds(level, leaning));
   ASSERT_FALSE(apart.has_value());
   EXPECT_EQ(apart.error().code, core::Code::kMeaning);
   EXPECT_EQ(apart.error().what,
             "datum A: A was measured in pose (0, 0) deg and C in (1.14592, 0.286479) deg: measure "
             "both in one pose, e.g. with pose_search.strategy \"start-pose\"");
-  auto moved_between = touched_run(level, level);
+  auto moved_between = two_clouds(level, level);
   moved_between.decisions.push_back(
       {-1, 0.0, {core::MessageCode::kPartLocatedAgain, {16.0, std::string("moved")}}});
   EXPECT_FALSE(coaxiality_of(moved_between).has_value());
@@ -847,7 +906,7 @@ TEST(DrawingDatums, OfAnotherClampingAreRefused) {
 
 TEST(DrawingDatums, OfAnotherFileNeedTheSameClampingName) {
   const auto files = [](const std::string& first, const std::string& second) {
-    auto out = touched_run({}, {});
+    auto out = two_clouds({}, {});
     out.features[0].points_sha256 = first;
     out.features[1].points_sha256 = second;
     for (auto& feature : out.features) feature.strategy = record::Strategy::kPointsFile;
