@@ -31,6 +31,7 @@ using Eigen::VectorXd;
 enum Stream : std::uint64_t { kSharedStream = 14, kNoiseStream = 15 };
 
 constexpr std::size_t kReadDraws = 7;  // per chain, of inspections of a drawn part
+constexpr std::size_t kBiasDraws = 8;  // per chain, of the bias by place, size and shared errors
 constexpr std::uint64_t kMostChains = 64;
 // Work that keeps the trials of a part to some seconds: points that all value functions read, where
 // a call counts as kPointsOfCall of them. Parts that need more have fewer trials, down to
@@ -226,6 +227,8 @@ struct PartTrials::Part::Chain {
                           : nullptr);
       moved.push_back(part.surfaces[s].measured);
     }
+    mirrored = moved;
+    center = moved;
     other = moved;
   }
 
@@ -233,6 +236,8 @@ struct PartTrials::Part::Chain {
   core::KeyedNoise noise;   ///< For simulated inspections and spots.
   std::vector<std::unique_ptr<FormChain>> forms;
   std::vector<MeasuredSurface> moved;
+  std::vector<MeasuredSurface> mirrored;  ///< Moved the other way, with the same form.
+  std::vector<MeasuredSurface> center;    ///< Not moved, with the same form.
   std::vector<MeasuredSurface> other;
 };
 
@@ -240,6 +245,8 @@ struct PartTrials::Part::Chain {
 struct PartTrials::Part::Values {
   std::vector<std::vector<std::vector<double>>> rows_mm;
   std::vector<std::vector<std::vector<double>>> read_mm;
+  /// Change of the values by place, size and shared errors, free of what is linear in them.
+  std::vector<std::vector<std::vector<double>>> bias_mm;
   std::vector<DrawTally> tallies;  ///< By surface.
   std::size_t done = 0;
 };
@@ -488,7 +495,9 @@ void PartTrials::Part::move(std::size_t surface, const VectorXd& deviations_mm,
 void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain& chain,
                                 Values& out) const {
   const VectorXd z = drawn_coefficients(modes, chain.shared);
-  const bool inspect = out.done++ < kReadDraws;
+  const bool inspect = out.done < kReadDraws;
+  const bool mirror = out.done < kBiasDraws;
+  ++out.done;
   std::vector<bool> spots(surfaces.size(), false);
   VectorXd errors;
   std::vector<VectorXd> inspected(surfaces.size());
@@ -504,10 +513,15 @@ void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain&
     }
     deviations -= made.rigid * (made.shared * z);
     move(s, deviations, chain.moved);
-    for (MeasuredSurface* moved : {&chain.moved[s], &chain.other[s]}) {
-      if (!moved->tip_radius_mm) continue;
-      moved->tip_radius_mm =
-          *surfaces[s].measured.tip_radius_mm - tip_mm.row(static_cast<Index>(s)).dot(z);
+    if (const auto& tip = surfaces[s].measured.tip_radius_mm) {
+      const double by = tip_mm.row(static_cast<Index>(s)).dot(z);
+      chain.moved[s].tip_radius_mm = chain.other[s].tip_radius_mm = *tip - by;
+      chain.mirrored[s].tip_radius_mm = *tip + by;
+    }
+    if (mirror) {
+      const VectorXd center = made.model->place_mm() + draw.form_mm;
+      move(s, center, chain.center);
+      move(s, 2.0 * center - deviations, chain.mirrored);
     }
     // See chains.cpp: noise has raised the maximum of competing spots once; raising it once more
     // and reflecting removes that.
@@ -525,6 +539,11 @@ void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain&
     if (std::any_of(on.begin(), on.end(), [&](std::size_t s) { return spots[s]; })) {
       const std::vector<double> raised = questions[q].values(chain.other);
       for (std::size_t v = 0; v < row.size(); ++v) row[v] -= raised[v] - row[v];
+    } else if (mirror) {
+      std::vector<double> bias = questions[q].values(chain.mirrored);
+      const std::vector<double> center = questions[q].values(chain.center);
+      for (std::size_t v = 0; v < row.size(); ++v) bias[v] = 0.5 * (row[v] + bias[v]) - center[v];
+      out.bias_mm[q].push_back(std::move(bias));
     }
     out.rows_mm[q].push_back(std::move(row));
   }
@@ -555,6 +574,11 @@ std::vector<double> joined_chains(const std::vector<std::vector<double>>& chains
   return out;
 }
 
+/// A value less its bias. No bias makes a deviation negative.
+double without_bias(double value_mm, double bias_mm) {
+  return value_mm >= 0.0 ? std::max(value_mm - bias_mm, 0.0) : value_mm - bias_mm;
+}
+
 double tolerance_of(const std::vector<std::vector<double>>& chains, double coverage) {
   const std::vector<std::span<const double>> spans(chains.begin(), chains.end());
   return numerical_tolerance_mm(spans, coverage);
@@ -573,6 +597,7 @@ class PartTrials::Part::Run {
       Values& values = values_.emplace_back();
       values.rows_mm.resize(questions.size());
       values.read_mm.resize(questions.size());
+      values.bias_mm.resize(questions.size());
       values.tallies.resize(part.surfaces.size());
       for (std::size_t s = 0; s < part.surfaces.size(); ++s) {
         values.tallies[s].spot_counts.assign(part.surfaces[s].rows.size(), 0);
@@ -620,6 +645,10 @@ class PartTrials::Part::Run {
     for (const Values& chain : values_) {
       out.rows_mm.insert(out.rows_mm.end(), chain.rows_mm[q].begin(), chain.rows_mm[q].end());
     }
+    for (std::size_t v = 0; v < question.read_mm.size(); ++v) {
+      const double bias = bias_mm(q, v);
+      for (std::vector<double>& row : out.rows_mm) row[v] = without_bias(row[v], bias);
+    }
     return out;
   }
 
@@ -635,10 +664,30 @@ class PartTrials::Part::Run {
                 });
   }
 
-  /// The trials of a value, chain by chain.
+  /// Bias of a value in the trials. Nothing is known of place and size but the points, so that a
+  /// trial adds to them once more the errors that are in the points: a distance, or the greatest of
+  /// several, grows each time by as much. Source: B. Efron, R. Tibshirani 1993 (bootstrap).
+  [[nodiscard]] double bias_mm(std::size_t q, std::size_t v) const {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const Values& chain : values_) {
+      for (const std::vector<double>& row : chain.bias_mm[q]) {
+        if (!std::isfinite(row[v])) continue;
+        sum += row[v];
+        count += 1.0;
+      }
+    }
+    return count > 0.0 ? sum / count : 0.0;
+  }
+
+  /// The trials of a value without their bias, chain by chain.
   [[nodiscard]] std::vector<std::vector<double>> trials(std::size_t q, std::size_t v) const {
+    const double bias = bias_mm(q, v);
     std::vector<std::vector<double>> out;
-    for (const Values& chain : values_) out.push_back(column_of(chain.rows_mm[q], v));
+    for (const Values& chain : values_) {
+      std::vector<double>& one = out.emplace_back(column_of(chain.rows_mm[q], v));
+      for (double& value : one) value = without_bias(value, bias);
+    }
     return out;
   }
 
