@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -169,6 +170,7 @@ core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis&
     return std::atan2(q.y(), q.x());
   };
   std::vector<Generatrix> out;
+  std::string missing;
   for (const Eigen::Vector3d& first : layers_mm.front()) {
     Generatrix line;
     line.angle_rad = angle_of(first);
@@ -179,18 +181,19 @@ core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis&
       };
       const auto nearest = std::ranges::min_element(layer, {}, apart);
       if (apart(*nearest) > kSameGeneratrix) {
-        return core::fail(
-            core::Code::kSampling,
-            fmt::format("layer {} has no point within 0.5 deg of {:.3f} deg, the "
-                        "nearest is {:.3f} deg off: begin all layers at one angle "
-                        "(stagger 0), or scan",
-                        j, core::degrees(line.angle_rad), core::degrees(apart(*nearest))));
+        missing = fmt::format(
+            "no generatrix has a point in every layer: layer {} has none within 0.5 deg of {:.3f} "
+            "deg, the nearest is {:.3f} deg off: begin all layers at one angle (stagger 0), or "
+            "scan",
+            j, core::degrees(line.angle_rad), core::degrees(apart(*nearest)));
+        break;
       }
       line.heights_mm.push_back((*nearest - axis.point_mm).dot(axis.direction));
       line.distances_mm.push_back(distance_mm(axis, *nearest));
     }
-    out.push_back(std::move(line));
+    if (line.heights_mm.size() == layers_mm.size()) out.push_back(std::move(line));
   }
+  if (out.empty()) return core::fail(core::Code::kSampling, missing);
   return out;
 }
 

@@ -51,9 +51,11 @@ struct Generatrix {
 
 /// Collects the generatrices of touched layers that begin at the same angle.
 /// @param axis  Least-squares axis of the feature.
-/// @return One for each point of the first layer, in its order; kNoPoints (no layer), kNotFinite
-///         (row), kSampling if a layer has no point within 0.5 deg of an angle (staggered layers).
-/// Source: methods, drawing section 4.2.
+/// @return One for each angle of the first layer at which every layer has a point within 0.5 deg,
+/// in
+///         its order: those through a window are omitted. kNoPoints (no layer), kNotFinite (row),
+///         kSampling if there is no such angle (staggered layers).
+/// Source: methods, drawing sections 4.2 and 7.
 [[nodiscard]] core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm,
                                                                  const Axis& axis);
 

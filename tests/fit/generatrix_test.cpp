@@ -70,6 +70,20 @@ TEST_F(TaperedJournal, HasABentMedianLine) {
   EXPECT_NEAR(min_zone_line(median_line(*sections))->diameter_mm, 0.002483893854, kDigits);
 }
 
+TEST_F(TaperedJournal, OmitsGeneratricesThroughAWindow) {
+  auto layers = layers_;
+  layers[0].erase(layers[0].begin() + 5);
+  layers[2].erase(layers[2].begin() + 2);
+  const auto lines = generatrices(layers, axis_);
+  ASSERT_TRUE(lines.has_value()) << lines.error().what;
+  ASSERT_EQ(lines->size(), 6U);
+  const auto all = *generatrices(layers_, axis_);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Generatrix& same = all[std::vector<std::size_t>{0, 1, 3, 4, 6, 7}[k]];
+    EXPECT_EQ((*lines)[k].distances_mm, same.distances_mm);
+  }
+}
+
 TEST_F(TaperedJournal, HasNoGeneratricesIfItsLayersAreStaggered) {
   auto layers = layers_;
   for (auto& p : layers[2]) p = Eigen::Vector3d(p.x() - 0.2 * p.y(), p.y() + 0.2 * p.x(), p.z());
