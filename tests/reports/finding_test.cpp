@@ -26,7 +26,6 @@ namespace {
 using nlohmann::ordered_json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// "/features/0/characteristics/1/..." of the drawing.
 ordered_json characteristic(int feature, int number) {

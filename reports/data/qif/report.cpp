@@ -180,6 +180,7 @@ std::string write_qif(const record::RunRecord& record, const evaluation::Evaluat
     add_qif_characteristics(draft, places, feature);
     nominals.push_back(places.whole ? std::optional(places.whole->nominal) : std::nullopt);
   }
+  // A datum may be a feature after the first that refers to it.
   for (const auto& [label, datum] : draft.datums) {
     if (datum.feature >= nominals.size() || !nominals[datum.feature]) continue;
     const pugi::xml_node node = draft.lists.datum_definitions.find_child_by_attribute(

@@ -61,8 +61,7 @@ struct QifLists {
 /// A datum feature of the document.
 struct QifDatum {
   int definition = 0;
-  std::size_t feature =
-      0;  ///< Of the evaluation; its nominal is written after the characteristics.
+  std::size_t feature = 0;  ///< Of the evaluation.
 };
 
 /// A document under construction.
