@@ -90,24 +90,26 @@ Json left_out_json(const evaluation::LeftOut& left_out) {
 Json finding_json(const evaluation::Finding& finding, core::LengthUnit unit) {
   const Lengths lengths(unit);
   const bool local = finding.worst < finding.local.size();
-  return {{"reference", finding.reference},
-          {"filter", finding.filter},
-          {"judged", list_json(finding.judged,
-                               [&](const auto& value) { return judged_json(value, lengths); })},
-          {"local",
-           list_json(finding.local, [&](const auto& value) { return local_json(value, lengths); })},
-          {"worst", local ? Json(finding.worst) : Json(nullptr)},
-          {"numbers", list_json(finding.numbers,
-                                [&](const auto& number) { return number_json(number, lengths); })},
-          {"datums", list_json(finding.datums, datum_json)},
-          {lengths.key("about_equalised"),
-           list_json(finding.about_equalised_mm,
-                     [&](double value_mm) { return lengths.number(value_mm); })},
-          {"left_out", list_json(finding.left_out, left_out_json)},
-          {"rows", finding.rows},
-          {"centers_mm", list_json(finding.centers_mm, vector_json)},
-          {"lines", list_json(finding.lines, line_json)},
-          {"warnings", list_json(finding.warnings, error_json)}};
+  return {
+      {"reference", finding.reference},
+      {"filter", finding.filter},
+      {"judged",
+       list_json(finding.judged, [&](const auto& value) { return judged_json(value, lengths); })},
+      {"local",
+       list_json(finding.local, [&](const auto& value) { return local_json(value, lengths); })},
+      {"worst", local ? Json(finding.worst) : Json(nullptr)},
+      {"numbers", list_json(finding.numbers,
+                            [&](const auto& number) { return number_json(number, lengths); })},
+      {"datums", list_json(finding.datums, datum_json)},
+      {lengths.key("about_equalised"),
+       list_json(finding.about_equalised_mm,
+                 [&](double value_mm) { return lengths.number(value_mm); })},
+      {"left_out", list_json(finding.left_out, left_out_json)},
+      {"rows", finding.rows},
+      {"centers_mm", list_json(finding.centers_mm,
+                               [](const Eigen::Vector3d& center) { return vector_json(center); })},
+      {"lines", list_json(finding.lines, line_json)},
+      {"warnings", list_json(finding.warnings, error_json)}};
 }
 
 }  // namespace rondure::reports

@@ -13,8 +13,6 @@
 namespace rondure::reports {
 namespace {
 
-Json vector_json(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
-
 Json axis_json(const fit::Axis& axis) {
   return {{"point_mm", vector_json(axis.point_mm)}, {"direction", vector_json(axis.direction)}};
 }

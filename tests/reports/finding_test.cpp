@@ -183,13 +183,20 @@ TEST(FindingSummary, SaysLimitsWorstSectionDatumAndWhatIsLeftOut) {
                           HasSubstr("3 points: keyway 2, outlier rule 1")));
 }
 
+TEST(FindingSummary, ASizeIsStatedInChinese) {
+  const Case made = drawing_case();
+  EXPECT_THAT(write_summary(made.record, made.evaluation, SketchStyle::kAscii, Language::kChinese),
+              AllOf(HasSubstr("d GG = 49.995500 mm（"), HasSubstr("49.984 至 50 mm"),
+                    HasSubstr("基准 A-B 摆动 7.800 um")));
+}
+
 TEST(FindingArchive, KeepsLowerLimitReferenceAndFilter) {
   const Case made = drawing_case();
   const record::ArchiveRun run = archive_entry(made.record, made.evaluation, "");
   ASSERT_EQ(run.results.size(), 6U);
   EXPECT_EQ(run.results[1].lower_limit, 49.984);
   EXPECT_EQ(run.results[1].upper_limit, 50.0);
-  EXPECT_EQ(run.results[1].reference, "GN, as felt by the tip");
+  EXPECT_EQ(run.results[1].reference, "GN");
   EXPECT_EQ(run.results[0].lower_limit, std::nullopt);
 }
 

@@ -395,7 +395,7 @@ namespace {
 evaluation::CharacteristicResult found_result(record::Characteristic asked,
                                               evaluation::Finding finding,
                                               evaluation::Verdict verdict) {
-  finding.reference = core::phrase("GN, as felt by the tip");
+  finding.reference = core::as_it_is("GN");
   finding.filter = core::phrase("unfiltered");
   const evaluation::JudgedValue& first = finding.judged.front();
   evaluation::StatedValue value(

@@ -25,6 +25,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline Json vector_json(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
+[[nodiscard]] inline Json vector_json(const Eigen::Vector2d& v) {
+  return Json::array({v.x(), v.y()});
+}
 [[nodiscard]] inline Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
