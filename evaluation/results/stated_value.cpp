@@ -9,6 +9,21 @@ namespace rondure::evaluation {
 
 using core::um;
 
+namespace {
+
+/// A symbol ("CYLt", "d LP SX", "COAX \u00d8") is the same in every language; a name ("Run-out",
+/// with three small letters in a row) has its word in a catalogue.
+core::Phrase symbol_words(const std::string& symbol) {
+  int small = 0;
+  for (const char c : symbol) {
+    small = c >= 'a' && c <= 'z' ? small + 1 : 0;
+    if (small == 3) return core::Phrase(symbol);
+  }
+  return core::as_it_is(symbol);
+}
+
+}  // namespace
+
 ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
                              TipTerm tip, TemperatureTerm temperature)
     : words_(core::phrase("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),
@@ -92,9 +107,9 @@ core::Phrase StatedValue::operator_text() const {
 core::Phrase StatedValue::sentence() const {
   const UncertaintyStatement* known = statement();
   if (known == nullptr) {
-    return core::phrase("{} = {} ({})", core::Phrase(symbol_), value_text(), operator_text());
+    return core::phrase("{} = {} ({})", symbol_words(symbol_), value_text(), operator_text());
   }
-  return core::phrase("{} = {} {}, {:g} % [{}, {}]; as read {} {} ({})", core::Phrase(symbol_),
+  return core::phrase("{} = {} {}, {:g} % [{}, {}]; as read {} {} ({})", symbol_words(symbol_),
                       in_digits(known->estimate_mm), name_of(unit_),
                       100.0 * uncertainty_.coverage_1(), in_digits(known->low_mm),
                       in_digits(known->high_mm), in_digits(value_mm_), name_of(unit_),
