@@ -70,6 +70,7 @@ constexpr std::array kCodes = {
     NamedCode{Code::kSeveralOptima, "several-optima"},
     NamedCode{Code::kHarmonicLoss, "harmonic-loss"},
     NamedCode{Code::kInconsistent, "inconsistent"},
+    NamedCode{Code::kUnfiltered, "unfiltered"},
 };
 
 constexpr bool codes_stand_in_order() {

@@ -73,9 +73,10 @@ enum class Code {
   kSeveralOptima,    ///< several-optima: the reference is one of several nearly equal ones
   kHarmonicLoss,     ///< harmonic-loss: a separation loses or strongly amplifies harmonics
   kInconsistent,     ///< inconsistent: the data contradict the geometry they were taken with
+  kUnfiltered,       ///< unfiltered: dense points, evaluated as measured
 };
 /// The last code of the list.
-inline constexpr Code kLastCode = Code::kInconsistent;
+inline constexpr Code kLastCode = Code::kUnfiltered;
 
 /// Returns the name of a code as JSON and messages spell it, e.g. "too-few-points".
 [[nodiscard]] std::string_view code_name(Code code);

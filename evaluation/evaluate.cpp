@@ -17,7 +17,9 @@
 #include "evaluation/internal/merged.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
+#include "evaluation/part/internal/clamping.h"
 #include "evaluation/results/measured_cloud.h"
+#include "fit/least_squares/sphere.h"
 #include "fit/poses/walk.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -152,18 +154,25 @@ Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
   return cloud.front().tip_mm + sum / static_cast<double>(cloud.size());
 }
 
-/// Expected direction of the axis of a feature, machine frame. A touched part stands along the
-/// ring's z or as it was located; points of a file may have any orientation; a circle of a file is
-/// normal to z.
+/// Expected direction of the axis of a feature, or of the outward normal of a plane, machine frame.
+/// A touched part stands along the ring's z or as it was located; points of a file may have any
+/// orientation; a circle of a file is normal to z, and a plane as its feature says.
 std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
                                              const record::Feature& feature,
                                              const record::PoseVisit& visit) {
   const bool circle = feature.shape == record::Shape::kCircle;
+  const auto settings = record::task_of<record::SurfaceSettings>(feature.settings);
+  std::optional<Eigen::Vector3d> faces;
+  if (settings && settings->faces) {
+    faces = *settings->faces == record::Faces::kUp ? Eigen::Vector3d::UnitZ()
+                                                   : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
+  }
   if (feature.strategy == record::Strategy::kPointsFile) {
+    if (faces) return faces;
     return circle ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::UnitZ()) : std::nullopt;
   }
   const Eigen::Matrix3d turn = rotation(visit.reached);
-  const Eigen::Vector3d nominal = turn * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d nominal = turn * faces.value_or(Eigen::Vector3d::UnitZ());
   if (!circle) return nominal;
   // One section shows no tilt; the touches that located the part do. Use the last ones before the
   // section, since the part may have been located again.
@@ -234,6 +243,79 @@ void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
   place_points(axis, 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm), up.point_mm,
                result.cloud);
   mark_contacts(zone.outer, zone.inner, section.rows, result.cloud);
+}
+
+/// Sets angle and distance of every point about the mean point of a plane, and its height above the
+/// middle of the zone.
+void place_points(const fit::MinZonePlane& zone, const Eigen::Vector3d& mean,
+                  std::vector<CloudPoint>& cloud) {
+  const auto frame = fit::across(zone.outer.normal);
+  for (CloudPoint& point : cloud) {
+    const Eigen::Vector2d within = frame.transpose() * (point.tip_mm - mean);
+    point.angle_rad = std::atan2(within.y(), within.x());
+    if (point.angle_rad < 0.0) point.angle_rad += core::kTwoPi;
+    point.height_mm = within.norm();
+    point.deviation_mm = fit::height_mm(zone.outer, point.tip_mm) + 0.5 * zone.width_mm;
+  }
+}
+
+/// @param outward  Side of the material on which the plane was touched; none: not known.
+void evaluate_plane(const std::optional<Eigen::Vector3d>& outward, FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  auto ls = fit::ls_plane(tips, outward);
+  auto mz = fit::min_zone_plane(tips, outward);
+  if (!ls || !mz) {
+    result.failure = !ls ? ls.error() : mz.error();
+    return;
+  }
+  place_points(*mz, mean_of(result.cloud), result.cloud);
+  for (const fit::Contact& c : mz->top) result.cloud[c.index].outer_contact = true;
+  for (const fit::Contact& c : mz->bottom) result.cloud[c.index].inner_contact = true;
+  result.ls_plane = *std::move(ls);
+  result.mz_plane = *std::move(mz);
+}
+
+/// Sets angle and height of every point about an axis, and its deviation from a surface.
+template <class Deviation>
+void place_points(const fit::Axis& axis, const Deviation& deviation_mm, FeatureResult& result) {
+  place_points(axis, 0.0, mean_of(result.cloud), result.cloud);
+  for (CloudPoint& point : result.cloud) point.deviation_mm = deviation_mm(point.tip_mm);
+}
+
+void evaluate_cone(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  auto ls = fit::ls_cone(tips, direction);
+  auto mz = fit::min_zone_cone(tips, direction);
+  if (!ls || !mz) {
+    result.failure = !ls ? ls.error() : mz.error();
+    return;
+  }
+  place_points(
+      mz->cone.axis, [&](const Eigen::Vector3d& tip_mm) { return mz->cone.deviation_mm(tip_mm); },
+      result);
+  for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
+  for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
+  result.ls_cone = *std::move(ls);
+  result.mz_cone = *std::move(mz);
+}
+
+void evaluate_sphere(FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  auto ls = fit::ls_sphere(tips);
+  auto mz = fit::min_zone_sphere(tips);
+  if (!ls || !mz) {
+    result.failure = !ls ? ls.error() : mz.error();
+    return;
+  }
+  const double middle_mm = 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm);
+  place_points(
+      fit::Axis{mz->center_mm, Eigen::Vector3d::UnitZ()},
+      [&](const Eigen::Vector3d& tip_mm) { return (tip_mm - mz->center_mm).norm() - middle_mm; },
+      result);
+  for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
+  for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
+  result.ls_sphere = *std::move(ls);
+  result.mz_sphere = *std::move(mz);
 }
 
 /// Evaluates the repeats of the final cloud: scatter of a touch, and of the zone of a single cloud.
@@ -357,10 +439,21 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
   }
   const auto direction = expected_axis(record, result.feature, *last);
-  if (result.feature.shape == record::Shape::kCylinder) {
-    evaluate_cylinder(direction, result);
-  } else {
-    evaluate_circle(*direction, result);
+  switch (result.feature.shape) {
+    case record::Shape::kCylinder:
+      evaluate_cylinder(direction, result);
+      break;
+    case record::Shape::kPlane:
+      evaluate_plane(direction, result);
+      break;
+    case record::Shape::kCone:
+      evaluate_cone(direction, result);
+      break;
+    case record::Shape::kSphere:
+      evaluate_sphere(result);
+      break;
+    default:
+      evaluate_circle(*direction, result);
   }
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
@@ -404,17 +497,20 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
       continue;
     }
     auto feature = evaluate_feature(record, index, out.probe, facts.kinematics);
+    feature.clamping = clamping_of(record, index);
     if (auto broken = check(feature)) {
       checked.defects.push_back({*std::move(broken), std::move(feature)});
       feature = without_values(checked.defects.back());
     }
     out.features.push_back(std::move(feature));
   }
-  for (FeatureResult& feature : out.features) {
+  PartFindings found = find_all(record, out.features, out.probe);
+  for (std::size_t i = 0; i < out.features.size(); ++i) {
+    FeatureResult& feature = out.features[i];
     if (record::is_analysis(feature.feature.shape)) {
       decide_analysis(record, out.rule, feature);
     } else {
-      decide(record, out.rule, out.probe, feature);
+      decide(record, out.rule, out.probe, found[i], feature);
       apply_calibration(out.fixture, feature);
     }
   }

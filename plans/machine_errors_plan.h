@@ -66,6 +66,15 @@ struct KeywayPlan {
   double depth_mm = 0.5;
 };
 
+/// A worn or ground spot, without edges.
+struct FlatPlan {
+  double at_deg = 0.0;
+  double z_mm = 0.0;
+  double width_mm = 5.0;
+  double length_mm = 20.0;
+  double depth_um = 20.0;
+};
+
 /// A raised spot.
 struct BurrPlan {
   double at_deg = 0.0;

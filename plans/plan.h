@@ -23,6 +23,7 @@
 #include "record/tasks/decision_rule.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/spindle.h"
+#include "record/tasks/surface.h"
 #include "record/tasks/uncertainty.h"
 #include "record/tasks/wheel.h"
 
@@ -192,10 +193,17 @@ struct EnvironmentPlan {
   std::optional<double> assumed_degC;  ///< Temperature of part and scales when not measured.
 };
 
+/// The keys that count depend on the type of the feature.
 struct NominalPlan {
-  double diameter_mm = 0.0;
-  double from_mm = 0.0;  ///< Lower end of the surface, part z.
-  double to_mm = 0.0;    ///< Upper end.
+  double diameter_mm = 0.0;                           ///< Of a cone at from_mm; 0: not given.
+  double from_mm = 0.0;                               ///< Lower end of the surface, part z.
+  double to_mm = 0.0;                                 ///< Upper end.
+  double half_angle_deg = 0.0;                        ///< Of a cone; > 0: it opens along part z.
+  double z_mm = 0.0;                                  ///< Of a plane.
+  std::optional<record::Faces> faces;                 ///< Of a plane.
+  double from_diameter_mm = 0.0;                      ///< Inner edge of a plane.
+  double to_diameter_mm = 0.0;                        ///< Outer edge of a plane; 0: not given.
+  std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Of a sphere, part frame.
 };
 
 struct SamplingPlan {
@@ -236,12 +244,15 @@ struct SourcePlan {
   std::optional<double>
       tip_diameter_mm;  ///< Diameter of the probe tip used; none: radii stay tip-centre radii.
   std::vector<ColumnPlan> columns;  ///< For series whose file uses other names.
+  std::string feature;   ///< Only the rows whose column `feature` says this; empty: all rows.
+  std::string clamping;  ///< Files of one name were measured in one clamping.
 };
 
 struct FeaturePlan {
   std::string id;
   record::Shape type = record::Shape::kCylinder;
   record::Side side = record::Side::kOutside;
+  std::string letter;  ///< Datum letter on the drawing; may be empty.
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
@@ -251,6 +262,9 @@ struct FeaturePlan {
   std::optional<record::ContourTask> contour;     ///< As spindle.
   std::optional<record::RotaryTask> rotary_axes;  ///< As spindle.
   std::optional<SourcePlan> source;
+  std::vector<record::WindowTask> exclude;
+  record::DefaultsTask defaults;
+  std::optional<record::DecisionRuleTask> decision_rule;  ///< In place of that of the plan.
   std::vector<record::CharacteristicTask> characteristics;
 };
 
@@ -261,22 +275,43 @@ struct LobePlan {
   double twist_deg = 0.0;
 };
 
-struct SimulatedPartPlan {
+/// Form of a simulated surface.
+struct SimulatedFormPlan {
   double diameter_error_um = 0.0;
   std::vector<LobePlan> lobes;
   double taper_um = 0.0;
   double barrel_um = 0.0;
   double bend_um = 0.0;
   double bend_phase_deg = 0.0;
+  std::vector<KeywayPlan> keyways;
+};
+
+/// The part of a simulation. Its form is that of every surface without an entry of its own.
+struct SimulatedPartPlan : SimulatedFormPlan {
   double tilt_deg = 0.0;  ///< Tilt of the part in the clamping ring.
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
   double expansion_per_K = 0.0;  ///< True value.
-  std::vector<KeywayPlan> keyways;
   std::vector<BurrPlan> burrs;
   double dust_share = 0.0;  ///< Share of the touches.
   double dust_um = 0.0;     ///< Largest particle.
+};
+
+/// One surface of a simulated part: how its own axis lies against that of the part, and its form.
+struct SimulatedFeaturePlan : SimulatedFormPlan {
+  std::string id;  ///< Of the feature.
+  double offset_x_um = 0.0;
+  double offset_y_um = 0.0;
+  double slope_x_urad = 0.0;
+  double slope_y_urad = 0.0;
+  std::vector<FlatPlan> flats;
+  // Of a plane.
+  double tilt_urad = 0.0;
+  double tilt_toward_deg = 0.0;
+  double saucer_um = 0.0;
+  double wave_um = 0.0;
+  int wave_order = 2;
 };
 
 struct SimulatedProbePlan {
@@ -309,6 +344,7 @@ struct SimulationPlan {
   std::uint64_t seed = 1;
   double temperature_degC = 20.0;
   SimulatedPartPlan part;
+  std::vector<SimulatedFeaturePlan> features;
   SimulatedMachinePlan machine;
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;
@@ -332,6 +368,7 @@ struct Plan {
   std::optional<ProbePlan> probe;
   std::optional<EnvironmentPlan> environment;  ///< None: its defaults, for touched features.
   std::vector<FeaturePlan> features;
+  record::DefaultsTask defaults;
   record::DecisionRuleTask decision_rule;
   std::optional<record::UncertaintyTask> uncertainty;
   std::optional<SimulationPlan> simulation;

@@ -61,7 +61,8 @@ enum class Form {
   kFixtureResidualRms,  ///< Root mean square of these distances.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-/// kMerged: no search, one cloud from several poses. kStations: balls of a calibration.
+/// kStartPose: no search, the cloud of the start pose. kMerged: no search, one cloud from several
+/// poses. kStations: balls of a calibration.
 enum class Strategy {
   kGuided,
   kRefined,
@@ -71,6 +72,7 @@ enum class Strategy {
   kSeries,
   kMerged,
   kStations,
+  kStartPose,
 };
 
 /// Whether a shape is an analysis, which has its own evaluation, instead of a surface.
@@ -133,6 +135,7 @@ constexpr auto words_of(Strategy) {
                                         {Strategy::kRefined, "refined"},
                                         {Strategy::kAsPublished, "as-published"},
                                         {Strategy::kVirtual, "virtual"},
+                                        {Strategy::kStartPose, "start-pose"},
                                         {Strategy::kMerged, "merged"},
                                         {Strategy::kPointsFile, "points-file"},
                                         {Strategy::kSeries, "series"},

@@ -105,8 +105,11 @@ std::string further_poses(const plans::Plan& plan, const plans::Forecast& foreca
     if (stage.kind == ForecastStage::Kind::kRing) ring = stage;
     if (!stage.final_cloud) continue;
     const plans::FeaturePlan& feature = plan.features[static_cast<std::size_t>(stage.feature)];
-    const bool turned = feature.pose_search.strategy == record::Strategy::kVirtual;
-    if (feature.type == record::Shape::kCircle || turned) continue;
+    const record::Strategy strategy = feature.pose_search.strategy;
+    const bool one_pose = feature.type != record::Shape::kCylinder ||
+                          strategy == record::Strategy::kVirtual ||
+                          strategy == record::Strategy::kStartPose;
+    if (one_pose) continue;
     out += fmt::format("  {}: each further pose {} touches, {:.0f} mm, {}\n", feature.id,
                        stage.touches + ring.touches, stage.path_mm / stage.times + ring.path_mm,
                        clock_text(stage.time_s / stage.times + ring.time_s));

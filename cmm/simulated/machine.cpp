@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -36,10 +37,10 @@ constexpr Speeds kFastest = {1000.0, 50.0, 500.0};
 SimulatedMachine::SimulatedMachine(const SimulatedMachineOptions& options)
     : options_(options), position_W_mm_(options.park_W_mm) {}
 
-void SimulatedMachine::place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP) {
-  part_ = surface;
+void SimulatedMachine::place_part(const SimulatedPart& part, const Eigen::Isometry3d& X_WP) {
+  part_ = part;
   warm_part_ =
-      surface.scaled(1.0 + options_.part_errors.expansion_1_K * (options_.temperature_degC - 20.0));
+      part.scaled(1.0 + options_.part_errors.expansion_1_K * (options_.temperature_degC - 20.0));
   X_WP_ = X_WP;
 }
 
@@ -115,17 +116,23 @@ core::Result<void> SimulatedMachine::home() {
 }
 
 core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
-    const PartSurface* part, const Vector3d& start_W_mm, const Vector3d& direction_W,
+    const SimulatedPart* part, const Vector3d& start_W_mm, const Vector3d& direction_W,
     double tip_radius_mm, double max_travel_mm) const {
   auto first = core::Result<Obstacle>(
       core::fail(core::Code::kNoTouch, fmt::format("nothing within {:.3f} mm", max_travel_mm)));
-  if (part != nullptr) {
-    const Eigen::Isometry3d X_PW = X_WP_.inverse();
-    const auto contact = first_contact(*part, X_PW * start_W_mm, X_PW.linear() * direction_W,
-                                       tip_radius_mm, max_travel_mm);
-    if (contact) {
-      first = Obstacle{contact->travel_mm, false, X_WP_ * contact->point_P_mm};
-    } else if (contact.error().code != core::Code::kNoTouch) {
+  const std::size_t surfaces = part != nullptr ? part->surfaces.size() : 0;
+  for (std::size_t i = 0; i < surfaces; ++i) {
+    const Eigen::Isometry3d X_WS = X_WP_ * part->surfaces[i].X_PS;
+    const Eigen::Isometry3d X_SW = X_WS.inverse();
+    const auto contact = std::visit(
+        [&](const auto& surface) {
+          return first_contact(surface, X_SW * start_W_mm, X_SW.linear() * direction_W,
+                               tip_radius_mm, max_travel_mm);
+        },
+        part->surfaces[i].surface);
+    if (contact && (!first || contact->travel_mm < first->travel_mm)) {
+      first = Obstacle{contact->travel_mm, false, X_WS * contact->point_P_mm};
+    } else if (!contact && contact.error().code != core::Code::kNoTouch) {
       return core::fail(contact.error());
     }
   }
@@ -241,7 +248,7 @@ TouchReading SimulatedMachine::reading_at(const Found& found, const TouchCommand
   return on_grid(out);
 }
 
-const PartSurface* SimulatedMachine::warm_part() const {
+const SimulatedPart* SimulatedMachine::warm_part() const {
   return warm_part_ ? &*warm_part_ : nullptr;
 }
 

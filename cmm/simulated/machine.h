@@ -11,6 +11,7 @@
 
 #include "cmm/error_model.h"
 #include "cmm/machine.h"
+#include "cmm/simulated/part.h"
 #include "cmm/simulated/part_surface.h"
 
 namespace rondure::cmm {
@@ -61,7 +62,10 @@ class SimulatedMachine final : public Machine {
   explicit SimulatedMachine(const SimulatedMachineOptions& options);
 
   /// Puts a part on the table (X_WP maps its frame to the machine), or moves it there.
-  void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
+  void place_part(const SimulatedPart& part, const Eigen::Isometry3d& X_WP);
+  void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP) {
+    place_part(SimulatedPart{{{surface}}}, X_WP);
+  }
   void remove_part();
   /// Replaces all spheres on the table.
   void place_spheres(std::vector<ReferenceSphere> spheres);
@@ -114,9 +118,9 @@ class SimulatedMachine final : public Machine {
 
   [[nodiscard]] double tip_radius_mm() const;
   /// The part at its temperature, or nullptr.
-  [[nodiscard]] const PartSurface* warm_part() const;
+  [[nodiscard]] const SimulatedPart* warm_part() const;
   /// @param part  Null: there are only the reference spheres.
-  [[nodiscard]] core::Result<Obstacle> first_obstacle(const PartSurface* part,
+  [[nodiscard]] core::Result<Obstacle> first_obstacle(const SimulatedPart* part,
                                                       const Eigen::Vector3d& start_W_mm,
                                                       const Eigen::Vector3d& direction_W,
                                                       double tip_radius_mm,
@@ -153,8 +157,8 @@ class SimulatedMachine final : public Machine {
                                                const ScanCircleCommand& command, int index);
 
   SimulatedMachineOptions options_;
-  std::optional<PartSurface> part_;       ///< Part at 20 degC.
-  std::optional<PartSurface> warm_part_;  ///< Part at its temperature.
+  std::optional<SimulatedPart> part_;       ///< Part at 20 degC.
+  std::optional<SimulatedPart> warm_part_;  ///< Part at its temperature.
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
   std::vector<ReferenceSphere> spheres_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();

@@ -50,6 +50,8 @@ struct PartSurface {
   bool inside = false;  ///< true: a bore in a block, false: a shaft.
   PartForm form;
   std::vector<SurfaceMark> marks = {};
+  bool lower_end = true;  ///< false: no flat there; another surface of the part takes its place.
+  bool upper_end = true;
 
   /// Radius at an angle and height.
   [[nodiscard]] double radius_at(double theta_rad, double z_mm) const;

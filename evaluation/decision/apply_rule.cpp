@@ -129,8 +129,25 @@ NearestLimit nearest_limit(const Limits& limits, const Zones& zones) {
   return {false, *limits.lower_mm, *zones.acceptance.lower_mm, *zones.rejection.lower_mm};
 }
 
-/// A limit of a size in um: a drawing states it to the nanometre at most.
-std::string in_limit_digits(double limit_mm) { return fixed(micrometres(limit_mm), 3); }
+/// The same with its unit, which is mm for a size.
+std::string with_unit(const KnownValue& value, double length_mm) {
+  if (value.unit == core::LengthUnit::kUm) return in_digits(value, length_mm) + " um";
+  const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
+  return core::length_in(value.unit, length_mm, decimals) + " mm";
+}
+
+/// A limit with its unit, as a drawing states it: to the nanometre at most.
+std::string limit_text(const KnownValue& value, double limit_mm) {
+  constexpr double kSteps = 1e6;
+  return value.unit == core::LengthUnit::kUm
+             ? fixed(micrometres(limit_mm), 3) + " um"
+             : core::shortest(core::on_grid(limit_mm, kSteps)) + " mm";
+}
+
+/// Whether sentences speak of "the tolerance": a form deviation with its one limit.
+bool has_tolerance(const KnownValue& value, const Limits& limits) {
+  return !limits.lower_mm && value.unit == core::LengthUnit::kUm;
+}
 
 core::Phrase side_of(const NearestLimit& limit) {
   return limit.upper ? core::phrase("upper") : core::phrase("lower");
@@ -141,51 +158,49 @@ core::Phrase simple_sentence(const core::Phrase& text, const KnownValue& value,
                              const Limits& limits, const Zones& zones) {
   const NearestLimit limit = nearest_limit(limits, zones);
   const std::string by = in_digits(value, std::abs(limit.limit_mm - zones.compared_mm));
-  if (!limits.lower_mm) {
+  if (has_tolerance(value, limits)) {
     return core::phrase(
         "{} is {} the tolerance of {:g} um by {} um", text,
         limits.hold(zones.compared_mm) ? core::phrase("within") : core::phrase("above"),
         micrometres(limit.limit_mm), by);
   }
   return core::phrase(
-      "{} is {} the {} limit of {} um by {} um", text,
+      "{} is {} the {} limit of {} by {} um", text,
       limits.hold(zones.compared_mm) ? core::phrase("within") : core::phrase("beyond"),
-      side_of(limit), in_limit_digits(limit.limit_mm), by);
+      side_of(limit), limit_text(value, limit.limit_mm), by);
 }
 
 core::Phrase corrected_value(const KnownValue& value, const Zones& zones) {
-  return core::phrase("the corrected value {} um", in_digits(value, zones.compared_mm));
+  return core::phrase("the corrected value {}", with_unit(value, zones.compared_mm));
 }
 
 /// The sentence about a value with a lower limit, which names the limit that it is nearest to.
 core::Phrase guarded_between(const KnownValue& known, const Zones& zones, const NearestLimit& limit,
                              Verdict verdict) {
   const core::Phrase value = corrected_value(known, zones);
-  const std::string acceptance = in_digits(known, limit.acceptance_mm);
-  const std::string rejection = in_digits(known, limit.rejection_mm);
-  const std::string stated = in_limit_digits(limit.limit_mm);
+  const std::string acceptance = with_unit(known, limit.acceptance_mm);
+  const std::string rejection = with_unit(known, limit.rejection_mm);
+  const std::string stated = limit_text(known, limit.limit_mm);
   if (verdict == Verdict::kConforms) {
-    return core::phrase(
-        "{} is within the acceptance limit of {} um ({} limit {} um, guard band {} um)", value,
-        acceptance, side_of(limit), stated,
-        in_digits(known, std::abs(limit.limit_mm - limit.acceptance_mm)));
+    return core::phrase("{} is within the acceptance limit of {} ({} limit {}, guard band {} um)",
+                        value, acceptance, side_of(limit), stated,
+                        in_digits(known, std::abs(limit.limit_mm - limit.acceptance_mm)));
   }
   if (verdict == Verdict::kDoesNotConform) {
-    return core::phrase(
-        "{} is beyond the rejection limit of {} um ({} limit {} um, guard band {} um)", value,
-        rejection, side_of(limit), stated,
-        in_digits(known, std::abs(limit.rejection_mm - limit.limit_mm)));
+    return core::phrase("{} is beyond the rejection limit of {} ({} limit {}, guard band {} um)",
+                        value, rejection, side_of(limit), stated,
+                        in_digits(known, std::abs(limit.rejection_mm - limit.limit_mm)));
   }
   return core::phrase(
-      "{} lies between the acceptance limit of {} um and the rejection limit of {} um about the {} "
-      "limit of {} um: neither is proven",
+      "{} lies between the acceptance limit of {} and the rejection limit of {} about the {} "
+      "limit of {}: neither is proven",
       value, acceptance, rejection, side_of(limit), stated);
 }
 
 core::Phrase guarded_sentence(const KnownValue& known, const Limits& limits, const Zones& zones,
                               Verdict verdict) {
   const NearestLimit limit = nearest_limit(limits, zones);
-  if (limits.lower_mm) return guarded_between(known, zones, limit, verdict);
+  if (!has_tolerance(known, limits)) return guarded_between(known, zones, limit, verdict);
   const core::Phrase value = corrected_value(known, zones);
   const std::string acceptance = in_digits(known, limit.acceptance_mm);
   const std::string rejection = in_digits(known, limit.rejection_mm);
@@ -265,10 +280,10 @@ core::Phrase verdict_sentence(const DecisionRule& rule, const KnownValue& value,
                               const RuleOutcome& outcome) {
   switch (rule.kind) {
     case DecisionRule::Kind::kSimpleAcceptance: {
-      const std::string read = in_digits(value, zones.compared_mm);
-      return simple_sentence(value.statement ? core::phrase("the value as read, {} um", read)
-                                             : core::phrase("{} um", read),
-                             value, limits, zones);
+      const std::string read = with_unit(value, zones.compared_mm);
+      return simple_sentence(
+          value.statement ? core::phrase("the value as read, {}", read) : core::as_it_is(read),
+          value, limits, zones);
     }
     case DecisionRule::Kind::kNToOne:
       return simple_sentence(corrected_value(value, zones), value, limits, zones);
@@ -284,20 +299,21 @@ core::Phrase verdict_sentence(const DecisionRule& rule, const KnownValue& value,
 /// Why a value that was read beyond a limit is undecided although its corrected value is within.
 core::Phrase read_beyond_sentence(const KnownValue& value, const Limits& limits,
                                   double corrected_mm) {
-  const std::string read = in_digits(value, value.measured_mm);
-  const std::string corrected = in_digits(value, corrected_mm);
-  if (!limits.lower_mm) {
+  if (has_tolerance(value, limits)) {
     return core::phrase(
         "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
         "below: neither is proven",
-        read, micrometres(*limits.upper_mm), corrected);
+        in_digits(value, value.measured_mm), micrometres(*limits.upper_mm),
+        in_digits(value, corrected_mm));
   }
-  const bool below = value.measured_mm < *limits.lower_mm;
+  const bool below = limits.lower_mm && value.measured_mm < *limits.lower_mm;
   return core::phrase(
-      "read beyond the {} limit: {} um, the limit is {} um; the corrected value, {} um, is within: "
-      "neither is proven",
-      below ? core::phrase("lower") : core::phrase("upper"), read,
-      in_limit_digits(below ? *limits.lower_mm : *limits.upper_mm), corrected);
+      "read beyond the {} limit: {}, the limit is {}; the corrected value, {}, is within: neither "
+      "is "
+      "proven",
+      below ? core::phrase("lower") : core::phrase("upper"), with_unit(value, value.measured_mm),
+      limit_text(value, below ? *limits.lower_mm : *limits.upper_mm),
+      with_unit(value, corrected_mm));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "core/units.h"
 #include "evaluation/decision/verdict.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "record/run_record.h"
@@ -71,6 +72,8 @@ struct DecisionRule {
 
 [[nodiscard]] Measurand measurand_of(record::DecisionRuleTask::Measurand asked);
 
+[[nodiscard]] DecisionRule rule_of(const record::DecisionRuleTask& task);
+
 /// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 holds
 /// only its name. kMeaning for a rule, measurand, judged value or prior that this program does not
 /// know: every verdict is then void.
@@ -80,6 +83,7 @@ struct DecisionRule {
 struct KnownValue {
   double measured_mm = 0.0;  ///< Value of the points as read, not corrected.
   std::optional<UncertaintyStatement> statement = {};
+  core::LengthUnit unit = core::LengthUnit::kUm;  ///< In sentences; of a size mm.
 };
 
 /// Probabilities over all parts of the stated prior, for this measurement.

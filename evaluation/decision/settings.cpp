@@ -13,6 +13,28 @@ Measurand measurand_of(DecisionRuleTask::Measurand asked) {
                                                              : Measurand::kSampledPoints;
 }
 
+DecisionRule rule_of(const DecisionRuleTask& task) {
+  DecisionRule out;
+  out.kind = task.rule;
+  out.measurand = measurand_of(task.measurand);
+  out.judge_corrected = task.judge == DecisionRuleTask::Judge::kCorrected;
+  out.guard_factor = task.guard_factor;
+  out.consumer_risk_1 = 0.01 * task.consumer_risk_percent;
+  out.producer_risk_1 = 0.01 * task.producer_risk_percent;
+  if (const auto& prior = task.prior) {
+    out.prior = Prior{prior->distribution, prior->mean_um * core::kMicrometre,
+                      prior->standard_deviation_um * core::kMicrometre};
+  }
+  out.ratio = task.ratio;
+  out.acceptance_guard_1 = 0.01 * task.acceptance_guard_percent;
+  out.rejection_guard_1 = 0.01 * task.rejection_guard_percent;
+  out.zones = task.zones;
+  out.outcomes = task.outcomes;
+  out.repeats = task.repeats;
+  out.outliers = task.outliers;
+  return out;
+}
+
 core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
   const std::string& name = record.header.decision_rule;
   if (name.empty()) return DecisionRule();
@@ -21,27 +43,10 @@ core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
     return core::fail(core::Code::kMeaning,
                       fmt::format("this program does not know the decision rule \"{}\"", name));
   }
-  const auto task = record::task_of<DecisionRuleTask>(record.settings, "decision_rule/");
+  auto task = record::task_of<DecisionRuleTask>(record.settings, "decision_rule/");
   if (!task) return core::fail(task.error());
-  DecisionRule out;
-  out.kind = *kind;
-  out.measurand = measurand_of(task->measurand);
-  out.judge_corrected = task->judge == DecisionRuleTask::Judge::kCorrected;
-  out.guard_factor = task->guard_factor;
-  out.consumer_risk_1 = 0.01 * task->consumer_risk_percent;
-  out.producer_risk_1 = 0.01 * task->producer_risk_percent;
-  if (const auto& prior = task->prior) {
-    out.prior = Prior{prior->distribution, prior->mean_um * core::kMicrometre,
-                      prior->standard_deviation_um * core::kMicrometre};
-  }
-  out.ratio = task->ratio;
-  out.acceptance_guard_1 = 0.01 * task->acceptance_guard_percent;
-  out.rejection_guard_1 = 0.01 * task->rejection_guard_percent;
-  out.zones = task->zones;
-  out.outcomes = task->outcomes;
-  out.repeats = task->repeats;
-  out.outliers = task->outliers;
-  return out;
+  task->rule = *kind;  // a journal before version 4 holds only the name
+  return rule_of(*task);
 }
 
 }  // namespace rondure::evaluation

@@ -178,6 +178,12 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
     return core::fail(core::Code::kMeaning,
                       fmt::format("{} has no reference to exchange", record::name_of(asked.form)));
   }
+  if (characteristic.finding) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("{} ({}) is not the peak-to-valley value of all points as read, "
+                                  "which the study exchanges references and filters of",
+                                  record::name_of(asked.form), symbol_of(asked)));
+  }
   const auto points = factor_points(feature, asked.form);
   if (!points) return core::fail(points.error());
   if (!characteristic.value) return core::fail(core::Code::kReferenceAbsent, characteristic.reason);

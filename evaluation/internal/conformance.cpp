@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <span>
 #include <utility>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/interval/internal/form_interval.h"
+#include "evaluation/part/contacts.h"
+#include "evaluation/part/find.h"
+#include "evaluation/part/internal/families.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
@@ -155,6 +161,133 @@ void judge_harmonics(const Circumstances& by, const FeatureResult& result,
   out.reason = core::phrase("{} ({})", out.reason, where);
 }
 
+/// A judged value with its verdict.
+struct Judged {
+  StatedValue value;
+  Verdict verdict = Verdict::kVoid;
+  core::Phrase reason = {};
+  std::optional<RuleOutcome> outcome = {};
+  std::optional<GlobalRisks> risks = {};
+};
+
+/// Applies a rule to a value between limits.
+void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, Judged& out) {
+  if (!rule) {
+    out.reason = rule.error().said();
+    return;
+  }
+  if (!limits.lower_mm && !limits.upper_mm) {
+    out.verdict = Verdict::kNotToleranced;
+    out.reason = core::phrase("reported only");
+    return;
+  }
+  KnownValue known{.measured_mm = out.value.value_mm(), .unit = out.value.unit()};
+  if (const UncertaintyStatement* statement = out.value.statement()) known.statement = *statement;
+  auto outcome = apply_rule(*rule, known, limits);
+  if (!outcome) {
+    const core::Phrase& why = out.value.uncertainty().why();
+    out.reason = outcome.error().said();
+    if (!why.empty()) out.reason = core::phrase("{}: {}", out.reason, why);
+    return;
+  }
+  out.verdict = outcome->verdict;
+  out.reason = outcome->sentence;
+  out.risks = global_risks(*rule, known, *outcome, limits);
+  out.outcome = *std::move(outcome);
+}
+
+/// Severity of a verdict: the least severe first.
+int severity(Verdict verdict) {
+  constexpr std::array kOrder = {Verdict::kNotToleranced, Verdict::kConforms, Verdict::kUndecided,
+                                 Verdict::kDoesNotConform, Verdict::kVoid};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
+}
+
+/// A datum that rocks leaves a verdict only where the one-sided and the equalised one agree.
+void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& found,
+                       std::size_t index, Judged& out) {
+  if (index >= found.about_equalised_mm.size() || out.verdict == Verdict::kVoid) return;
+  const double other_mm = found.about_equalised_mm[index];
+  Judged other{out.value.moved_to(other_mm)};
+  judge_value(rule, found.judged[index].limits, other);
+  if (other.verdict == out.verdict) return;
+  double play_mm = 0.0;
+  for (const DatumResult& datum : found.datums) play_mm = std::max(play_mm, datum.play_mm);
+  out.verdict = Verdict::kUndecided;
+  out.outcome.reset();
+  out.risks.reset();
+  out.reason = core::phrase(
+      "the datum rocks by {:.1f} um: {} {} about the one-sided, {} {} about the equalised datum, "
+      "and the limit lies between; support the datum at both ends, or plan the association that "
+      "the drawing means",
+      micrometres(play_mm), out.value.in_digits(out.value.value_mm()),
+      core::name_of(out.value.unit()), out.value.in_digits(other_mm),
+      core::name_of(out.value.unit()));
+}
+
+/// Under JCGM 106 several conditions must hold together with the probability that the rule asks.
+void judge_together(const core::Result<DecisionRule>& rule, const PartInterval& interval,
+                    Judged& out) {
+  const bool together = rule && rule->kind == DecisionRule::Kind::kJcgm106 &&
+                        interval.judged.size() > 1 && interval.conformance_1 && out.outcome;
+  if (!together) return;
+  out.outcome->conformance_1 = interval.conformance_1;
+  if (out.verdict != Verdict::kConforms || *interval.conformance_1 >= 1.0 - rule->consumer_risk_1) {
+    return;
+  }
+  out.verdict = Verdict::kUndecided;
+  out.reason = core::phrase(
+      "the probability that both conditions hold is {:.4g} %, less than the {:g} % that the rule "
+      "asks",
+      100.0 * *interval.conformance_1, 100.0 * (1.0 - rule->consumer_risk_1));
+}
+
+/// A characteristic that find() computed: every judged value by the rule, the most severe verdict
+/// is that of the characteristic.
+void judge_found(const Circumstances& by, const FeatureResult& result, FoundCharacteristic& found,
+                 CharacteristicResult& out) {
+  out.verdict = Verdict::kVoid;
+  if (!found.finding) {
+    out.reason = found.finding.error().said();
+    return;
+  }
+  const auto finding = std::make_shared<const Finding>(*std::move(found.finding));
+  out.finding = finding;
+  std::optional<Judged> worst;
+  for (std::size_t i = 0; i < finding->judged.size(); ++i) {
+    const JudgedValue& value = finding->judged[i];
+    if (!std::isfinite(value.value_mm)) {
+      out.reason = core::phrase("the computation gave no finite number");
+      return;
+    }
+    ValueOperator how(ReferenceTerm(finding->reference), FilterTerm(finding->filter),
+                      SamplingTerm(sampling_words(result, out.characteristic)),
+                      TipTerm(tip_words(result)), TemperatureTerm(temperature_words(result)));
+    Judged judged{StatedValue(
+        value.symbol, value.value_mm, std::move(how), found.interval.judged[i],
+        by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
+    judge_value(by.rule, value.limits, judged);
+    agree_about_datum(by.rule, *finding, i, judged);
+    if (!worst || severity(judged.verdict) > severity(worst->verdict)) worst = std::move(judged);
+  }
+  judge_together(by.rule, found.interval, *worst);
+  out.value = std::move(worst->value);
+  auto missing = reason_for_void(by.record, by.probe, result, {}, out.characteristic);
+  if (!missing) missing = finding->no_verdict;
+  if (!missing && !finding->unique && by.rule && by.rule->needs_interval()) {
+    missing = core::phrase(
+        "the reference circle is not unique, and the interval is that of one of several circles");
+  }
+  if (missing) {
+    out.reason = *missing;
+    return;
+  }
+  out.verdict = worst->verdict;
+  out.reason = std::move(worst->reason);
+  out.outcome = std::move(worst->outcome);
+  out.risks = worst->risks;
+}
+
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
   if (out.characteristic.form == Form::kHarmonicLimits) return judge_harmonics(by, result, out);
   const auto value = value_of(result, out.characteristic);
@@ -236,38 +369,54 @@ std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
 }
 
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
-  out.verdict = Verdict::kVoid;
-  if (!rule) {
-    out.reason = rule.error().said();
-    return;
+  Judged judged{*out.value};
+  judge_value(rule, limits_of(out.characteristic), judged);
+  out.verdict = judged.verdict;
+  out.reason = std::move(judged.reason);
+  out.outcome = std::move(judged.outcome);
+  out.risks = judged.risks;
+}
+
+PartFindings find_all(const record::RunRecord& record, std::span<const FeatureResult> features,
+                      const std::optional<fit::ProbeTip>& probe) {
+  PartFindings out(features.size());
+  const std::vector<MeasuredSurface> part = surfaces_of(features);
+  std::vector<PartQuestion> questions;
+  std::vector<PartInterval*> answers;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const record::Feature& feature = features[f].feature;
+    out[f].resize(feature.characteristics.size());
+    for (std::size_t c = 0; c < feature.characteristics.size(); ++c) {
+      const record::Characteristic& asked = feature.characteristics[c];
+      if (!is_found(feature, asked)) continue;
+      FoundCharacteristic& found = out[f][c].emplace(FoundCharacteristic{
+          features[f].failure ? core::Result<Finding>(core::fail(*features[f].failure))
+                              : find(part, f, asked)});
+      if (!found.finding) continue;
+      warn_of_shares(part, f, asked, *found.finding);
+      questions.push_back({f, &asked, &*found.finding});
+      answers.push_back(&found.interval);
+    }
   }
-  if (!out.characteristic.tolerance_mm) {
-    out.verdict = Verdict::kNotToleranced;
-    out.reason = core::phrase("reported only");
-    return;
-  }
-  const Limits limits{.lower_mm = {}, .upper_mm = out.characteristic.tolerance_mm};
-  KnownValue known{out.value->value_mm(), std::nullopt};
-  if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
-  auto outcome = apply_rule(*rule, known, limits);
-  if (!outcome) {
-    const core::Phrase& why = out.value->uncertainty().why();
-    out.reason = outcome.error().said();
-    if (!why.empty()) out.reason = core::phrase("{}: {}", out.reason, why);
-    return;
-  }
-  out.verdict = outcome->verdict;
-  out.reason = outcome->sentence;
-  out.risks = global_risks(*rule, known, *outcome, limits);
-  out.outcome = *std::move(outcome);
+  std::vector<PartInterval> intervals = intervals_of(record, features, probe, questions);
+  for (std::size_t q = 0; q < intervals.size(); ++q) *answers[q] = std::move(intervals[q]);
+  return out;
 }
 
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-            const std::optional<fit::ProbeTip>& probe, FeatureResult& result) {
-  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+            const std::optional<fit::ProbeTip>& probe,
+            std::span<std::optional<FoundCharacteristic>> found, FeatureResult& result) {
+  for (std::size_t c = 0; c < result.feature.characteristics.size(); ++c) {
     CharacteristicResult out;
-    out.characteristic = characteristic;
-    judge({record, rule, probe}, result, out);
+    out.characteristic = result.feature.characteristics[c];
+    const auto& own = out.characteristic.indication.decision_rule;
+    const core::Result<DecisionRule> its = own ? core::Result<DecisionRule>(rule_of(*own)) : rule;
+    const Circumstances by{record, its, probe};
+    if (found[c]) {
+      judge_found(by, result, *found[c], out);
+    } else {
+      judge(by, result, out);
+    }
     result.characteristics.push_back(std::move(out));
   }
 }
@@ -281,7 +430,7 @@ Verdict overall(const std::vector<FeatureResult>& features) {
   for (const Verdict verdict : kOrder) {
     for (const FeatureResult& feature : features) {
       for (const CharacteristicResult& c : feature.characteristics) {
-        if (c.characteristic.tolerance_mm && c.verdict == verdict) return verdict;
+        if (c.characteristic.toleranced() && c.verdict == verdict) return verdict;
       }
     }
   }

@@ -1,12 +1,29 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "evaluation/interval/internal/part_intervals.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
+
+/// A characteristic that find() computed, with its uncertainty.
+struct FoundCharacteristic {
+  core::Result<Finding> finding;
+  PartInterval interval = {};
+};
+
+/// What find() computes of a part: for each feature one element for each of its characteristics,
+/// empty where find() has none. The trials of all intervals move all features together.
+using PartFindings = std::vector<std::vector<std::optional<FoundCharacteristic>>>;
+
+[[nodiscard]] PartFindings find_all(const record::RunRecord& record,
+                                    std::span<const FeatureResult> features,
+                                    const std::optional<fit::ProbeTip>& probe);
 
 /// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its
 /// reason. Void when a condition is missing: no result, a reference that does not exist for the
@@ -15,8 +32,10 @@ namespace rondure::evaluation {
 /// be applied (apply_rule()).
 ///
 /// @param probe  The qualification of the run; a touched feature without a valid one is void.
+/// @param found  Those of its characteristics that find() computes.
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-            const std::optional<fit::ProbeTip>& probe, FeatureResult& result);
+            const std::optional<fit::ProbeTip>& probe,
+            std::span<std::optional<FoundCharacteristic>> found, FeatureResult& result);
 
 /// How warm the part was: "20.3 degC", "20.0 degC declared, not measured", "temperature not
 /// recorded"; with what bringing it to 20 degC did.

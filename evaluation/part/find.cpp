@@ -107,7 +107,7 @@ core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t fe
   if (asked.indication.datum.empty()) {
     found = find_alone(*surface, asked, proof);
   } else {
-    auto datums = datums_of(part, feature, asked);
+    auto datums = datums_of(part, feature, asked, proof);
     if (!datums) return core::fail(datums.error());
     found = find_about_both(*surface, asked, *std::move(datums));
   }

@@ -8,6 +8,7 @@
 
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/associated.h"
+#include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
@@ -81,15 +82,6 @@ void note_evidence(const record::Characteristic& asked, record::Shape about,
     out.no_verdict = unseen_words(found.unseen_rad);
   } else if (found.range) {
     out.no_verdict = undecided_range(*found.range, asked.tolerance_mm);
-  }
-}
-
-/// Rows of the points farthest out and farthest in.
-void add_extreme_rows(const PreparedSurface& surface, const std::vector<double>& deviations_mm,
-                      Finding& out) {
-  const auto [low, high] = std::ranges::minmax_element(deviations_mm);
-  for (const auto at : {high, low}) {
-    out.rows.push_back(surface.rows[static_cast<std::size_t>(at - deviations_mm.begin())]);
   }
 }
 

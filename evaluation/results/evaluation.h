@@ -12,18 +12,22 @@
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/decision/verdict.h"
+#include "evaluation/results/clamping.h"
 #include "evaluation/results/merged_poses.h"
 #include "evaluation/results/stated_value.h"
 #include "evaluation/results/thermal.h"
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
+#include "fit/least_squares/cone.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/probe_tip.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cone.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/min_zone_plane.h"
+#include "fit/references/min_zone_sphere.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "record/run_record.h"
@@ -115,12 +119,17 @@ struct FixtureUse {
 struct FeatureResult {
   record::Feature feature;
   std::vector<CloudPoint> cloud;
+  std::optional<Clamping> clamping;  ///< None: no points that datums can be held against.
   std::optional<fit::LsCylinder> ls_cylinder;
   std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Only for cylinder features.
   core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Or why there is none.
   core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
-  std::optional<fit::LsPlane> ls_plane;  ///< Only for plane features.
+  std::optional<fit::LsPlane> ls_plane;  ///< These two only for planes.
   std::optional<fit::MinZonePlane> mz_plane;
+  std::optional<fit::LsCone> ls_cone;  ///< These two only for cones.
+  std::optional<fit::MinZoneCone> mz_cone;
+  std::optional<fit::LsSphere> ls_sphere;  ///< These two only for spheres.
+  std::optional<fit::MinZoneSphere> mz_sphere;
   std::vector<LayerResult> layers;
   fit::Axis section_axis = {};          ///< For a circle: origin and normal of its plane.
   std::vector<PoseValue> poses;         ///< In the order of the visits.

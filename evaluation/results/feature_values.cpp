@@ -1,6 +1,9 @@
 #include "evaluation/results/feature_values.h"
 
 #include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
 
 #include "record/tasks/form_facts.h"
 
@@ -36,6 +39,13 @@ template <class Fit>
 OneSided one_sided_from(const Fit& fit, const FeatureResult& feature) {
   return {fit.deviation_mm, fit.radius_mm + surface_offset_mm(feature), fit.contacts,
           fit.certificate, std::nullopt};
+}
+
+/// "MZ", "LS", "MC", "MI".
+std::string acronym(record::Reference reference) {
+  std::string text;
+  for (const char c : record::name_of(reference)) text += static_cast<char>(c - 'a' + 'A');
+  return text;
 }
 
 }  // namespace
@@ -110,24 +120,52 @@ std::string_view symbol_of(record::Shape shape) {
 }
 
 std::string symbol_of(const record::Characteristic& characteristic) {
+  using record::Form;
+  using Indication = record::Indication;
+  const Indication& asked = characteristic.indication;
   std::string symbol(record::facts_of(characteristic.form).symbol);
-  constexpr std::string_view kParameters = "tpvq";  // in the order of the enumerators
-  const auto parameter = static_cast<std::size_t>(characteristic.indication.parameter);
-  if (parameter > 0) symbol.back() = kParameters[parameter];
+  if (characteristic.form == Form::kDiameter) {
+    if (asked.requirement == Indication::Requirement::kEnvelope) return symbol + " E";
+    symbol += fmt::format(" {}", record::name_of(asked.size));
+    if (asked.rank) symbol += fmt::format(" {}", record::name_of(*asked.rank));
+  }
+  if (asked.section != Indication::Section::kAll) {
+    symbol += fmt::format(" {}", record::name_of(asked.section));
+  }
+  if (asked.of == Indication::Of::kMedianLine) return "STRt median line";
+  if (!asked.datum.empty()) {  // that of a wheel has no datum and is radial
+    constexpr std::array kRunOut = {"Run-out radial", "Run-out axial", "Run-out conical"};
+    constexpr std::array kTotal = {"Total run-out radial", "Total run-out axial",
+                                   "Total run-out conical"};
+    const auto direction = static_cast<std::size_t>(asked.direction);
+    if (characteristic.form == Form::kRunOut) return kRunOut[direction];
+    if (characteristic.form == Form::kTotalRunOut) return kTotal[direction];
+  }
+  if (record::takes(characteristic.form, "parameter")) {
+    constexpr std::array kLetters = {'t', 'p', 'v', 'q'};
+    symbol[symbol.find('t')] = kLetters[static_cast<std::size_t>(asked.parameter)];
+  }
   return symbol;
 }
 
 std::string reference_of(const record::Characteristic& characteristic) {
-  if (characteristic.form == record::Form::kRoundnessRms) return "LSCI";
+  using record::Form;
+  if (characteristic.form == Form::kRoundnessRms) return "LSCI";
+  if (characteristic.form == Form::kStraightness) return acronym(characteristic.reference) + "LI";
+  if (characteristic.form == Form::kFlatness) return acronym(characteristic.reference) + "PL";
   const auto& about = record::facts_of(characteristic.form).about;
   return about ? reference_of(characteristic.reference, *about) : std::string();
 }
 
 std::string reference_of(record::Reference reference, record::Shape shape) {
-  std::string symbol;
-  for (const char c : record::name_of(reference)) symbol += static_cast<char>(c - 'a' + 'A');
-  if (shape == record::Shape::kPlane) return symbol + "PL";
-  return symbol + (shape == record::Shape::kCylinder ? "CY" : "CI");
+  if (shape == record::Shape::kPlane) return acronym(reference) + "PL";
+  return acronym(reference) + (shape == record::Shape::kCylinder ? "CY" : "CI");
+}
+
+core::LengthUnit unit_of(const record::Characteristic& characteristic) {
+  const bool size = record::limits_of(characteristic.form, characteristic.indication.rank) ==
+                    record::LimitKind::kSize;
+  return size ? core::LengthUnit::kMm : core::LengthUnit::kUm;
 }
 
 const PoseValue* final_pose_of(const FeatureResult& feature) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/units.h"
 #include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
@@ -56,13 +57,17 @@ struct OneSided {
 /// "minimum circumscribed cylinder", "maximum inscribed circle", ...
 [[nodiscard]] const char* words_of(record::Reference reference, record::Shape shape);
 
-/// "CYLt", "RONt", with the letter of its parameter; "MZCY", "LSCY", "MCCY", "MICY", "MZCI", "LSCI",
-/// "MCCI", "MICI", "MZPL" or "LSPL".
+/// "CYLt", "RONq ACS", "d GN", "d LP SX ACS", "d E" (envelope), "STRt median line", "Run-out
+/// axial".
 [[nodiscard]] std::string symbol_of(const record::Characteristic& characteristic);
 /// Symbol of the zone of a feature: "CYLt", or "RONt" for a circle.
 [[nodiscard]] std::string_view symbol_of(record::Shape shape);
+/// "MZCY", "LSCY", "MCCY", "MICY", "MZCI", ...; of a straightness "MZLI", "LSLI", of a flatness
+/// "MZPL", "LSPL"; empty where no reference is chosen.
 [[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
 [[nodiscard]] std::string reference_of(record::Reference reference, record::Shape shape);
+/// Unit in which value and limits of a characteristic are written: mm of a size, um of all else.
+[[nodiscard]] core::LengthUnit unit_of(const record::Characteristic& characteristic);
 
 /// The final pose, or nothing when no pose is marked.
 [[nodiscard]] const PoseValue* final_pose_of(const FeatureResult& feature);

@@ -7,8 +7,22 @@
 
 namespace rondure::evaluation {
 
-using core::fixed;
 using core::um;
+
+namespace {
+
+/// A symbol ("CYLt", "d LP SX", "COAX \u00d8") is the same in every language; a name ("Run-out",
+/// with three small letters in a row) has its word in a catalogue.
+core::Phrase symbol_words(const std::string& symbol) {
+  int small = 0;
+  for (const char c : symbol) {
+    small = c >= 'a' && c <= 'z' ? small + 1 : 0;
+    if (small == 3) return core::Phrase(symbol);
+  }
+  return core::as_it_is(symbol);
+}
+
+}  // namespace
 
 ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
                              TipTerm tip, TemperatureTerm temperature)
@@ -28,6 +42,21 @@ UncertaintyStatus UncertaintyStatus::stated(UncertaintyResult result, double cov
   return out;
 }
 
+UncertaintyStatus UncertaintyStatus::moved(double by_mm) const {
+  UncertaintyStatus out = *this;
+  if (!out.result_) return out;
+  const auto move = [&](UncertaintyStatement& statement) {
+    statement.estimate_mm += by_mm;
+    statement.low_mm += by_mm;
+    statement.high_mm += by_mm;
+    for (double& value_mm : statement.values_mm) value_mm += by_mm;
+  };
+  out.result_->uncorrected_mm += by_mm;
+  move(out.result_->sampled);
+  if (out.result_->whole) move(*out.result_->whole);
+  return out;
+}
+
 const UncertaintyStatement* UncertaintyStatus::about(Measurand measurand) const {
   if (!result_) return nullptr;
   if (measurand == Measurand::kSampledPoints) return &result_->sampled;
@@ -35,24 +64,35 @@ const UncertaintyStatement* UncertaintyStatus::about(Measurand measurand) const 
 }
 
 StatedValue::StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
-                         UncertaintyStatus uncertainty, Measurand measurand)
+                         UncertaintyStatus uncertainty, Measurand measurand, core::LengthUnit unit)
     : symbol_(std::move(symbol)),
       value_mm_(value_mm),
       operator_(std::move(value_operator)),
       uncertainty_(std::move(uncertainty)),
-      measurand_(measurand) {}
+      measurand_(measurand),
+      unit_(unit) {}
+
+StatedValue StatedValue::moved_to(double value_mm) const {
+  StatedValue out = *this;
+  out.value_mm_ = value_mm;
+  out.uncertainty_ = uncertainty_.moved(value_mm - value_mm_);
+  return out;
+}
 
 std::string StatedValue::in_digits(double length_mm) const {
   const UncertaintyStatement* known = statement();
-  if (known == nullptr) return um(length_mm);
-  return fixed(length_mm / core::kMicrometre, decimals_for(known->expanded_mm()));
+  constexpr int kWithoutInterval = 3;
+  if (known != nullptr)
+    return core::length_in(unit_, length_mm, decimals_for(known->expanded_mm()));
+  return unit_ == core::LengthUnit::kUm ? um(length_mm)
+                                        : core::length_in(unit_, length_mm, kWithoutInterval);
 }
 
 core::Phrase StatedValue::value_text() const {
   const UncertaintyStatement* known = statement();
-  if (known == nullptr) return core::phrase("{} um", um(value_mm_));
-  return core::phrase("{} um [{}, {}]", in_digits(known->estimate_mm), in_digits(known->low_mm),
-                      in_digits(known->high_mm));
+  if (known == nullptr) return core::phrase("{} {}", in_digits(value_mm_), name_of(unit_));
+  return core::phrase("{} {} [{}, {}]", in_digits(known->estimate_mm), name_of(unit_),
+                      in_digits(known->low_mm), in_digits(known->high_mm));
 }
 
 core::Phrase StatedValue::operator_text() const {
@@ -67,11 +107,12 @@ core::Phrase StatedValue::operator_text() const {
 core::Phrase StatedValue::sentence() const {
   const UncertaintyStatement* known = statement();
   if (known == nullptr) {
-    return core::phrase("{} = {} ({})", core::Phrase(symbol_), value_text(), operator_text());
+    return core::phrase("{} = {} ({})", symbol_words(symbol_), value_text(), operator_text());
   }
-  return core::phrase("{} = {} um, {:g} % [{}, {}]; as read {} um ({})", core::Phrase(symbol_),
-                      in_digits(known->estimate_mm), 100.0 * uncertainty_.coverage_1(),
-                      in_digits(known->low_mm), in_digits(known->high_mm), in_digits(value_mm_),
+  return core::phrase("{} = {} {}, {:g} % [{}, {}]; as read {} {} ({})", symbol_words(symbol_),
+                      in_digits(known->estimate_mm), name_of(unit_),
+                      100.0 * uncertainty_.coverage_1(), in_digits(known->low_mm),
+                      in_digits(known->high_mm), in_digits(value_mm_), name_of(unit_),
                       operator_text());
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "core/units.h"
 #include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::evaluation {
@@ -45,6 +46,8 @@ class UncertaintyStatus {
   [[nodiscard]] static UncertaintyStatus none(core::Phrase why);
   [[nodiscard]] static UncertaintyStatus stated(UncertaintyResult result, double coverage_1);
 
+  /// The same uncertainty of a value that lies higher by `by_mm`.
+  [[nodiscard]] UncertaintyStatus moved(double by_mm) const;
   /// The result; if none, see why().
   [[nodiscard]] const std::optional<UncertaintyResult>& result() const { return result_; }
   [[nodiscard]] const core::Phrase& why() const { return why_; }
@@ -63,7 +66,8 @@ class UncertaintyStatus {
 class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
-              UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints);
+              UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints,
+              core::LengthUnit unit = core::LengthUnit::kUm);
 
   /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
@@ -72,10 +76,15 @@ class StatedValue {
   [[nodiscard]] double quoted_mm() const {
     return statement() == nullptr ? value_mm_ : statement()->estimate_mm;
   }
-  /// A length with as many decimals of a micrometre as the interval warrants; three without one.
+  /// Unit of the texts: mm for a size, um for all else.
+  [[nodiscard]] core::LengthUnit unit() const { return unit_; }
+  /// A length in that unit, with as many decimals of a micrometre as the interval warrants; three
+  /// without one.
   [[nodiscard]] std::string in_digits(double length_mm) const;
   [[nodiscard]] const ValueOperator& value_operator() const { return operator_; }
   [[nodiscard]] const UncertaintyStatus& uncertainty() const { return uncertainty_; }
+  /// The same statement about another value, its interval moved with it.
+  [[nodiscard]] StatedValue moved_to(double value_mm) const;
   /// The measurand of the printed interval.
   [[nodiscard]] Measurand measurand() const { return measurand_; }
   /// The statement about measurand(), or nullptr.
@@ -97,6 +106,7 @@ class StatedValue {
   ValueOperator operator_;
   UncertaintyStatus uncertainty_;
   Measurand measurand_;
+  core::LengthUnit unit_;
 };
 
 }  // namespace rondure::evaluation

@@ -28,7 +28,8 @@ core::Result<void> check_probe(const ProbeInfluences& probe) {
                      {"probe degrees_of_freedom", probe.degrees_of_freedom},
                      {"probe correlation_length_mm", probe.correlation_length_mm},
                      {"probing form_limit_mm", probe.form_limit_mm},
-                     {"tip_radius_mm", probe.tip_radius_mm}};
+                     {"tip_radius_mm", probe.tip_radius_mm},
+                     {"reference_sphere_mm", probe.reference_sphere_mm}};
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
     numbers.emplace_back("lobe amplitude_mm", lobe.amplitude_mm);
     numbers.emplace_back("lobe order", lobe.order);
@@ -138,6 +139,10 @@ void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out)
                          kUm * probe.form_limit_mm));
   out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; moves radii, no form",
                                              kUm * probe.tip_radius_mm));
+  if (probe.reference_sphere_mm > 0.0) {
+    out.line("reference-sphere", core::phrase("radius {:.4g} um, normal; moves radii, no form",
+                                              kUm * probe.reference_sphere_mm));
+  }
 }
 
 /// Whether a curve has any value other than zero.

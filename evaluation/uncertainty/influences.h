@@ -31,6 +31,9 @@ struct ProbeInfluences {
   double form_limit_mm = 0.0;
   /// Standard uncertainty of the qualified tip radius [mm]; normal. Changes a radius, no form.
   double tip_radius_mm = 0.0;
+  /// Standard uncertainty of the certified radius of the reference sphere [mm]; normal. It enters
+  /// the tip radius, and every size of the run alike.
+  double reference_sphere_mm = 0.0;
 };
 
 /// Uncertainty contributions of the machine geometry.

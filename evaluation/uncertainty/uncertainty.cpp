@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,29 +10,12 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/uncertainty/internal/chains.h"
+#include "evaluation/uncertainty/internal/statement.h"
 
 namespace rondure::evaluation {
 namespace {
 
 using core::Code;
-
-/// Estimate, standard uncertainty and interval of trials: JCGM 101 sections 7.6 and 7.7.
-UncertaintyStatement statement_of(std::vector<double> trials, double coverage) {
-  UncertaintyStatement out;
-  out.estimate_mm = core::mean(trials);
-  out.standard_uncertainty_mm = core::standard_deviation(trials, out.estimate_mm);
-  std::sort(trials.begin(), trials.end());
-  const auto count = static_cast<double>(trials.size());
-  const double rank = std::round(0.5 * (1.0 - coverage) * (count + 1.0));
-  const auto beyond = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
-  out.low_mm = trials[beyond];
-  out.high_mm = trials[trials.size() - 1 - beyond];
-  if (out.estimate_mm < out.low_mm || out.estimate_mm > out.high_mm) {  // a few extreme trials
-    out.estimate_mm = trials[trials.size() / 2];
-  }
-  out.values_mm = std::move(trials);
-  return out;
-}
 
 using ValuesOf = std::vector<double> ChainValues::*;
 
@@ -45,82 +27,10 @@ std::vector<double> all_of(const FormChains& chains, ValuesOf values) {
   return out;
 }
 
-/// JCGM 101 section 7.9.4: twice the standard deviation of the mean of the chains, the worst of the
-/// four numbers.
 double left_open(const FormChains& chains, ValuesOf values, double coverage) {
-  if (chains.values().size() < 2 || (chains.values().front().*values).empty()) return 0.0;
-  std::vector<std::vector<double>> numbers(4);
-  for (const ChainValues& chain : chains.values()) {
-    const auto one = statement_of(chain.*values, coverage);
-    numbers[0].push_back(one.estimate_mm);
-    numbers[1].push_back(one.standard_uncertainty_mm);
-    numbers[2].push_back(one.low_mm);
-    numbers[3].push_back(one.high_mm);
-  }
-  double worst = 0.0;
-  for (const auto& of_chains : numbers) {
-    const double spread = core::standard_deviation(of_chains, core::mean(of_chains));
-    worst = std::max(worst, 2.0 * spread / std::sqrt(static_cast<double>(of_chains.size())));
-  }
-  return worst;
-}
-
-core::Result<void> check_cloud(const FormCloud& cloud) {
-  if (!(cloud.radius_mm > 0.0 && std::isfinite(cloud.radius_mm))) {
-    return core::fail(Code::kBadOption, fmt::format("radius {} mm is not > 0", cloud.radius_mm));
-  }
-  const std::size_t least = cloud.kind == FormKind::kCylindricity ? 6 : 4;
-  if (cloud.points.size() < least) {
-    return core::fail(Code::kTooFewPoints, fmt::format("{} points; {} at least have an uncertainty",
-                                                       cloud.points.size(), least));
-  }
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const FormPoint& p = cloud.points[i];
-    if (!std::isfinite(p.angle_rad + p.height_mm + p.deviation_mm)) {
-      return core::fail(Code::kNotFinite, fmt::format("point {} is not finite", i));
-    }
-    if (p.repeats < 1) {
-      return core::fail(
-          Code::kBadOption,
-          fmt::format("point {} is the mean of {} touches; 1 at least", i, p.repeats));
-    }
-    if (!(p.time_1 >= 0.0 && p.time_1 <= 1.0)) {
-      return core::fail(Code::kBadOption,
-                        fmt::format("time {} of point {} is outside 0..1", p.time_1, i));
-    }
-  }
-  const Eigen::Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
-  if (rigid_basis(cloud).cols() < unknowns) {
-    return core::fail(Code::kRank, "the points do not determine the axis");
-  }
-  return {};
-}
-
-core::Result<void> check_options(const UncertaintyOptions& options) {
-  const auto bad = [](const char* name, auto value, const char* limit) {
-    return core::fail(Code::kBadOption, fmt::format("{} {} is not {}", name, value, limit));
-  };
-  if (!(options.tolerance_mm >= 0.0 && std::isfinite(options.tolerance_mm))) {
-    return bad("tolerance_mm", options.tolerance_mm, ">= 0");
-  }
-  if (options.chains < 1 || options.chains > 64) return bad("chains", options.chains, "in 1..64");
-  if (options.least_trials < 100) return bad("least_trials", options.least_trials, ">= 100");
-  if (!(options.expected_spots >= 0.01 && options.expected_spots <= 10.0)) {
-    return bad("expected_spots", options.expected_spots, "in 0.01..10");
-  }
-  if (options.most_trials < options.least_trials || options.most_trials > 10'000'000) {
-    return bad("most_trials", options.most_trials, "in least_trials..10000000");
-  }
-  if (options.budget_trials < 0 || options.budget_trials == 1) {
-    return bad("budget_trials", options.budget_trials, "0 or >= 2");
-  }
-  if (!(options.coverage >= 0.5 && options.coverage <= 0.999)) {
-    return bad("coverage", options.coverage, "in 0.5..0.999");
-  }
-  if (options.threads < 0 || options.threads > 256) {
-    return bad("threads", options.threads, "in 0..256");
-  }
-  return {};
+  std::vector<std::span<const double>> all;
+  for (const ChainValues& chain : chains.values()) all.emplace_back(chain.*values);
+  return numerical_tolerance_mm(all, coverage);
 }
 
 core::Result<void> check_all(const FormCloud& cloud, const Influences& influences,
@@ -134,22 +44,7 @@ core::Result<void> check_all(const FormCloud& cloud, const Influences& influence
   return check_options(options);
 }
 
-int threads_of(const UncertaintyOptions& options) {
-  if (options.threads > 0) return options.threads;
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
-}
-
-/// A reference that exists for the measured points may not exist for every possible drawn form.
-core::Result<void> check_values(const std::vector<double>& values) {
-  const auto lost =
-      std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
-  if (lost == 0) return {};
-  return core::fail(
-      Code::kReferenceAbsent,
-      core::phrase("in {} of {} trials the points have no such reference", lost, values.size()));
-}
-
-core::Result<void> check_values(const FormChains& chains) {
+core::Result<void> check_all_values(const FormChains& chains) {
   if (auto good = check_values(all_of(chains, &ChainValues::sampled_mm)); !good) return good;
   return check_values(all_of(chains, &ChainValues::whole_mm));
 }
@@ -170,7 +65,7 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
   const std::size_t least = std::min(each(options.least_trials), most);
   const std::size_t budget = options.budget_trials > 0 ? each(options.budget_trials) : 0;
   chains.run(options.tolerance_mm > 0.0 ? least : most, budget);
-  if (const auto good = check_values(chains); !good) return core::fail(good.error());
+  if (const auto good = check_all_values(chains); !good) return core::fail(good.error());
   while (options.tolerance_mm > 0.0) {
     const double worst = std::max(left_open(chains, &ChainValues::sampled_mm, options.coverage),
                                   left_open(chains, &ChainValues::whole_mm, options.coverage));
@@ -178,7 +73,7 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
     const std::size_t done = chains.values().front().sampled_mm.size();
     if (out.tolerance_reached || done >= most) break;
     chains.run(std::min(std::max<std::size_t>(least / 2, 1), most - done), budget);
-    if (const auto good = check_values(chains); !good) return core::fail(good.error());
+    if (const auto good = check_all_values(chains); !good) return core::fail(good.error());
   }
   out.uncorrected_mm = chains.uncorrected_mm();
   out.sampled = statement_of(all_of(chains, &ChainValues::sampled_mm), options.coverage);
@@ -195,33 +90,14 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
   return out;
 }
 
-/// The composition of the cloud according to the draws.
-FormFinding finding_of(const FormChains& chains, std::size_t points) {
-  FormFinding out;
-  std::vector<int> counts(points, 0);
-  double draws = 0.0;
-  for (const ChainValues& chain : chains.values()) {
-    draws += static_cast<double>(chain.sampled_mm.size());
-    out.noise_mm += chain.noise_mm;
-    out.unresolved_mm += chain.unresolved_mm;
-    out.groups += chain.groups;
-    out.spots += chain.spots;
-    for (std::size_t i = 0; i < points; ++i) counts[i] += chain.spot_counts[i];
-  }
-  for (double* sum : {&out.noise_mm, &out.unresolved_mm, &out.groups, &out.spots}) *sum /= draws;
-  for (std::size_t i = 0; i < points; ++i) {
-    if (counts[i] > 0.5 * draws) out.spot_rows.push_back(i);
-  }
-  return out;
-}
-
-constexpr double kMostFlagged = 0.2;  // fraction of the points of a cloud
 // quantile of the inflation that the declared errors can produce
 constexpr double kErrorLimit = 0.975;
-constexpr double kReadLimit = 4.0;     // standard deviations of the readings of the model
-constexpr double kScatterLimit = 4.0;  // the same, of the residual scatter
-// below this number, noise declared too large cannot be detected
-constexpr double kFewResiduals = 40.0;
+
+std::vector<DrawTally> tallies_of(const FormChains& chains) {
+  std::vector<DrawTally> out;
+  for (const ChainValues& chain : chains.values()) out.push_back(chain.tally);
+  return out;
+}
 
 tl::unexpected<core::Error> void_interval(Code code, core::Phrase why) {
   return core::fail(code, std::move(why));
@@ -241,47 +117,6 @@ core::Result<void> guard_correction(const FormChains& chains, const UncertaintyR
                        core::phrase("the correction of {:.3g} um is more than the declared errors "
                                     "can make ({:.3g} um): no interval is stated",
                                     1e3 * found.noise_inflation_mm, 1e3 * most));
-}
-
-/// Checks that the model would read the measured value.
-core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResult& found) {
-  std::vector<double> read = all_of(chains, &ChainValues::read_mm);
-  std::erase_if(read, [](double value) { return !std::isfinite(value); });
-  if (read.size() < 8) return {};
-  const double mean = core::mean(read);
-  const double spread = core::standard_deviation(read, mean);
-  if (std::abs(found.uncorrected_mm - mean) <= kReadLimit * spread + 1e-6) return {};
-  return void_interval(
-      Code::kInconsistent,
-      core::phrase("the form model does not explain the value as read: it would read {:.3f} +- "
-                   "{:.3f} um, {:.3f} um were read; no interval is stated",
-                   1e3 * mean, 1e3 * spread, 1e3 * found.uncorrected_mm));
-}
-
-/// Checks that the points do not scatter less than declared. Adds a note where that cannot be
-/// shown.
-core::Result<void> guard_scatter(const FormChains& chains, std::size_t points,
-                                 UncertaintyResult& found) {
-  double scatter = 0.0;
-  double draws = 0.0;
-  for (const ChainValues& chain : chains.values()) {
-    scatter += chain.scatter_1;
-    draws += chain.resolved;
-  }
-  const double count = static_cast<double>(points) - found.finding.spots;
-  if (count - 2.0 * found.finding.groups < kFewResiduals) {
-    found.notes.push_back(core::phrase(
-        "too few points to show whether the declared noise is larger than the real one"));
-  }
-  if (draws == 0.0) return {};
-  scatter /= draws;
-  if (scatter >= 1.0 - kScatterLimit * std::sqrt(2.0 / count)) return {};
-  return void_interval(
-      Code::kInconsistent,
-      core::phrase("the residual scatter is {:.3g} um, declared were {:.3g} um: declare what the "
-                   "touches show; no interval is stated",
-                   1e3 * std::sqrt(scatter) * found.finding.noise_mm,
-                   1e3 * found.finding.noise_mm));
 }
 
 /// Each line's share of the lines of (a); sampling's share of all lines.
@@ -384,12 +219,6 @@ core::Phrase source_of(const FormModel& model, const FormSpectrum& spectrum) {
       3 * columns.most_undulations());
 }
 
-/// Whether nothing is known of the errors of single touches.
-bool noise_is_unknown(const ErrorModel& errors, const Influences& influences) {
-  if (!errors.point_variance_mm2().isZero(0.0)) return false;
-  return !influences.probe || !influences.probe->repeatability_known;
-}
-
 /// Without known noise there is no interval, only bounds. The lower one counts everything that the
 /// model does not follow as noise.
 tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences& influences,
@@ -415,16 +244,6 @@ tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences
 
 }  // namespace
 
-std::string_view name_of(Measurand measurand) {
-  return measurand == Measurand::kSampledPoints ? "at the sampled points" : "of the whole surface";
-}
-
-int decimals_for(double expanded_mm) {
-  const double u = expanded_mm / core::kMicrometre;
-  if (!(u > 0.0)) return 3;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 1, 4);
-}
-
 core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
                                                         const Influences& influences,
                                                         const std::optional<FormSpectrum>& spectrum,
@@ -436,12 +255,7 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   const bool declared = spectrum && !spectrum->terms.empty();
   const FormModel model(cloud, errors, declared ? &*spectrum : nullptr, options.expected_spots);
   if (noise_is_unknown(errors, influences)) return only_bounds(cloud, influences, model, options);
-  if (model.flagged_share() > kMostFlagged) {
-    return void_interval(Code::kOutliers,
-                         core::phrase("{:.0f} % of the points stand out: no smooth form stands "
-                                      "behind these points; no interval is stated",
-                                      100.0 * model.flagged_share()));
-  }
+  if (const auto good = guard_outliers(model); !good) return core::fail(good.error());
   const auto extent = extent_of(cloud, model, spectrum);
   if (!extent) return core::fail(extent.error());
   FormChains chains(cloud, errors, model, *extent, options.seed, options.chains,
@@ -449,8 +263,10 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   auto found = run_chains(chains, options, cloud.points.size());
   if (!found) return found;
   UncertaintyResult& out = *found;
-  out.finding = finding_of(chains, cloud.points.size());
-  if (const auto good = guard_scatter(chains, cloud.points.size(), out); !good) {
+  const std::vector<DrawTally> tallies = tallies_of(chains);
+  out.finding = finding_of(tallies, cloud.points.size());
+  if (const auto good = guard_scatter(tallies, cloud.points.size(), out.finding, out.notes);
+      !good) {
     return core::fail(good.error());
   }
   // The bound holds where the value is a seminorm of the deviations.
@@ -459,7 +275,10 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   if (two_sided) {
     if (const auto good = guard_correction(chains, out); !good) return core::fail(good.error());
   }
-  if (const auto good = guard_reading(chains, out); !good) return core::fail(good.error());
+  if (const auto good = guard_reading(all_of(chains, &ChainValues::read_mm), out.uncorrected_mm);
+      !good) {
+    return core::fail(good.error());
+  }
   auto budget = budget_of(chains, errors, options);
   if (!budget) return core::fail(budget.error());
   out.budget = *std::move(budget);

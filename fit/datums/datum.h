@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/plane.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {
@@ -77,5 +79,36 @@ struct RunOut {
 /// @return kNoPoints, kNotFinite (row).
 [[nodiscard]] core::Result<double> orientation_of_plane_mm(SpacePoints points_mm,
                                                            const Eigen::Vector3d& normal);
+
+/// Two parallel planes at a given angle to a datum that hold points between them.
+struct InclinedZone {
+  Plane outer;            ///< The plane on the outer side of the material.
+  double width_mm = 0.0;  ///< Angularity of a plane (ISO 1101) [mm].
+};
+
+/// Angularity of a plane to a datum plane or axis: the least distance of two planes whose normal
+/// makes the angle with the datum and that enclose the points. The zone is free to turn about the
+/// datum; of the positions that are minima, the result is the one next to the least-squares plane.
+/// @param datum      Normal of the datum plane or direction of the datum axis; of length 1.
+/// @param angle_rad  Between the datum and the normal of the zone, above 0 and up to 90 deg: the
+///                   nominal angle of plane to plane, 90 deg minus that of plane to axis.
+/// @param outward    As ls_plane().
+/// @return as ls_plane(); kBadOption for another angle; kNotConverged. O(n) per step.
+/// Source: methods, drawing section 5; ISO 1101.
+[[nodiscard]] core::Result<InclinedZone> inclined_zone(
+    SpacePoints points_mm, const Eigen::Vector3d& datum, double angle_rad,
+    const std::optional<Eigen::Vector3d>& outward = std::nullopt);
+
+/// Angularity of an axis to a datum (ISO 1101, zone with diameter sign): diameter of the least
+/// cylinder at the given angle to the datum that holds the median line, next to its least-squares
+/// line.
+/// @param median_mm  Centres of at least two sections.
+/// @param datum      As inclined_zone().
+/// @param angle_rad  Between the datum and the axis of the zone, above 0 and up to 90 deg: the
+///                   nominal angle of axis to axis, 90 deg minus that of axis to plane.
+/// @return as ls_line(); kRank (one centre), kBadOption, kNotConverged.
+[[nodiscard]] core::Result<double> angularity_of_axis_mm(SpacePoints median_mm,
+                                                         const Eigen::Vector3d& datum,
+                                                         double angle_rad);
 
 }  // namespace rondure::fit

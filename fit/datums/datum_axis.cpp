@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
+#include "fit/datums/datum.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/internal/gauss_newton.h"
@@ -288,11 +290,13 @@ core::Result<double> first_order_sum(const DatumPoints& data, const AxisModel& a
 /// the matrix of least squares, so that each step reduces the error to a share of form / radius.
 core::Result<DatumAxis> equalised_datum(const DatumPoints& data, AxisModel at) {
   constexpr int kSteps = 60;
+  constexpr double kAtRest = 1e-8;  // mm
   const auto sum = first_order_sum(data, at);
   if (!sum) return core::fail(sum.error());
   Eigen::VectorXd radii = mean_radii(data, at);
   DatumAxis out;
   const double round_off = linear_round_off(at);
+  double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kSteps && out.ending != ZoneEnding::kConverged; ++i) {
     LinearLimits limits(data, at, radii);
     limits.limit_sum(*sum + kRockTolerance - limits.sum.tail(radii.size()).dot(radii));
@@ -305,7 +309,11 @@ core::Result<DatumAxis> equalised_datum(const DatumPoints& data, AxisModel at) {
     if (!step.solved) return core::fail(unbounded_datum());
     at = at.moved(step.x.head<4>());
     radii += step.x.tail(radii.size());
-    if (step.x.cwiseAbs().maxCoeff() > round_off) continue;
+    // Where many points touch alike, round-off exchanges contacts and the steps stop shrinking.
+    const double size = step.x.cwiseAbs().maxCoeff();
+    const bool rests = size <= round_off || (size <= kAtRest && size >= 0.5 * last);
+    last = size;
+    if (!rests) continue;
     out.ending = ZoneEnding::kConverged;
     for (std::size_t k = 0; k < step.active.size(); ++k) {
       if (step.active[k] == data.points.size()) continue;  // the limit of the sum
@@ -393,6 +401,12 @@ core::Result<Plane> datum_plane_square_to(const Axis& primary, SpacePoints point
       extremes_of(points_mm, [&](const auto& p) { return height_mm(out, p); }).high;
   out.point_mm += farthest * out.normal;
   return out;
+}
+
+core::Result<Plane> datum_plane_square_to(const Plane& primary, SpacePoints points_mm,
+                                          const Eigen::Vector3d& outward) {
+  return inclined_zone(points_mm, primary.normal, 0.25 * core::kTwoPi, outward)
+      .map([](const InclinedZone& zone) { return zone.outer; });
 }
 
 }  // namespace rondure::fit

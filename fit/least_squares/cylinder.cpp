@@ -11,10 +11,10 @@
 #include <Eigen/LU>
 
 #include "core/decompositions.h"
-#include "core/units.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/internal/gauss_newton.h"
+#include "fit/least_squares/internal/start_directions.h"
 #include "fit/least_squares/internal/sums.h"
 
 namespace rondure::fit {
@@ -22,10 +22,6 @@ namespace {
 
 // Squared extents below this share of the largest (3e-8 in length) are round-off of the sums.
 constexpr double kFlat = 1e-15;
-constexpr std::size_t kLookedAt = 200;  // points of the sample
-constexpr int kDirections = 240;        // on the half sphere, some 9 deg apart
-constexpr std::size_t kKept = 8;
-const double kApart = std::cos(12.0 * core::kDegree);
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 /// The cylinder during the iteration, relative to an origin amid the points.
@@ -120,63 +116,21 @@ core::Result<void> check_rank(SpacePoints points, const Eigen::Vector3d& origin)
   return {};
 }
 
-struct Scored {
-  Eigen::Vector3d direction;
-  double rms = 0.0;
-};
-
-/// Evenly spread directions of the half sphere (Fibonacci spiral) and the three principal axes.
-std::vector<Eigen::Vector3d> spread(SpacePoints sample) {
-  std::vector<Eigen::Vector3d> out;
-  const double golden = core::kTwoPi * (2.0 - (1.0 + std::sqrt(5.0)) / 2.0);
-  for (int i = 0; i < kDirections; ++i) {
-    const double z = (i + 0.5) / kDirections;
-    const double across = std::sqrt(1.0 - z * z);
-    out.emplace_back(across * std::cos(golden * i), across * std::sin(golden * i), z);
-  }
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : sample) scatter += p * p.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(scatter);
-  for (int k = 0; k < 3; ++k) out.emplace_back(principal.eigenvectors().col(k));
-  return out;
-}
-
-/// Directions from which to start when none is known: scans the half sphere with the algebraic
-/// circle of the projected points and returns the directions with the least residuals, at least 12
-/// deg apart, best first. Cost: some 250 directions.
-/// @param points  Relative to their mean; a strided sample is used.
-std::vector<Eigen::Vector3d> start_directions(SpacePoints points) {
-  std::vector<Eigen::Vector3d> sample;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kLookedAt);
-  for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
-
-  std::vector<Scored> scored;
-  std::vector<Eigen::Vector2d> flat(sample.size());
-  for (const Eigen::Vector3d& direction : spread(sample)) {
-    const auto frame = across(direction);
-    std::ranges::transform(sample, flat.begin(), [&](const Eigen::Vector3d& p) -> Eigen::Vector2d {
-      return frame.transpose() * p;
-    });
-    if (const auto circle = algebraic_circle(flat)) scored.push_back({direction, circle->rms_mm});
-  }
-  std::ranges::stable_sort(scored, {}, &Scored::rms);
-  std::vector<Eigen::Vector3d> out;
-  for (const Scored& candidate : scored) {
-    const bool near = std::ranges::any_of(out, [&](const Eigen::Vector3d& d) {
-      return std::abs(d.dot(candidate.direction)) > kApart;
-    });
-    if (!near) out.push_back(candidate.direction);
-    if (out.size() == kKept) break;
-  }
-  return out;
-}
-
-/// The same for points whose mean is `origin`.
+/// Start directions by the algebraic circle of the projected points, whose mean is `origin`.
 std::vector<Eigen::Vector3d> directions(SpacePoints points, const Eigen::Vector3d& origin) {
   std::vector<Eigen::Vector3d> seen(std::min(points.size(), kStartSample));
   sample_points(points, seen);
   for (Eigen::Vector3d& p : seen) p -= origin;
-  return start_directions(seen);
+  std::vector<Eigen::Vector2d> flat;
+  return start_directions(
+      seen, [&](SpacePoints sample, const Eigen::Vector3d& direction) -> std::optional<double> {
+        const auto frame = across(direction);
+        flat.clear();
+        for (const Eigen::Vector3d& p : sample) flat.emplace_back(frame.transpose() * p);
+        const auto circle = algebraic_circle(flat);
+        if (!circle) return std::nullopt;
+        return circle->rms_mm;
+      });
 }
 
 core::Result<Settled> settle_from(SpacePoints points, const Eigen::Vector3d& origin,

@@ -148,6 +148,18 @@ core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
   return out;
 }
 
+core::Result<void> check_gaps(const AngularProfile& profile, double cutoff_upr) {
+  if (profile.uniform()) return {};
+  const double gap_deg = profile.largest_gap_rad / core::kDegree;
+  const double limit_deg = 90.0 / cutoff_upr;
+  if (gap_deg < limit_deg) return {};
+  return core::fail(core::Code::kSampling,
+                    fmt::format("the largest gap between angles is {:.4g} deg, {} UPR allow "
+                                "{:.4g} deg (a quarter undulation): measure the missing angles, "
+                                "or take a lower cut-off; the check can be overridden",
+                                gap_deg, cutoff_upr, limit_deg));
+}
+
 std::vector<double> angular_cells(std::span<const double> theta_rad) {
   const std::size_t n = theta_rad.size();
   std::vector<double> cells(n);

@@ -38,6 +38,11 @@ struct AngularProfile {
 [[nodiscard]] core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
                                                            std::span<const double> r_mm);
 
+/// Checks that no gap of a profile at uneven angles hides undulations up to a cut-off: each must be
+/// below a quarter of an undulation.
+/// @return kSampling.
+[[nodiscard]] core::Result<void> check_gaps(const AngularProfile& profile, double cutoff_upr);
+
 /// Returns the angle that each point represents [rad]: half the gaps to its neighbours. A gap of
 /// 90 deg or more is not part of the profile: the point beside it takes its inner half gap twice.
 /// @param theta_rad  Ascending, within one turn; equal angles share their cell.

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {
@@ -68,6 +70,53 @@ double range_from_line(const Generatrix& line, double slope) {
   return out.width() / std::hypot(1.0, slope);
 }
 
+/// The harmonic series through the samples of a section, about the centre of its circle.
+class SectionSeries {
+ public:
+  explicit SectionSeries(const DenseSection& section)
+      : center_(section.center_mm),
+        start_(section.profile.start_rad),
+        harmonics_(spectrum(section.profile.r_mm)) {
+    const double count = static_cast<double>(section.profile.r_mm.size());
+    for (Complex& value : harmonics_) value *= 2.0 / count;
+    // The mean appears once in the sum, and so does the last harmonic of an even number of samples.
+    harmonics_.front() *= 0.5;
+    if (section.profile.r_mm.size() % 2 == 0) harmonics_.back() *= 0.5;
+  }
+
+  /// Distance from the axis, at the origin, of the surface at an angle about the axis.
+  [[nodiscard]] double distance_at(double angle) const {
+    constexpr int kRounds = 30;
+    const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+    const double beside = along.y() * center_.x() - along.x() * center_.y();
+    // The point at the angle t about the centre lies beside the ray by r sin(t - angle) - beside.
+    double turn = 0.0;
+    for (int i = 0; i < kRounds; ++i) {
+      const double next = std::asin(std::clamp(beside / radius(angle + turn), -1.0, 1.0));
+      const bool rests = std::abs(next - turn) <= 1e-15;
+      turn = next;
+      if (rests) break;
+    }
+    return along.dot(center_) + radius(angle + turn) * std::cos(turn);
+  }
+
+ private:
+  [[nodiscard]] double radius(double angle) const {
+    const Complex step = std::polar(1.0, angle - start_);
+    Complex turned = 1.0;
+    double sum = 0.0;
+    for (const Complex& value : harmonics_) {
+      sum += (value * turned).real();
+      turned *= step;
+    }
+    return sum;
+  }
+
+  Eigen::Vector2d center_;
+  double start_;
+  Spectrum harmonics_;
+};
+
 }  // namespace
 
 core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const double> z_mm,
@@ -121,6 +170,7 @@ core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis&
     return std::atan2(q.y(), q.x());
   };
   std::vector<Generatrix> out;
+  std::string missing;
   for (const Eigen::Vector3d& first : layers_mm.front()) {
     Generatrix line;
     line.angle_rad = angle_of(first);
@@ -131,17 +181,46 @@ core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis&
       };
       const auto nearest = std::ranges::min_element(layer, {}, apart);
       if (apart(*nearest) > kSameGeneratrix) {
-        return core::fail(
-            core::Code::kSampling,
-            fmt::format("layer {} has no point within 0.5 deg of {:.3f} deg, the "
-                        "nearest is {:.3f} deg off: begin all layers at one angle "
-                        "(stagger 0), or scan",
-                        j, core::degrees(line.angle_rad), core::degrees(apart(*nearest))));
+        missing = fmt::format(
+            "no generatrix has a point in every layer: layer {} has none within 0.5 deg of {:.3f} "
+            "deg, the nearest is {:.3f} deg off: begin all layers at one angle (stagger 0), or "
+            "scan",
+            j, core::degrees(line.angle_rad), core::degrees(apart(*nearest)));
+        break;
       }
       line.heights_mm.push_back((*nearest - axis.point_mm).dot(axis.direction));
       line.distances_mm.push_back(distance_mm(axis, *nearest));
     }
-    out.push_back(std::move(line));
+    if (line.heights_mm.size() == layers_mm.size()) out.push_back(std::move(line));
+  }
+  if (out.empty()) return core::fail(core::Code::kSampling, missing);
+  return out;
+}
+
+core::Result<std::vector<Generatrix>> dense_generatrices(std::span<const DenseSection> sections,
+                                                         int count) {
+  constexpr std::size_t kFewestSamples = 8;
+  if (sections.empty()) return core::fail(core::Code::kNoPoints, "there is no section");
+  if (count < 1) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} generatrices; at least 1 is needed", count));
+  }
+  std::vector<Generatrix> out(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].angle_rad = core::kTwoPi * static_cast<double>(k) / count;
+  }
+  for (std::size_t j = 0; j < sections.size(); ++j) {
+    if (sections[j].profile.r_mm.size() < kFewestSamples) {
+      return core::fail(core::Code::kSampling,
+                        fmt::format("section {} has {} samples; a generatrix between points needs "
+                                    "at least {}: scan the section",
+                                    j, sections[j].profile.r_mm.size(), kFewestSamples));
+    }
+    const SectionSeries series(sections[j]);
+    for (Generatrix& line : out) {
+      line.heights_mm.push_back(sections[j].height_mm);
+      line.distances_mm.push_back(series.distance_at(line.angle_rad));
+    }
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include "fit/geometry/axis.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/sections.h"
+#include "fit/profiles/closed_profile.h"
 #include "fit/profiles/form_parameters.h"
 
 namespace rondure::fit {
@@ -50,11 +51,28 @@ struct Generatrix {
 
 /// Collects the generatrices of touched layers that begin at the same angle.
 /// @param axis  Least-squares axis of the feature.
-/// @return One for each point of the first layer, in its order; kNoPoints (no layer), kNotFinite
-///         (row), kSampling if a layer has no point within 0.5 deg of an angle (staggered layers).
-/// Source: methods, drawing section 4.2.
+/// @return One for each angle of the first layer at which every layer has a point within 0.5 deg,
+/// in
+///         its order: those through a window are omitted. kNoPoints (no layer), kNotFinite (row),
+///         kSampling if there is no such angle (staggered layers).
+/// Source: methods, drawing sections 4.2 and 7.
 [[nodiscard]] core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm,
                                                                  const Axis& axis);
+
+/// A dense section of a feature, whose profile is known at every angle by its harmonic series.
+struct DenseSection {
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< Of its circle, as Section::circle.
+  double height_mm = 0.0;                               ///< Mean height along the axis [mm].
+  UniformProfile profile;  ///< Radii about that centre, filtered or not; >= 8 samples [mm].
+};
+
+/// Generatrices of dense sections at `count` uniform angles about the axis; nothing is interpolated
+/// between points, as the harmonic series gives the surface at every angle.
+/// @return count generatrices from angle 0 on; kNoPoints (no section), kSampling (fewer than 8
+///         samples; `what` names the section), kBadOption (count < 1). O(count n) for each section.
+/// Source: methods, drawing section 4.2.
+[[nodiscard]] core::Result<std::vector<Generatrix>> dense_generatrices(
+    std::span<const DenseSection> sections, int count = 36);
 
 /// Two opposite generatrices in a plane through the axis.
 struct OppositeGeneratrices {

@@ -11,6 +11,7 @@
 
 #include "core/numbers.h"
 #include "core/statistics.h"
+#include "core/units.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 
@@ -202,6 +203,30 @@ core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOpti
   return out;
 }
 
+/// Value of a smooth periodic series between its samples, by the polynomial through the next eight:
+/// for 14 samples per undulation its error is 2e-6 of the amplitude.
+double between_samples(const std::vector<double>& r, double position) {
+  constexpr std::array<double, 8> kBinomial = {-1.0, 7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0};
+  constexpr double kBefore = 3.0;  // samples before the interval
+  const double floor = std::floor(position);
+  const double within = position - floor;
+  const auto n = static_cast<std::ptrdiff_t>(r.size());
+  std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(floor) - 3) % n;
+  if (at < 0) at += n;
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t k = 0; k < kBinomial.size(); ++k) {
+    const double apart = within + kBefore - static_cast<double>(k);
+    const double value = r[static_cast<std::size_t>(at)];
+    if (apart == 0.0) return value;
+    const double weight = kBinomial[k] / apart;
+    sum += weight * value;
+    weights += weight;
+    if (++at == n) at = 0;
+  }
+  return sum / weights;
+}
+
 }  // namespace
 
 std::string_view name_of(ProfileFilter filter) {
@@ -296,6 +321,32 @@ core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
     out.r_mm = linear(r_mm, options);
   }
   out.sampling = *sampling;
+  return out;
+}
+
+core::Result<FilteredProfile> filter_at_angles(const AngularProfile& profile,
+                                               const FilterOptions& options) {
+  if (profile.uniform() || options.filter == ProfileFilter::kNone) {
+    return filter_closed(profile.r_mm, options);
+  }
+  const auto sampling = check_sampling(profile.r_mm.size(), options);
+  if (!sampling) return core::fail(sampling.error());
+  if (!options.override_sampling) {
+    const auto checked = check_gaps(profile, options.highest_cutoff_upr());
+    if (!checked) return core::fail(checked.error());
+  }
+  const auto even = resampled(profile);
+  if (!even) return core::fail(even.error());
+  auto out = filter_closed(even->profile.r_mm, options);
+  if (!out) return out;
+  const double per_rad = static_cast<double>(out->r_mm.size()) / core::kTwoPi;
+  std::vector<double> r;
+  r.reserve(profile.theta_rad.size());
+  for (const double theta : profile.theta_rad) {
+    r.push_back(between_samples(out->r_mm, (theta - even->profile.start_rad) * per_rad));
+  }
+  out->r_mm = std::move(r);
+  out->sampling = *sampling;
   return out;
 }
 

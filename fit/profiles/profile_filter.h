@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "fit/profiles/closed_profile.h"
 
 namespace rondure::fit {
 
@@ -95,5 +96,12 @@ struct FilteredProfile {
 /// Sources: ISO 16610-21, -22, -31; ISO 4291 (2RC); methods, roundness B.2.
 [[nodiscard]] core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
                                                           const FilterOptions& options);
+
+/// Filters a closed profile at any angles: resampled() to uniform ones where they are uneven,
+/// filter_closed(), and back at the angles of the profile.
+/// @return r_mm at theta_rad of the profile; the errors of filter_closed(), check_gaps() and
+///         resampled().
+[[nodiscard]] core::Result<FilteredProfile> filter_at_angles(const AngularProfile& profile,
+                                                             const FilterOptions& options);
 
 }  // namespace rondure::fit

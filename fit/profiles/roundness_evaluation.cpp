@@ -65,17 +65,9 @@ core::Result<void> check_coverage(RoundnessEvaluation& out) {
 
 /// Checks that no gap can hide undulations that the filter should pass.
 core::Result<void> check_gap(RoundnessEvaluation& out) {
-  if (out.filter.filter == ProfileFilter::kNone || out.measured.uniform()) return {};
-  const double gap_deg = out.measured.largest_gap_rad / core::kDegree;
-  const double limit_deg = 90.0 / out.filter.highest_cutoff_upr();
-  if (gap_deg < limit_deg) return {};
-  if (!out.filter.override_sampling) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("the largest gap between angles is {:.4g} deg, {} UPR allow "
-                                  "{:.4g} deg (a quarter undulation): measure the missing angles, "
-                                  "or take a lower cut-off; the check can be overridden",
-                                  gap_deg, out.filter.highest_cutoff_upr(), limit_deg));
-  }
+  if (out.filter.filter == ProfileFilter::kNone) return {};
+  auto checked = check_gaps(out.measured, out.filter.highest_cutoff_upr());
+  if (checked || !out.filter.override_sampling) return checked;
   out.sampling.overridden = true;
   return {};
 }

@@ -1,9 +1,11 @@
 #include "fit/sizes/global_sizes.h"
 
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "fit/least_squares/sphere.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::fit {
@@ -41,6 +43,17 @@ core::Result<GlobalSizes> sizes_of(double ls_radius_mm, const Material& material
   return out;
 }
 
+template <int D>
+core::Result<GlobalSizes> sizes_about_center(std::span<const Eigen::Matrix<double, D, 1>> points_mm,
+                                             const Material& material,
+                                             const core::Result<LsCenter<D>>& ls) {
+  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  if (!ls) return core::fail(ls.error());
+  CenterZoneFitter<D> fitter;
+  return sizes_of(ls->radius_mm, material,
+                  [&](const ZoneWeights& weights) { return fitter.fit(points_mm, weights); });
+}
+
 }  // namespace
 
 core::Result<void> check_material(const Material& material) {
@@ -62,12 +75,11 @@ core::Result<GlobalSizes> global_sizes(SpacePoints points_mm, const Material& ma
 }
 
 core::Result<GlobalSizes> global_sizes(PlanePoints points_mm, const Material& material) {
-  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
-  const auto ls = ls_circle(points_mm);
-  if (!ls) return core::fail(ls.error());
-  CircleZoneFitter fitter;
-  return sizes_of(ls->radius_mm, material,
-                  [&](const ZoneWeights& weights) { return fitter.fit(points_mm, weights); });
+  return sizes_about_center<2>(points_mm, material, ls_circle(points_mm));
+}
+
+core::Result<GlobalSizes> global_sizes_of_sphere(SpacePoints points_mm, const Material& material) {
+  return sizes_about_center<3>(points_mm, material, ls_sphere(points_mm));
 }
 
 }  // namespace rondure::fit

@@ -10,7 +10,8 @@
 
 namespace rondure::fit {
 
-/// Global sizes of a cylinder, or of the circle of one section (ISO 14405-1): diameters [mm].
+/// Global sizes of a cylinder, of a sphere, or of the circle of one section (ISO 14405-1):
+/// diameters [mm].
 ///
 /// GN of a shaft and GX of a bore are those of the surface itself for any tip radius; the others
 /// are those of the surface as the tip feels it, which bridges valleys narrower than the tip.
@@ -37,5 +38,12 @@ struct GlobalSizes {
 /// Source: methods, drawing section 2.5.
 [[nodiscard]] core::Result<GlobalSizes> global_sizes(PlanePoints points_mm,
                                                      const Material& material);
+
+/// Computes the sizes of a sphere. GX is absent where a cap is open, through which the inscribed
+/// sphere would grow.
+/// @return as ls_sphere(), kBadOption (tip radius), kNotConverged.
+/// Source: methods, drawing section 9.3.
+[[nodiscard]] core::Result<GlobalSizes> global_sizes_of_sphere(SpacePoints points_mm,
+                                                               const Material& material);
 
 }  // namespace rondure::fit

@@ -71,7 +71,8 @@ void check_sections(const AnalysisKind& kind, const std::string& where, Findings
                      fmt::format("this key is missing: it says how a {} is evaluated", kind.type));
   }
   for (const std::string_view key :
-       {"/nominal", "/sampling", "/pose_search", "/source/tip_diameter_mm"}) {
+       {"/nominal", "/sampling", "/pose_search", "/source/tip_diameter_mm", "/source/feature",
+        "/source/clamping", "/letter", "/exclude"}) {
     if (!findings.is_given(where + std::string(key))) continue;
     findings.meaning(
         Code::kMeaning, where + std::string(key),

@@ -1,6 +1,8 @@
 #include "plans/analyses/features.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "plans/analyses/analysis.h"
 
@@ -29,6 +31,29 @@ bool simulates_analysis(const Plan& plan) {
     return analysis_kind(feature.type) != nullptr && !has_files(feature) &&
            !measures_by_touch(feature);
   });
+}
+
+std::vector<record::Characteristic> characteristics_of(const Plan& plan,
+                                                       const FeaturePlan& feature) {
+  const std::array<record::CharacteristicLevel, 2> levels = {
+      {{feature.defaults, feature.decision_rule}, {plan.defaults, std::nullopt}}};
+  std::vector<record::Characteristic> out;
+  for (const record::CharacteristicTask& task : feature.characteristics) {
+    out.push_back(characteristic_of(task, feature.nominal.diameter_mm, levels));
+  }
+  return out;
+}
+
+std::string clamping_of(const Plan& plan, const FeaturePlan& feature) {
+  if (!feature.source || analysis_kind(feature.type) != nullptr) return {};
+  std::size_t sharing = 0;
+  std::string named;
+  for (const FeaturePlan& other : plan.features) {
+    if (!other.source || other.source->file != feature.source->file) continue;
+    ++sharing;
+    if (named.empty()) named = other.source->clamping;
+  }
+  return named.empty() && sharing > 1 ? feature.source->file : named;
 }
 
 }  // namespace rondure::plans

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "plans/plan.h"
 
 // Requirements of the features of a plan.
@@ -16,5 +19,13 @@ namespace rondure::plans {
 [[nodiscard]] bool needs_machine(const FeaturePlan& feature);
 /// Whether a plan needs a machine.
 [[nodiscard]] bool touches_anything(const Plan& plan);
+
+/// The characteristics of a feature with the defaults of feature and plan, as the journal keeps
+/// them.
+[[nodiscard]] std::vector<record::Characteristic> characteristics_of(const Plan& plan,
+                                                                     const FeaturePlan& feature);
+/// Name of the clamping in which the points of a file were measured: as a feature of that file
+/// names it, else the file where several features share it, else empty.
+[[nodiscard]] std::string clamping_of(const Plan& plan, const FeaturePlan& feature);
 
 }  // namespace rondure::plans

@@ -63,15 +63,20 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   return out;
 }
 
-/// True seat of the simulated part: shifted and tilted about the part origin, then moved up to the
-/// middle of the surface, which is the origin of its own frame.
-Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
-                            const FeaturePlan& feature) {
+/// True seat of the simulated part: shifted and tilted about the part origin.
+Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part) {
   const double toward = part.tilt_toward_deg * core::kDegree;
   Eigen::Isometry3d seat = nominal;
   seat.translate(Eigen::Vector3d(part.offset_x_mm, part.offset_y_mm, 0.0));
   seat.rotate(Eigen::AngleAxisd(part.tilt_deg * core::kDegree,
                                 Eigen::Vector3d(-std::sin(toward), std::cos(toward), 0.0)));
+  return seat;
+}
+
+/// The same, moved up to the middle of a surface, which is the origin of its own frame.
+Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
+                            const FeaturePlan& feature) {
+  Eigen::Isometry3d seat = true_seat(nominal, part);
   seat.translate(
       Eigen::Vector3d(0.0, 0.0, 0.5 * (feature.nominal.from_mm + feature.nominal.to_mm)));
   return seat;
@@ -97,6 +102,8 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
       driven_(std::move(driven)),
       fixture_(fixture_options(plan, seed, resumed)),
       machine_(machine_options(plan, seed, resumed)),
+      features_(plan.features),
+      whole_part_(has_whole_part(plan)),
       true_X_WF_(true_base(plan.simulation->fixture)) {
   if (const auto& datum = plan.fixture->datum) {
     for (const DatumSpherePlan& sphere : datum->spheres) {
@@ -117,7 +124,7 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
 void SimulatedCell::mount(const FeaturePlan& feature) {
   balls_.clear();
   if (feature.rotary_axes) {
-    surface_.reset();
+    part_.reset();
     machine_.remove_part();
     // The artefact has the same seat error in the ring as the simulated part.
     true_X_BP_ = true_seat(Eigen::Isometry3d::Identity(), simulation_.part, feature);
@@ -126,8 +133,13 @@ void SimulatedCell::mount(const FeaturePlan& feature) {
     }
     return place_part();
   }
-  surface_ = simulated_surface(simulation_, feature);
-  true_X_BP_ = true_seat(nominal_part(), simulation_.part, feature);
+  if (whole_part_) {
+    part_ = simulated_part(features_, simulation_, feature);
+    true_X_BP_ = true_seat(nominal_part(), simulation_.part);
+  } else {
+    part_ = cmm::SimulatedPart{{{simulated_surface(simulation_, feature)}}};
+    true_X_BP_ = true_seat(nominal_part(), simulation_.part, feature);
+  }
   place_part();
 }
 
@@ -209,7 +221,7 @@ core::Result<core::Pose> SimulatedCell::home_again() {
 void SimulatedCell::place_part() {
   const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
   const Eigen::Isometry3d X_WP = X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_;
-  if (surface_) machine_.place_part(*surface_, X_WP);
+  if (part_) machine_.place_part(*part_, X_WP);
   std::vector<cmm::ReferenceSphere> spheres = table_spheres_;
   for (const cmm::ReferenceSphere& ball : balls_) {
     spheres.push_back({X_WP * ball.center_W_mm, ball.radius_mm});

@@ -78,7 +78,9 @@ class SimulatedCell final : public Cell {
   std::unique_ptr<fixture::Fixture> driven_;
   fixture::SimulatedFixture fixture_;  ///< Turns the part in software.
   cmm::SimulatedMachine machine_;
-  std::optional<cmm::PartSurface> surface_;
+  std::vector<FeaturePlan> features_;
+  bool whole_part_ = false;                 ///< All surfaces at once: see has_whole_part().
+  std::optional<cmm::SimulatedPart> part_;  ///< None for balls on the ring.
   std::vector<cmm::ReferenceSphere> table_spheres_;  ///< Spheres on the table, machine frame.
   std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
   /// Spheres that show the pose of the ring, body frame.

@@ -10,6 +10,40 @@
 namespace rondure::plans {
 
 using core::Code;
+using record::Shape;
+
+namespace {
+
+/// One more than the unknowns of the surface.
+std::size_t needed_points(Shape shape) {
+  switch (shape) {
+    case Shape::kCylinder:
+      return 6;
+    case Shape::kCone:
+      return 7;
+    case Shape::kSphere:
+      return 5;
+    default:
+      return 4;
+  }
+}
+
+/// Refuses the characteristics of a cylinder that need layers.
+void check_without_layers(const FeaturePlan& feature, std::size_t index, Findings& findings) {
+  for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
+    const record::Form form = feature.characteristics[k].form;
+    const bool masked = form == record::Form::kHarmonicLimits;
+    const std::string place = item_pointer(feature_pointer(index) + "/characteristics", k);
+    if ((!masked && form != record::Form::kRoundness) || !findings.sound(place)) continue;
+    findings.meaning(Code::kMeaning, place + "/form",
+                     fmt::format("the file has no column layer, so a cylinder from it has no {}; "
+                                 "add the column{}, or give each section as a \"circle\"",
+                                 masked ? "harmonics" : "roundness",
+                                 masked ? "" : ", ask for \"cylindricity\""));
+  }
+}
+
+}  // namespace
 
 void check_points_file(const Plan& plan, std::size_t index, Findings& findings) {
   const FeaturePlan& feature = plan.features[index];
@@ -18,18 +52,23 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
   const std::string& file = feature.source->file;
   const auto bytes = read_data_file(plan.folder / file, file);
   if (!bytes) return findings.meaning(bytes.error().code, where, bytes.error().what);
-  const auto table = record::parse_points_csv(*bytes, file);
+  const auto table = record::parse_feature_csv(*bytes, file, feature.source->feature);
   if (!table) {
     const core::Error& error = table.error();
-    return findings.meaning(error.code, error.where.empty() ? where : error.where, error.what);
+    const bool of_key = error.where == file;  // no line of the file
+    const std::string key = feature_pointer(index) + "/source/feature";
+    return findings.meaning(error.code, of_key ? key : error.where, error.what);
   }
-  const bool cylinder = feature.type == record::Shape::kCylinder;
-  if (cylinder && table->dimensions != 3) {
-    return findings.meaning(
-        Code::kMeaning, where,
-        fmt::format("the file {} has the columns x,y; a cylinder needs x,y,z", in_quotes(file)));
+  const bool circle = feature.type == record::Shape::kCircle;
+  if (!circle && table->dimensions != 3) {
+    return findings.meaning(Code::kMeaning, where,
+                            fmt::format("the file {} has the columns x,y; a {} needs x,y,z",
+                                        in_quotes(file), name_of(feature.type)));
   }
-  const std::size_t needed = cylinder ? 6 : 4;
+  if (feature.type == record::Shape::kCylinder && table->layers.empty()) {
+    check_without_layers(feature, index, findings);
+  }
+  const std::size_t needed = needed_points(feature.type);
   if (table->points_mm.size() < needed) {
     findings.meaning(
         Code::kTooFewPoints, where,

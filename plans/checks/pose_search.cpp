@@ -42,7 +42,8 @@ void check_merged(const Plan& plan, const FeaturePlan& feature, const std::strin
   };
   if (feature.type != record::Shape::kCylinder)
     return refuse(where + "/strategy",
-                  "\"merged\" is of a cylinder; a circle is measured in one pose");
+                  fmt::format("\"merged\" is of a cylinder; a {} is measured in one pose",
+                              name_of(feature.type)));
   if (feature.sampling.method == record::SamplingMethod::kScan) {
     refuse(
         feature_where + "/sampling/method",
@@ -101,7 +102,7 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings) 
                                  name_of(search.strategy)));
   }
   const bool refined = search.strategy == record::Strategy::kRefined;
-  if (feature.type == record::Shape::kCircle ||
+  if (feature.type != record::Shape::kCylinder ||
       (!refined && search.strategy != record::Strategy::kAsPublished))
     return;
   for (std::size_t i = 0; i < search.steps_deg.size(); ++i) {

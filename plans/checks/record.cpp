@@ -55,6 +55,10 @@ class LimitList {
   void text(std::string_view key, const Enum&, const TextSpec& spec) {
     add(key, {.one_of = spec_of_words<Enum>(spec).one_of});
   }
+  template <record::Worded Enum>
+  void text(std::string_view key, const std::optional<Enum>&, const TextSpec& spec) {
+    text(key, Enum{}, spec);
+  }
   void texts(std::string_view key, const std::vector<std::string>&, const TextSpec& spec) {
     add(key, {.one_of = spec.one_of});
   }
@@ -127,6 +131,7 @@ SettingTable surface_table() {
   SettingTable out = table_of<record::SamplingSettings>();
   out.merge(table_of<record::MergedPosesSettings>());
   out.merge(table_of<record::ExpansionSettings>());
+  out.merge(table_of<record::SurfaceSettings>());
   return out;
 }
 
@@ -386,6 +391,10 @@ Fault check_feature(const RunRecord& record, int index, bool strict) {
     if (characteristic.form == record::Form::kHarmonicLimits &&
         characteristic.harmonic_limits.empty()) {
       return fmt::format("characteristic {} has no mask", in_quotes(characteristic.id));
+    }
+    if (auto fault = check_settings(record::settings_of_task(characteristic.indication),
+                                    table_of<record::Indication>(), true)) {
+      return fmt::format("characteristic {}: {}", in_quotes(characteristic.id), *fault);
     }
   }
   const bool analysed = record::is_analysis(feature.shape);

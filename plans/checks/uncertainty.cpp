@@ -1,7 +1,9 @@
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,7 +18,7 @@ using record::DecisionRuleTask;
 using Rule = DecisionRuleTask::Rule;
 
 /// Checks the four statements of ASME B89.7.3.1: needed by its rules, without effect under others.
-void check_statements(const DecisionRuleTask& rule, Findings& findings) {
+void check_statements(const DecisionRuleTask& rule, const std::string& place, Findings& findings) {
   const bool needed = rule.rule == Rule::kNToOne || rule.rule == Rule::kGuardBand;
   const std::array<std::pair<std::string_view, std::string_view>, 4> statements = {
       {{"zones", rule.zones},
@@ -24,7 +26,7 @@ void check_statements(const DecisionRuleTask& rule, Findings& findings) {
        {"repeats", rule.repeats},
        {"outliers", rule.outliers}}};
   for (const auto& [key, text] : statements) {
-    const std::string where = fmt::format("/decision_rule/{}", key);
+    const std::string where = member_pointer(place, key);
     if (!needed || !text.empty() || !findings.sound(where)) continue;
     findings.meaning(Code::kMissingKey, where,
                      fmt::format("this key is missing: ASME B89.7.3.1 requires its statement under "
@@ -33,26 +35,25 @@ void check_statements(const DecisionRuleTask& rule, Findings& findings) {
   }
 }
 
-void check_prior(const DecisionRuleTask& rule, Findings& findings) {
-  constexpr std::string_view kWhere = "/decision_rule/prior/standard_deviation_um";
-  if (!rule.prior || !findings.sound("/decision_rule/prior")) return;
+void check_prior(const DecisionRuleTask& rule, const std::string& place, Findings& findings) {
+  if (!rule.prior || !findings.sound(place + "/prior")) return;
   const record::PriorTask& prior = *rule.prior;
   if (prior.distribution == record::PriorTask::Distribution::kGamma &&
       prior.standard_deviation_um > prior.mean_um) {
-    findings.meaning(Code::kMeaning, std::string(kWhere),
+    findings.meaning(Code::kMeaning, place + "/prior/standard_deviation_um",
                      fmt::format("{} um is above the mean of {} um, and a gamma distribution would "
                                  "have no top; correct one of them, or give \"normal\"",
                                  plain(prior.standard_deviation_um), plain(prior.mean_um)));
   }
 }
 
-void check_rule(const DecisionRuleTask& rule, Findings& findings) {
-  check_statements(rule, findings);
-  check_prior(rule, findings);
+void check_rule(const DecisionRuleTask& rule, const std::string& place, Findings& findings) {
+  check_statements(rule, place, findings);
+  check_prior(rule, place, findings);
   if (rule.rule == Rule::kGuardBand &&
       rule.acceptance_guard_percent + rule.rejection_guard_percent < 0.0) {
     findings.meaning(
-        Code::kMeaning, "/decision_rule/rejection_guard_percent",
+        Code::kMeaning, place + "/rejection_guard_percent",
         fmt::format("guard bands of {} % and {} % leave values that would be accepted "
                     "and rejected; their sum must not be below 0",
                     plain(rule.acceptance_guard_percent), plain(rule.rejection_guard_percent)));
@@ -65,7 +66,7 @@ void check_rule(const DecisionRuleTask& rule, Findings& findings) {
        {"acceptance_guard_percent", Rule::kGuardBand},
        {"rejection_guard_percent", Rule::kGuardBand}}};
   for (const auto& [key, owner] : kOwners) {
-    const std::string where = fmt::format("/decision_rule/{}", key);
+    const std::string where = member_pointer(place, key);
     if (rule.rule == owner || !findings.is_given(where) || !findings.sound(where)) continue;
     findings.meaning(Code::kMeaning, where,
                      fmt::format("this key belongs to the rule {} and has no effect under {}; take "
@@ -101,19 +102,48 @@ void check_limits(const record::UncertaintyTask& u, Findings& findings) {
                   plain(u.probe->form_limit_um), touch ? "repeatability" : "lobes"));
 }
 
+/// A rule of the plan, of a feature or of a characteristic.
+struct PlacedRule {
+  const DecisionRuleTask* rule = nullptr;
+  std::string where;
+};
+
+std::vector<PlacedRule> rules_of(const Plan& plan) {
+  std::vector<PlacedRule> out = {{&plan.decision_rule, "/decision_rule"}};
+  const auto add = [&](const std::optional<DecisionRuleTask>& rule, const std::string& where) {
+    if (rule) out.push_back({&*rule, where + "/decision_rule"});
+  };
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const FeaturePlan& feature = plan.features[i];
+    const std::string where = feature_pointer(i);
+    add(feature.decision_rule, where);
+    for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
+      add(feature.characteristics[k].indication.decision_rule,
+          item_pointer(where + "/characteristics", k));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void check_uncertainty(const Plan& plan, Findings& findings) {
-  const DecisionRuleTask& rule = plan.decision_rule;
-  if (!findings.sound("/decision_rule/rule")) return;
-  check_rule(rule, findings);
-  const bool needed = rule.rule != Rule::kSimpleAcceptance;
-  if (needed && !findings.is_given("/uncertainty")) {
+  const DecisionRuleTask* needing = nullptr;  // the first rule that needs intervals
+  bool whole_surface = false;
+  for (const PlacedRule& placed : rules_of(plan)) {
+    const DecisionRuleTask& rule = *placed.rule;
+    if (!findings.sound(placed.where + "/rule")) return;
+    check_rule(rule, placed.where, findings);
+    if (rule.rule == Rule::kSimpleAcceptance) continue;
+    if (needing == nullptr) needing = &rule;
+    whole_surface = whole_surface || rule.measurand == DecisionRuleTask::Measurand::kWholeSurface;
+  }
+  if (needing != nullptr && !findings.is_given("/uncertainty")) {
     findings.meaning(
         Code::kMissingKey, "/uncertainty",
         fmt::format("this key is missing: the rule {} needs the interval of the value; "
                     "declare what acts on the measurement",
-                    name_of(rule.rule)));
+                    name_of(needing->rule)));
   }
   if (!plan.uncertainty || !findings.sound("/uncertainty")) return;
   const record::UncertaintyTask& u = *plan.uncertainty;
@@ -122,7 +152,7 @@ void check_uncertainty(const Plan& plan, Findings& findings) {
                      fmt::format("{} is below least_trials {}", u.most_trials, u.least_trials));
   }
   check_limits(u, findings);
-  if (needed && rule.measurand == DecisionRuleTask::Measurand::kWholeSurface && !u.form_spectrum) {
+  if (whole_surface && !u.form_spectrum) {
     findings.meaning(Code::kMissingKey, "/uncertainty/form_spectrum",
                      "this key is missing: a verdict about the whole surface needs the forms that "
                      "it may have between the points");

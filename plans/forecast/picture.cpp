@@ -131,9 +131,14 @@ std::vector<DrawnShape> shapes_of(const Plan& plan, const ForecastStage& stage) 
                             fixture.clamp_from_mm, fixture.clamp_to_mm),
                    "#b9b1a0", true});
   }
-  for (const SectionPlan& s : part_sections(plan, feature)) {
-    out.push_back({cylinder(X_WP, 0.5 * s.diameter_mm, s.from_mm, s.to_mm), "#aebfcc", true});
-  }
+  const auto add_piece = [&](const PartPiece& piece, const char* colour) {
+    const Revolved& solid = piece.solid;
+    const Eigen::Isometry3d X = X_WP * Eigen::Translation3d(piece.origin_mm);
+    out.push_back({solid.ball ? ball(X.translation(), solid.outer_mm)
+                              : cylinder(X, solid.widest_mm(), solid.from_mm, solid.to_mm),
+                   colour, true});
+  };
+  for (const PartPiece& piece : part_beside(plan, feature)) add_piece(piece, "#aebfcc");
   const double radius_mm = 0.5 * feature.nominal.diameter_mm;
   const NominalPlan& n = feature.nominal;
   if (feature.side == record::Side::kInside) {
@@ -141,7 +146,7 @@ std::vector<DrawnShape> shapes_of(const Plan& plan, const ForecastStage& stage) 
         {cylinder(X_WP, radius_mm + cmm::kBlockWall_mm, n.from_mm, n.to_mm), "#aebfcc", true});
     out.push_back({cylinder(X_WP, radius_mm, n.from_mm, n.to_mm), "#f4f7f9", true});
   } else {
-    out.push_back({cylinder(X_WP, radius_mm, n.from_mm, n.to_mm), "#8fb0c9", true});
+    add_piece(piece_of(feature), "#8fb0c9");
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -20,7 +21,7 @@ using Corners = std::array<Vector3d, 4>;  // around the parallelogram
 constexpr double kGraze_mm = 1e-6;   // round-off of paths laid exactly at the limit
 constexpr double kFacet_mm = 0.02;   // largest distance of a facet from a round wall
 constexpr double kFlat_mm2 = 1e-12;  // area below which a parallelogram is a segment
-constexpr int kArcSides = 3;         // per quarter turn around an edge
+constexpr double kArcSide_rad = std::numbers::pi / 6.0;  // longest side around an edge
 
 Corners corners_of(const Sweep& s) {
   return {s.start_mm, s.start_mm + s.along_mm, s.start_mm + s.along_mm + s.up_mm,
@@ -58,24 +59,25 @@ bool surely_apart(const Revolved& solid, double room_mm, const Corners& c) {
   const auto z = [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); };
   if (std::min_element(c.begin(), c.end(), z)->z() >= to_mm + room_mm) return true;
   if (std::max_element(c.begin(), c.end(), z)->z() <= from_mm - room_mm) return true;
-  if (from_axis(c) >= solid.outer_mm + room_mm) return true;
+  if (from_axis(c) >= solid.widest_mm() + room_mm) return true;
   if (solid.inner_mm <= room_mm) return false;
   return std::all_of(c.begin(), c.end(), [&](const Vector3d& p) {
     return p.head<2>().norm() <= solid.inner_mm - room_mm;
   });
 }
 
-/// Adds the corners of a quarter of a polygon around a circle, tangent to it at both ends.
-void add_quarter(const Vector2d& center, double radius_mm, double start_rad,
-                 std::vector<Vector2d>& out) {
-  const double side_rad = 0.5 * std::numbers::pi / kArcSides;
+/// Adds the corners of a polygon around a part of a circle, tangent to it at both ends.
+void add_arc(const Vector2d& center, double radius_mm, double start_rad, double turn_rad,
+             std::vector<Vector2d>& out) {
+  const int sides = std::max(1, static_cast<int>(std::ceil(turn_rad / kArcSide_rad - 1e-9)));
+  const double side_rad = turn_rad / sides;
   const double corner_mm = radius_mm / std::cos(0.5 * side_rad);
   const auto add = [&](double distance_mm, double angle_rad) {
     out.push_back(center + distance_mm * Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
   };
   add(radius_mm, start_rad);
-  for (int i = 0; i < kArcSides; ++i) add(corner_mm, start_rad + (i + 0.5) * side_rad);
-  add(radius_mm, start_rad + 0.5 * std::numbers::pi);
+  for (int i = 0; i < sides; ++i) add(corner_mm, start_rad + (i + 0.5) * side_rad);
+  add(radius_mm, start_rad + turn_rad);
 }
 
 /// Outline of the grown solid, from below outward and up.
@@ -97,15 +99,37 @@ std::vector<Vector2d> grown_outline(const Revolved& solid, double room_mm) {
   }
   const bool ring = solid.inner_mm > room_mm;
   if (!ring) out.emplace_back(0.0, solid.from_mm - room_mm);
-  add_quarter({solid.outer_mm, solid.from_mm}, room_mm, -kQuarter, out);
-  add_quarter({solid.outer_mm, solid.to_mm}, room_mm, 0.0, out);
+  // The wall of a frustum that widens upward looks down.
+  const double look_rad = -std::atan2(solid.widens_mm, solid.to_mm - solid.from_mm);
+  add_arc({solid.outer_mm, solid.from_mm}, room_mm, -kQuarter, kQuarter + look_rad, out);
+  add_arc({solid.outer_mm + solid.widens_mm, solid.to_mm}, room_mm, look_rad, kQuarter - look_rad,
+          out);
   if (ring) {
-    add_quarter({solid.inner_mm, solid.to_mm}, room_mm, kQuarter, out);
-    add_quarter({solid.inner_mm, solid.from_mm}, room_mm, 2.0 * kQuarter, out);
+    add_arc({solid.inner_mm, solid.to_mm}, room_mm, kQuarter, kQuarter, out);
+    add_arc({solid.inner_mm, solid.from_mm}, room_mm, 2.0 * kQuarter, kQuarter, out);
   } else {
     out.emplace_back(0.0, solid.to_mm + room_mm);
   }
   return out;
+}
+
+/// Distance of a point of the (r, z) half plane from the profile of a solid with a slanting wall.
+double from_frustum(const Revolved& solid, double r, double z) {
+  const std::array<Vector2d, 4> corners = {
+      {{solid.inner_mm, solid.from_mm},
+       {solid.outer_mm, solid.from_mm},
+       {solid.outer_mm + solid.widens_mm, solid.to_mm},
+       {solid.inner_mm, solid.to_mm}}};  // around it, the solid to the left
+  const Vector2d p(r, z);
+  bool inside = true;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d a = corners[i] - p;
+    const Vector2d b = corners[(i + 1) % corners.size()] - p;
+    inside = inside && a.x() * b.y() - a.y() * b.x() >= 0.0;
+    nearest = std::min(nearest, distance_of_origin(a, b));
+  }
+  return inside ? 0.0 : nearest;
 }
 
 int facets_for(double radius_mm) {
@@ -118,6 +142,7 @@ int facets_for(double radius_mm) {
 double distance_mm(const Revolved& solid, const Vector3d& point_mm) {
   if (solid.ball) return std::max(0.0, point_mm.norm() - solid.outer_mm);
   const double r = point_mm.head<2>().norm();
+  if (solid.widens_mm != 0.0) return from_frustum(solid, r, point_mm.z());
   const double out_r = std::max({solid.inner_mm - r, r - solid.outer_mm, 0.0});
   const double out_z = std::max({solid.from_mm - point_mm.z(), point_mm.z() - solid.to_mm, 0.0});
   return std::hypot(out_r, out_z);
@@ -128,7 +153,7 @@ Obstacle::Obstacle(const Revolved& solid, double grown_mm) : solid_(solid), grow
 const RevolvedMesh& Obstacle::mesh() const {
   if (!mesh_) {
     const double room_mm = grown_mm_ - kGraze_mm;
-    const int facets = facets_for(solid_.outer_mm + room_mm);
+    const int facets = facets_for(solid_.widest_mm() + room_mm);
     std::vector<Vector2d> outline = grown_outline(solid_, room_mm);
     // Facets around the outer wall touch it from outside, those of a hole lie inside it: the mesh
     // contains the solid.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include <Eigen/Core>
@@ -8,14 +9,17 @@
 
 namespace rondure::plans {
 
-/// A simple solid: a rectangle of the (r, z) half plane rotated about z (cylinder, ring, disc), or
-/// a ball about the origin.
+/// A simple solid: a rectangle of the (r, z) half plane rotated about z (cylinder, ring, disc), the
+/// same with a slanting outer wall (frustum of a cone), or a ball about the origin.
 struct Revolved {
   double inner_mm = 0.0;  ///< Radius of the hole; 0: none.
   double outer_mm = 0.0;  ///< Outer radius, also of a ball.
   double from_mm = 0.0;   ///< Lower end; not for a ball.
   double to_mm = 0.0;
   bool ball = false;
+  double widens_mm = 0.0;  ///< Outer radius at the upper end minus that at the lower one.
+
+  [[nodiscard]] double widest_mm() const { return outer_mm + std::max(0.0, widens_mm); }
 };
 
 /// Distance of a point from the solid, in its frame [mm]; 0 inside. Closed form.

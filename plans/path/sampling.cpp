@@ -22,7 +22,7 @@ core::Result<void> check_layers(const FeaturePlan& feature, int layers) {
                       fmt::format("{} points a layer do not determine a circle; give at least 3",
                                   sampling.points_per_layer));
   }
-  const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
+  const double length_mm = layered_mm(feature);
   if (layers > 1 && !(sampling.margin_mm >= 0.0 && 2.0 * sampling.margin_mm < length_mm)) {
     return core::fail(
         core::Code::kSampling,
@@ -34,6 +34,7 @@ core::Result<void> check_layers(const FeaturePlan& feature, int layers) {
 
 double layer_height(const FeaturePlan& feature, int layer, int layers) {
   const NominalPlan& nominal = feature.nominal;
+  if (feature.type == record::Shape::kPlane) return nominal.z_mm;
   if (layers == 1) return 0.5 * (nominal.from_mm + nominal.to_mm);
   const double margin_mm = feature.sampling.margin_mm;
   const double span_mm = nominal.to_mm - nominal.from_mm - 2.0 * margin_mm;
@@ -61,6 +62,12 @@ std::vector<int> share_among_rings(int points, int rings) {
 }
 
 }  // namespace
+
+double layered_mm(const FeaturePlan& feature) {
+  const NominalPlan& n = feature.nominal;
+  return feature.type == record::Shape::kPlane ? 0.5 * (n.to_diameter_mm - n.from_diameter_mm)
+                                               : n.to_mm - n.from_mm;
+}
 
 core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature) {
   const SamplingPlan& sampling = feature.sampling;

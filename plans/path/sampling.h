@@ -20,10 +20,14 @@ struct Target {
   friend bool operator==(const Target&, const Target&) = default;
 };
 
+/// The length on which the layers of a feature lie: along the axis, of a plane along its radius.
+[[nodiscard]] double layered_mm(const FeaturePlan& feature);
+
 /// The targets of a feature, layer by layer from below, by angle within a layer:
 ///   z_j = from + margin + j (to - from - 2 margin) / (m - 1)
 ///   theta_ji = start + 360 deg (i / k + stagger j / (m k)).
-/// A single layer, as for a circle, is in the middle.
+/// A single layer, as for a circle, is in the middle. The layers of a plane are circles, the
+/// innermost first, all at its height; SurfaceChart knows their radii.
 /// @return  kSampling when the layers or points cannot be placed.
 /// Source: methods, cylindricity section 4.
 [[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cmm/simulated/part_surface.h"
 #include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
@@ -119,15 +118,26 @@ void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolve
 
 void Scene::add_part(const Plan& plan, const FeaturePlan& feature) {
   const NominalPlan& n = feature.nominal;
-  const double radius_mm = 0.5 * n.diameter_mm;
   const bool bore = feature.side == record::Side::kInside;
-  const double wall_mm = bore ? radius_mm + cmm::kBlockWall_mm : radius_mm;
-  add(Body::kFeature, Frame::kPart, Vector3d::Zero(),
-      {bore ? radius_mm : 0.0, wall_mm, n.from_mm, n.to_mm});
-  for (const SectionPlan& s : part_sections(plan, feature)) {
-    const bool flush = bore ? s.bore_diameter_mm >= n.diameter_mm : s.diameter_mm <= n.diameter_mm;
-    add(flush ? Body::kSection : Body::kShoulder, Frame::kPart, Vector3d::Zero(),
-        {0.5 * s.bore_diameter_mm, 0.5 * s.diameter_mm, s.from_mm, s.to_mm});
+  const PartPiece own = piece_of(feature);
+  add(Body::kFeature, Frame::kPart, own.origin_mm, own.solid);
+  const auto is_flush = [&](const PartPiece& piece) {
+    switch (feature.type) {
+      case record::Shape::kPlane:  // the material behind it
+        return n.faces != record::Faces::kDown ? piece.to_mm() <= n.z_mm
+                                               : piece.from_mm() >= n.z_mm;
+      case record::Shape::kCone:
+        return piece.radius_mm() <= own.solid.outer_mm + std::min(0.0, own.solid.widens_mm);
+      case record::Shape::kSphere:
+        return false;
+      default:
+        return bore ? 2.0 * piece.solid.inner_mm >= n.diameter_mm
+                    : 2.0 * piece.radius_mm() <= n.diameter_mm;
+    }
+  };
+  for (const PartPiece& piece : part_beside(plan, feature)) {
+    add(is_flush(piece) ? Body::kSection : Body::kShoulder, Frame::kPart, piece.origin_mm,
+        piece.solid);
   }
 }
 

@@ -1,17 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "core/result.h"
 #include "plans/path/sampling.h"
+#include "plans/path/surface_chart.h"
 
 namespace rondure::plans {
 
 /// Parameters of the path of the tip around a part. Part frame, heights as in the plan.
 struct PathGeometry {
-  double radius_mm = 0.0;  ///< Nominal radius.
+  double radius_mm = 0.0;  ///< Nominal radius; the greatest one of a surface that is no cylinder.
   double from_mm = 0.0;    ///< Lower end of the part.
   double to_mm = 0.0;      ///< Upper end of the part.
   bool inside = false;     ///< true: a bore, open above.
@@ -19,6 +21,8 @@ struct PathGeometry {
   double approach_mm = 3.0;   ///< Distance from the pre-touch point to the expected contact.
   double clearance_mm = 5.0;  ///< Distance from all obstacles while travelling.
   double stand_off_mm = 0.0;  ///< Added to the radius of the path around a shaft.
+  /// The surface in this room; none: the cylinder of `radius_mm`.
+  std::optional<SurfaceChart> surface = {};
 
   friend bool operator==(const PathGeometry&, const PathGeometry&) = default;
 };
@@ -46,7 +50,8 @@ using Polyline = std::vector<Eigen::Vector3d>;
 
 /// Path between two pre-touch points, both included. Outside: out to the travel radius, along the
 /// axis, around (the shorter direction) and in again; on the path around, no point is closer to the
-/// axis than radius + tip radius + max(approach, clearance). Inside: the straight line.
+/// axis than radius + tip radius + max(approach, clearance). Inside: the straight line. On a plane:
+/// off it by max(approach, clearance), around the axis and along the radius.
 [[nodiscard]] Polyline path_between(const PathGeometry& geometry, const Target& from,
                                     const Target& to);
 

@@ -30,10 +30,11 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
-      return targets * (feature.type == record::Shape::kCircle ? repeats : 2 + repeats);
+      return targets * (feature.type == record::Shape::kCylinder ? 2 + repeats : repeats);
     case record::Strategy::kMerged:
       return targets * repeats * feature.pose_search.poses.size();
     case record::Strategy::kVirtual:
+    case record::Strategy::kStartPose:
       return targets * repeats;
     case record::Strategy::kAsPublished:
       return targets * (25 + repeats);
@@ -65,7 +66,7 @@ core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) 
   const std::string& name = plan.features[index].source->file;
   const auto bytes = record::read_file(plan.folder / name);
   if (!bytes) return core::fail(bytes.error());
-  auto table = record::parse_points_csv(*bytes, name);
+  auto table = record::parse_feature_csv(*bytes, name, plan.features[index].source->feature);
   if (!table) return core::fail(table.error());
   return FeatureData{record::sha256_hex(*bytes), *std::move(table), {}};
 }
@@ -98,12 +99,14 @@ core::Result<void> take_points(RunContext& context, int index, const record::Poi
   const bool known = context.recorded.touch(context.next_touch) != nullptr;
   std::vector<record::Touch> rows;
   rows.reserve(table.points_mm.size());
-  for (const Eigen::Vector3d& p : table.points_mm) {
+  std::vector<int> taken(static_cast<std::size_t>(std::max(table.layer_count(), 1)), 0);
+  for (std::size_t i = 0; i < table.points_mm.size(); ++i) {
     record::Touch row;
     row.id = context.next_touch++;
     row.pose = pose;
-    row.point = static_cast<int>(rows.size());
-    row.tip_mm = p;
+    row.layer = table.layers.empty() ? 0 : table.layers[i];
+    row.point = taken[static_cast<std::size_t>(row.layer)]++;
+    row.tip_mm = table.points_mm[i];
     rows.push_back(row);
   }
   if (known) return {};  // one transaction: all are there or none
@@ -297,6 +300,10 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     head.features[i].points_sha256 = known->data[i].sha256;
+    if (const record::PointTable& points = known->data[i].points; !points.layers.empty()) {
+      head.features[i].layers = points.layer_count();
+      head.features[i].points_per_layer = points.least_points_per_layer();
+    }
   }
   for (record::Setting& setting : fixture_settings(plan, known->calibration)) {
     head.settings.push_back(std::move(setting));

@@ -90,6 +90,16 @@ void describe(Visitor& v, KeywayPlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, FlatPlan& p) {
+  v.number("at_deg", p.at_deg, within(360.0, "Angle of its middle on the part."));
+  v.number("z_mm", p.z_mm, within(10'000.0, "Height of its middle, part z."));
+  v.number("width_mm", p.width_mm, range(0.01, 1000.0, "Along the circumference."));
+  v.number("length_mm", p.length_mm, range(0.01, 10'000.0, "Along the axis."));
+  v.number("depth_um", p.depth_um,
+           range(0.0, 1000.0, "In its middle; from there the spot rises softly to its edges."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, BurrPlan& p) {
   v.number("at_deg", p.at_deg, within(360.0, "Angle of its middle."));
   v.number("z_mm", p.z_mm, within(10'000.0, "Height of its middle, part z."));

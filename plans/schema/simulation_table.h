@@ -23,8 +23,9 @@ void describe(Visitor& v, LobePlan& p) {
            within(3600.0, "Helix: change of phase from mid-length to the upper end."));
 }
 
+/// The form of a part, or of one of its surfaces.
 template <class Visitor>
-void describe(Visitor& v, SimulatedPartPlan& p) {
+void describe_form(Visitor& v, SimulatedFormPlan& p) {
   v.number("diameter_error_um", p.diameter_error_um,
            within(1000.0, "Real minus nominal diameter."));
   v.list("lobes", p.lobes, {.meaning = "Lobing of the sections."});
@@ -35,6 +36,11 @@ void describe(Visitor& v, SimulatedPartPlan& p) {
   v.number("bend_um", p.bend_um,
            within(1000.0, "Shift of the axis at the ends against mid-length."));
   v.number("bend_phase_deg", p.bend_phase_deg, within(360.0, "Direction of the bend."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulatedPartPlan& p) {
+  describe_form(v, p);
   v.number("tilt_deg", p.tilt_deg, range(0.0, 45.0, "Tilt of the part in the clamping ring."));
   v.number("tilt_toward_deg", p.tilt_toward_deg,
            within(360.0, "Direction toward which its upper end leans."));
@@ -48,6 +54,33 @@ void describe(Visitor& v, SimulatedPartPlan& p) {
   v.number("dust_share", p.dust_share,
            range(0.0, 1.0, "Share of the touches of the part that meet a particle of dust."));
   v.number("dust_um", p.dust_um, range(0.0, 1000.0, "Thickness of the largest particle."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulatedFeaturePlan& p) {
+  v.text("id", p.id,
+         {.required = true, .empty_allowed = false, .meaning = "Id of the touched feature."});
+  const NumberSpec offset =
+      within(1000.0, "Middle of its own axis, of a sphere its centre, against the part axis.");
+  const NumberSpec slope = within(10'000.0, "Slope of its own axis against the part axis.");
+  v.number("offset_x_um", p.offset_x_um, offset);
+  v.number("offset_y_um", p.offset_y_um, offset);
+  v.number("slope_x_urad", p.slope_x_urad, slope);
+  v.number("slope_y_urad", p.slope_y_urad, slope);
+  describe_form(v, p);
+  v.list("keyways", p.keyways, {.meaning = "Slots along the surface."});
+  v.list("flats", p.flats, {.meaning = "Worn or ground spots."});
+  v.number("tilt_urad", p.tilt_urad,
+           within(10'000.0, "plane: tilt of the face against the part axis."));
+  v.number("tilt_toward_deg", p.tilt_toward_deg,
+           within(360.0, "plane: direction in which the face rises, outward."));
+  v.number("saucer_um", p.saucer_um,
+           within(1000.0,
+                  "plane: height at the outer diameter over the middle; it grows with the "
+                  "square of the radius."));
+  v.number("wave_um", p.wave_um,
+           within(100.0, "plane: amplitude of the waves at the outer diameter."));
+  v.whole("wave_order", p.wave_order, range(0, 15, "plane: waves per revolution."));
 }
 
 template <class Visitor>
@@ -106,6 +139,11 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.number("temperature_degC", p.temperature_degC,
            range(10.0, 40.0, "Temperature of the simulated part."));
   v.object("part", p.part, {.meaning = "Form of the simulated part and how it sits in the ring."});
+  v.list(
+      "features", p.features,
+      {.meaning = "Surfaces with a place and a form of their own; then the part has all surfaces "
+                  "at once, and a tip meets whichever comes first. A surface without an entry "
+                  "lies about the part axis and has the form of `part`."});
   v.object("machine", p.machine, {.meaning = "Errors of the simulated machine."});
   v.object("probe", p.probe, {.meaning = "Errors of the simulated probe."});
   v.object("fixture", p.fixture, {.meaning = "Errors of the simulated fixture."});

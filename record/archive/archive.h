@@ -15,8 +15,9 @@ namespace rondure::record {
 
 struct ArchiveSession;
 
-/// Version of the archive's tables; increases with every change (docs/archive.md).
-inline constexpr int kArchiveVersion = 1;
+/// Version of the archive's tables; increases with every change (docs/archive.md). Version 1 has no
+/// lower limits: it is read as it is, and becomes version 2 with the first result that has one.
+inline constexpr int kArchiveVersion = 2;
 
 /// Data of a run that all its results share.
 struct ArchiveHead {
@@ -45,10 +46,11 @@ struct ArchiveResult {
   std::string filter;                 ///< "unfiltered".
   std::string sampling;               ///< "4 x 7 points; mean of 5 touches a point".
   std::optional<double> value;        ///< Value in `unit`; empty when it could not be evaluated.
-  std::optional<double> upper_limit;  ///< Limit in `unit`; empty when not toleranced.
+  std::optional<double> upper_limit;  ///< Limit in `unit`; empty without an upper limit.
   std::string unit = "mm";
   std::string verdict;  ///< "conforms", "does not conform", "undecided", "void", "not toleranced".
   std::string certificate;  ///< Certificate of the reference: "global", "local", "none".
+  std::optional<double> lower_limit = {};  ///< Limit in `unit`; empty without a lower limit.
 };
 
 /// A finished run to be archived.
@@ -88,7 +90,7 @@ class Archive {
 
   /// Opens an archive; kWrite creates the tables when there are none. Gives up after 5 s on a
   /// server that does not answer. kFile when there is no archive, when the file is something else,
-  /// or when its tables have another version; kArchive when it cannot be reached.
+  /// or when its tables have a later version; kArchive when it cannot be reached.
   [[nodiscard]] static core::Result<Archive> open(const ArchivePlace& place, Access access);
 
   Archive(Archive&&) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,13 +19,16 @@ namespace {
 
 /// Columns that belong together, and the unit of each.
 struct ColumnSet {
-  std::array<std::string_view, 3> names;
+  std::array<std::string_view, 5> names;
   std::array<std::string_view, 3> units;
   std::size_t required;  ///< This many columns, from the first, are required.
 };
+constexpr std::size_t kLayer = 3;    ///< Index in the set: a whole number, no coordinate.
+constexpr std::size_t kFeature = 4;  ///< Index in the set: a text.
 constexpr ColumnSet kPoints = {{"x", "y", "z"}, {"mm", "mm", "mm"}, 2};
-constexpr ColumnSet kSection = {{"x", "y", ""}, {"mm", "mm", ""}, 2};
-constexpr ColumnSet kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, 2};
+constexpr ColumnSet kFeaturePoints = {{"x", "y", "z", "layer", "feature"}, {"mm", "mm", "mm"}, 2};
+constexpr ColumnSet kSection = {{"x", "y"}, {"mm", "mm"}, 2};
+constexpr ColumnSet kPolar = {{"theta_deg", "r_um"}, {"deg", "um"}, 2};
 
 /// The column sets that a kind of file may have.
 struct Format {
@@ -33,16 +37,31 @@ struct Format {
   std::string_view units;
 };
 constexpr Format kPointFormat = {{kPoints, kPoints}, "x,y or x,y,z", " (mm)"};
+constexpr Format kFeatureFormat = {
+    {kFeaturePoints, kFeaturePoints}, "x,y or x,y,z, beside them layer and feature", " (mm)"};
 constexpr Format kProfileFormat = {{kPolar, kSection}, "theta_deg,r_um or x,y", " (mm)"};
 
 /// The columns of a file: fields[i] is the index of field i in the set.
 struct Columns {
   ColumnSet set;
-  std::array<std::size_t, 3> fields{};
+  std::array<std::size_t, 5> fields{};
   std::size_t count = 0;
 
   [[nodiscard]] std::string_view name(std::size_t i) const { return set.names[fields[i]]; }
-  [[nodiscard]] std::string_view unit(std::size_t i) const { return set.units[fields[i]]; }
+  [[nodiscard]] std::string_view unit(std::size_t i) const {
+    return fields[i] < kLayer ? set.units[fields[i]] : std::string_view();
+  }
+  [[nodiscard]] bool has(std::size_t field) const {
+    const auto end = fields.begin() + static_cast<std::ptrdiff_t>(count);
+    return std::find(fields.begin(), end, field) != end;
+  }
+};
+
+/// One row. The layer is 0 and the feature empty where the file has no such column.
+struct PointRow {
+  Eigen::Vector3d values = Eigen::Vector3d::Zero();
+  double layer = 0.0;
+  std::string_view feature;
 };
 
 std::optional<std::size_t> place_of(std::string_view field, const ColumnSet& set) {
@@ -57,7 +76,7 @@ core::Result<Columns> read_header(std::string_view line, const Format& format) {
   const auto names = split_fields(line);
   Columns columns;
   columns.set = place_of(names.front(), format.sets[0]) ? format.sets[0] : format.sets[1];
-  std::array<bool, 3> seen{};
+  std::array<bool, 5> seen{};
   for (const std::string_view field : names) {
     const auto place = place_of(field, columns.set);
     if (!place) {
@@ -139,8 +158,13 @@ std::size_t read_plain_row(std::string_view text, const Columns& columns,
   return static_cast<std::size_t>(at + 1 - text.data());
 }
 
+bool is_layer(double number) {
+  constexpr double kMostLayers = 10'000.0;
+  return number >= 0.0 && number < kMostLayers && number == std::floor(number);
+}
+
 /// Reads one row; false when it has an error, which explain() then describes.
-bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& point_mm) {
+bool read_row(std::string_view line, const Columns& columns, PointRow& row) {
   const char* at = line.data();
   const char* const end = at + line.size();
   const auto skip_blanks = [&] {
@@ -149,13 +173,23 @@ bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& po
   for (std::size_t i = 0; i < columns.count; ++i) {
     if (i > 0 && (at == end || *at++ != ',')) return false;
     skip_blanks();
+    const std::size_t field = columns.fields[i];
+    if (field == kFeature) {
+      const char* const stop = std::find(at, end, ',');
+      row.feature = split_fields({at, static_cast<std::size_t>(stop - at)}).front();
+      if (row.feature.empty()) return false;
+      at = stop;
+      continue;
+    }
     if (at != end && *at == '+') {  // from_chars does not accept a plus sign
       ++at;
       if (at != end && *at == '-') return false;
     }
-    double& value = point_mm[static_cast<Eigen::Index>(columns.fields[i])];
+    double& value =
+        field == kLayer ? row.layer : row.values[static_cast<Eigen::Index>(columns.fields[i])];
     const auto [stop, problem] = std::from_chars(at, end, value);
     if (problem != std::errc() || !core::is_measurable(value)) return false;
+    if (field == kLayer && !is_layer(value)) return false;
     at = stop;
     skip_blanks();
   }
@@ -178,8 +212,18 @@ core::Error explain(std::string_view line, const Columns& columns) {
         fields.size() == 2 * columns.count ? "; write decimals with a point, not a comma" : ""));
   }
   for (std::size_t i = 0; i < columns.count; ++i) {
+    if (columns.fields[i] == kFeature) {
+      if (fields[i].empty()) return syntax_error("the feature has no name");
+      continue;
+    }
     if (auto error = explain_field(fields[i], columns.name(i), columns.unit(i)))
       return *std::move(error);
+    double layer = 0.0;
+    std::from_chars(fields[i].data(), fields[i].data() + fields[i].size(), layer);
+    if (columns.fields[i] == kLayer && !is_layer(layer)) {
+      return syntax_error(
+          fmt::format("{} is no layer; give whole numbers from 0 on", quoted_text(fields[i])));
+    }
   }
   return syntax_error(
       fmt::format("{} cannot be read; numbers for {} are expected", quoted_text(line), names));
@@ -189,21 +233,27 @@ core::Error explain(std::string_view line, const Columns& columns) {
 struct Rows {
   Columns columns;
   std::vector<Eigen::Vector3d> values;
+  std::vector<int> layers = {};                 ///< Empty without that column.
+  std::vector<std::string_view> features = {};  ///< In the text; empty without that column.
 };
 
 core::Result<Rows> parse(std::string_view text, std::string_view name, const Format& format) {
   Rows out;
   Columns& columns = out.columns;
-  Eigen::Vector3d values = Eigen::Vector3d::Zero();
+  PointRow values;
+  bool plain_rows = true;  // numbers alone
   const auto add_row = [&](std::size_t bytes) {
     // Rows are about as long as the first.
     if (out.values.empty()) out.values.reserve(text.size() / bytes + 1);
-    out.values.push_back(values);
+    out.values.push_back(values.values);
+    if (columns.has(kLayer)) out.layers.push_back(static_cast<int>(values.layer));
+    if (columns.has(kFeature)) out.features.push_back(values.feature);
   };
   const auto header = [&](std::string_view line) -> core::Result<void> {
     const auto found = read_header(line, format);
     if (!found) return core::fail(found.error());
     columns = *found;
+    plain_rows = !columns.has(kLayer) && !columns.has(kFeature);
     return {};
   };
   const auto row = [&](std::string_view line, std::size_t) -> core::Result<void> {
@@ -212,7 +262,7 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
     return {};
   };
   const auto plain = [&](std::string_view rest) {
-    const std::size_t bytes = read_plain_row(rest, columns, values);
+    const std::size_t bytes = plain_rows ? read_plain_row(rest, columns, values.values) : 0;
     if (bytes > 0) add_row(bytes);
     return bytes;
   };
@@ -231,12 +281,77 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
   return out;
 }
 
+/// "A, B": the features of a file in the order of their first rows.
+std::string names_in(const std::vector<std::string_view>& features) {
+  std::vector<std::string_view> seen;
+  std::string out;
+  for (const std::string_view feature : features) {
+    if (std::find(seen.begin(), seen.end(), feature) != seen.end()) continue;
+    seen.push_back(feature);
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", quoted_text(feature));
+  }
+  return out;
+}
+
+/// How many points each layer has, layer 0 first.
+std::vector<int> points_of_layers(const std::vector<int>& layers) {
+  std::vector<int> out;
+  for (const int layer : layers) {
+    if (layer >= static_cast<int>(out.size())) out.resize(static_cast<std::size_t>(layer) + 1);
+    ++out[static_cast<std::size_t>(layer)];
+  }
+  return out;
+}
+
 }  // namespace
+
+int PointTable::layer_count() const { return static_cast<int>(points_of_layers(layers).size()); }
+
+int PointTable::least_points_per_layer() const {
+  const std::vector<int> points = points_of_layers(layers);
+  return points.empty() ? 0 : *std::min_element(points.begin(), points.end());
+}
 
 core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
   auto rows = parse(text, name, kPointFormat);
   if (!rows) return core::fail(rows.error());
   return PointTable{static_cast<int>(rows->columns.count), std::move(rows->values)};
+}
+
+core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_view name,
+                                           std::string_view feature) {
+  auto rows = parse(text, name, kFeatureFormat);
+  if (!rows) return core::fail(rows.error());
+  const auto fail = [&](core::Code code, std::string what) {
+    return core::fail(core::Error{code, std::move(what), std::string(name)});
+  };
+  if (feature.empty() != rows->features.empty()) {
+    return feature.empty()
+               ? fail(core::Code::kMissingKey,
+                      fmt::format("the file holds the features {}; name one, e.g. \"feature\": {}",
+                                  names_in(rows->features), quoted_text(rows->features.front())))
+               : fail(core::Code::kMeaning,
+                      fmt::format("the file has no column feature, {} is asked for; add the "
+                                  "column, or take the key out",
+                                  quoted_text(feature)));
+  }
+  PointTable out{rows->columns.has(2) ? 3 : 2, {}, {}};
+  for (std::size_t i = 0; i < rows->values.size(); ++i) {
+    if (!rows->features.empty() && rows->features[i] != feature) continue;
+    out.points_mm.push_back(rows->values[i]);
+    if (!rows->layers.empty()) out.layers.push_back(rows->layers[i]);
+  }
+  if (out.points_mm.empty()) {
+    return fail(core::Code::kNoPoints, fmt::format("no row is of feature {}; the file has {}",
+                                                   quoted_text(feature), names_in(rows->features)));
+  }
+  const std::vector<int> points = points_of_layers(out.layers);
+  const auto gap = std::find(points.begin(), points.end(), 0);
+  if (gap == points.end()) return out;
+  return fail(core::Code::kSampling,
+              fmt::format("there are points of layer {} and none of layer {}; layers count from 0 "
+                          "without a gap",
+                          points.size() - 1, gap - points.begin()));
 }
 
 core::Result<ProfileTable> parse_profile_csv(std::string_view text, std::string_view name) {

@@ -14,6 +14,12 @@ namespace rondure::record {
 struct PointTable {
   int dimensions = 3;  ///< 2 for "x,y", 3 for "x,y,z".
   std::vector<Eigen::Vector3d> points_mm;
+  std::vector<int> layers = {};  ///< Layer of each point, from 0; empty: the file says none.
+
+  /// Number of layers; 0 where the file says none.
+  [[nodiscard]] int layer_count() const;
+  /// Number of points of the layer that has the fewest; 0 where the file says none.
+  [[nodiscard]] int least_points_per_layer() const;
 };
 
 /// Reads points from CSV text: a header line naming the columns (`x,y` or `x,y,z`, any order, mm),
@@ -26,6 +32,16 @@ struct PointTable {
 /// @param name  The file's name for `where`.
 [[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text,
                                                         std::string_view name);
+
+/// Reads the points of one feature from CSV text. Beside the columns of parse_points_csv() there
+/// may be `layer`, whole numbers from 0 on without a gap, and `feature`, a name.
+///
+/// @param feature  Only rows with this name are taken. Empty: the file has no column `feature`.
+/// @return  Or the errors of parse_points_csv(); kMissingKey where the file holds several features
+///          and none is named; kNoPoints where no row has that name; kSampling for a missing layer.
+[[nodiscard]] core::Result<PointTable> parse_feature_csv(std::string_view text,
+                                                         std::string_view name,
+                                                         std::string_view feature);
 
 /// A section of a CSV file, as angles and deviations or as points.
 struct ProfileTable {

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "record/run_record.h"
+#include "record/tasks/decision_rule.h"
+#include "record/tasks/indication.h"
 #include "record/tasks/key_spec.h"
 
 namespace rondure::record {
@@ -31,6 +34,31 @@ struct CharacteristicTask {
   Indication indication = {};
 };
 
+/// Keys of the characteristics of a feature, or of all features, that do not give them.
+struct DefaultsTask : IndicationDefaults {
+  std::optional<Reference> reference;
+};
+
+/// A level above the characteristic from which it takes what it does not say itself.
+struct CharacteristicLevel {
+  DefaultsTask defaults;
+  std::optional<DecisionRuleTask> decision_rule;  ///< Taken as a whole.
+};
+
+template <class Visitor, class Keys>
+void describe_reference(Visitor& v, Keys& p) {
+  v.text("reference", p.reference,
+         {.meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
+                     "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
+                     "(a plug gauge in a bore). Needed with a tolerance."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, DefaultsTask& p) {
+  describe_reference(v, p);
+  describe_operations(v, p);
+}
+
 template <class Visitor>
 void describe(Visitor& v, HarmonicLimitTask& p) {
   const auto order = [](std::string_view meaning) { return required(range(2, 10'000, meaning)); };
@@ -51,7 +79,10 @@ void describe(Visitor& v, CharacteristicTask& p) {
          {.required = true,
           .meaning =
               "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
-              "layer of a cylinder or of a spindle feature; harmonic-limits, a mask on the "
+              "layer of a cylinder or of a spindle feature; diameter, straightness, "
+              "generatrix-parallelism, taper, flatness, coaxiality, concentricity, parallelism, "
+              "perpendicularity, angularity, run-out, total-run-out of surfaces (docs/drawing.md "
+              "says of which, and what each takes); harmonic-limits, a mask on the "
               "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
               "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
               "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
@@ -60,20 +91,30 @@ void describe(Visitor& v, CharacteristicTask& p) {
               "contour-spread (standard deviation from part to part); harmonic-limits. Of "
               "rotary_axes: fixture-residual, the largest distance of a ball from where the "
               "calibration has it, and fixture-residual-rms."});
-  v.text("reference", p.reference,
-         {.meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
-                     "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
-                     "(a plug gauge in a bore). Needed with a tolerance."});
+  describe_reference(v, p);
   v.number("tolerance_um", p.tolerance_um,
            above(0.0, 10'000.0,
-                 "Upper limit on the drawing; without it the value is reported, not judged."));
+                 "Upper limit on the drawing, of everything but a diameter; without a limit the "
+                 "value is reported, not judged."));
+  const NumberSpec deviation = within(
+      10'000.0,
+      "Of a diameter: limit on the drawing as deviation from nominal.diameter_mm; of h6 at 30 mm "
+      "lower_um is -13 and upper_um 0. Either may be left out.");
+  v.number("lower_um", p.lower_um, deviation);
+  v.number("upper_um", p.upper_um, deviation);
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
   v.list("harmonic_limits", p.harmonic_limits,
          {.meaning = "The mask of harmonic-limits, instead of tolerance_um."});
+  describe(v, p.indication);
 }
 
-/// The characteristic that a journal keeps.
-[[nodiscard]] Characteristic characteristic_of(const CharacteristicTask& task);
+/// The characteristic that a journal keeps: limits in mm, those of a size absolute, and what the
+/// levels above say where it says nothing. A filter comes with the cut-offs of its level and of
+/// those below it. What the form does not take is left out.
+/// @param levels  The nearest first: feature, plan.
+[[nodiscard]] Characteristic characteristic_of(const CharacteristicTask& task,
+                                               double nominal_diameter_mm = 0.0,
+                                               std::span<const CharacteristicLevel> levels = {});
 
 }  // namespace rondure::record

@@ -35,6 +35,10 @@ class SettingList {
   void text(std::string_view key, Enum value, const TextSpec&) {
     word(key, std::string(name_of(value)));
   }
+  template <Worded Enum>
+  void text(std::string_view key, const std::optional<Enum>& value, const TextSpec&) {
+    if (value) word(key, std::string(name_of(*value)));
+  }
   void texts(std::string_view key, const std::vector<std::string>& values, const TextSpec&) {
     for (const std::string& value : values) word(key, value);
   }
@@ -112,6 +116,10 @@ class SettingReader {
     const auto named = value_named<Enum>(setting->text);
     if (!named) return refuse_word(*setting);
     value = *named;
+  }
+  template <Worded Enum>
+  void text(std::string_view key, std::optional<Enum>& value, const TextSpec& spec) {
+    if (text_at(key, spec.required) != nullptr) text(key, value.emplace(), spec);
   }
   void texts(std::string_view key, std::vector<std::string>& values, const TextSpec& spec) {
     const std::string name = path_ + std::string(key);

@@ -28,6 +28,8 @@ struct ProbeInfluencesTask {
   std::vector<LobeInfluenceTask> lobes;
   double form_limit_um = 0.0;
   std::optional<double> tip_radius_um;  ///< None: from the qualification of the run.
+  /// None: 0. Optional, so that journals written before it are complete.
+  std::optional<double> reference_sphere_um;
 };
 
 struct MachineInfluencesTask {
@@ -122,6 +124,10 @@ void describe(Visitor& v, ProbeInfluencesTask& p) {
            range(0.0, 1000.0,
                  "Standard uncertainty of the qualified tip radius; normal. Left out: that of the "
                  "qualification of the run."));
+  v.number("reference_sphere_um", p.reference_sphere_um,
+           range(0.0, 1000.0,
+                 "Standard uncertainty of the certified radius of the reference sphere; normal. It "
+                 "moves all sizes of a run alike. Left out: 0."));
 }
 
 template <class Visitor>

@@ -1,4 +1,8 @@
+#include <string>
+
+#include "core/numbers.h"
 #include "evaluation/results/feature_values.h"
+#include "record/tasks/settings.h"
 #include "reports/data/internal/json_parts.h"
 #include "reports/words/internal/facts.h"
 
@@ -14,7 +18,7 @@ Json statement_json(const evaluation::UncertaintyStatement& s) {
           {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)}};
 }
 
-Json finding_json(const evaluation::FormFinding& finding) {
+Json form_json(const evaluation::FormFinding& finding) {
   return {{"noise_um", in_um(finding.noise_mm)},
           {"unresolved_um", in_um(finding.unresolved_mm)},
           {"groups", finding.groups},
@@ -51,7 +55,7 @@ Json uncertainty_json(const evaluation::CharacteristicResult& result) {
           {"noise_inflation_um", in_um(u.noise_inflation_mm)},
           {"sampling_loss_um", optional_um(u.sampling_loss_mm)},
           {"form_spectrum", u.spectrum_source},
-          {"finding", finding_json(u.finding)},
+          {"finding", form_json(u.finding)},
           {"notes", u.notes},
           {"trials", u.trials},
           {"tolerance_reached", u.tolerance_reached},
@@ -64,36 +68,75 @@ Json decision_json(const evaluation::CharacteristicResult& result) {
   if (!result.outcome) return nullptr;
   const evaluation::RuleOutcome& o = *result.outcome;
   const auto& risks = result.risks;
-  return {{"compared_um", in_um(o.compared_mm)},
-          {"acceptance_limit_um", optional_um(o.acceptance.upper_mm)},
-          {"rejection_limit_um", optional_um(o.rejection.upper_mm)},
-          {"conformance_probability", optional_json(o.conformance_1)},
-          {"specific_risk", optional_json(o.specific_risk_1())},
-          {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},
-          {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
+  Json json = {{"compared_um", in_um(o.compared_mm)},
+               {"acceptance_limit_um", optional_um(o.acceptance.upper_mm)},
+               {"rejection_limit_um", optional_um(o.rejection.upper_mm)},
+               {"conformance_probability", optional_json(o.conformance_1)},
+               {"specific_risk", optional_json(o.specific_risk_1())},
+               {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},
+               {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
+  if (o.acceptance.lower_mm || o.rejection.lower_mm) {
+    json["lower_acceptance_limit_um"] = optional_um(o.acceptance.lower_mm);
+    json["lower_rejection_limit_um"] = optional_um(o.rejection.lower_mm);
+  }
+  return json;
+}
+
+/// A rule as the plan spells it.
+Json own_rule_json(const record::DecisionRuleTask& rule) {
+  Json json = Json::object();
+  for (const record::Setting& setting : record::settings_of_task(rule)) {
+    json[setting.name] = setting.number ? Json(*setting.number) : Json(setting.text);
+  }
+  return json;
+}
+
+/// Adds what a drawing can ask beside form, reference and one limit; nothing where it asks no more.
+void add_indication(const evaluation::CharacteristicResult& result, Json& json) {
+  using Filter = record::Indication::Filter;
+  const record::Characteristic& asked = result.characteristic;
+  const record::Indication& indication = asked.indication;
+  if (evaluation::unit_of(asked) == core::LengthUnit::kMm) {
+    json["unit"] = name_of(core::LengthUnit::kMm);
+    json["tolerance_um"] = nullptr;
+    json["lower_limit_mm"] = optional_json(asked.lower_mm);
+    json["upper_limit_mm"] = optional_json(asked.tolerance_mm);
+  } else if (asked.lower_mm) {
+    json["lower_limit_um"] = in_um(*asked.lower_mm);
+  }
+  if (!indication.datum.empty()) json["datum"] = indication.datum;
+  if (const Filter filter = indication.filter.value_or(Filter::kNone); filter != Filter::kNone) {
+    json["filter"] = {{"name", record::name_of(filter)},
+                      {"cutoff_upr", optional_json(indication.cutoff_upr)},
+                      {"cutoff_mm", optional_json(indication.cutoff_mm)}};
+  }
+  if (indication.decision_rule) json["decision_rule"] = own_rule_json(*indication.decision_rule);
+  if (result.finding) json["finding"] = finding_json(*result.finding, evaluation::unit_of(asked));
 }
 
 }  // namespace
 
 Json characteristic_json(const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
-  return {{"id", asked.id},
-          {"form", record::name_of(asked.form)},
-          {"symbol", evaluation::symbol_of(asked)},
-          {"reference", evaluation::reference_of(asked)},
-          {"value_um", optional_um(result.value_mm())},
-          {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
-          {"tolerance_um", optional_um(asked.tolerance_mm)},
-          {"verdict", name_of(result.verdict)},
-          {"reason", result.reason},
-          {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
-          {"drawing_zone", asked.drawing_zone},
-          {"stated", result.value ? Json(result.value->sentence()) : Json(nullptr)},
-          {"uncertainty", uncertainty_json(result)},
-          {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
-                                         ? Json(result.value->uncertainty().why())
-                                         : Json(nullptr)},
-          {"decision", decision_json(result)}};
+  Json json = {{"id", asked.id},
+               {"form", record::name_of(asked.form)},
+               {"symbol", evaluation::symbol_of(asked)},
+               {"reference", evaluation::reference_of(asked)},
+               {"value_um", optional_um(result.value_mm())},
+               {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
+               {"tolerance_um", optional_um(asked.tolerance_mm)},
+               {"verdict", name_of(result.verdict)},
+               {"reason", result.reason},
+               {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
+               {"drawing_zone", asked.drawing_zone},
+               {"stated", result.value ? Json(result.value->sentence()) : Json(nullptr)},
+               {"uncertainty", uncertainty_json(result)},
+               {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
+                                              ? Json(result.value->uncertainty().why())
+                                              : Json(nullptr)},
+               {"decision", decision_json(result)}};
+  add_indication(result, json);
+  return json;
 }
 
 Json rule_json(const evaluation::Evaluation& evaluation) {

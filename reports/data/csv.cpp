@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "reports/escaping.h"
 
 namespace rondure::reports {
@@ -29,6 +30,29 @@ std::string um_field(const std::optional<double>& length_mm) {
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
 
+bool any_lower_limit(const evaluation::Evaluation& evaluation) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+      if (result.characteristic.lower_mm) return true;
+    }
+  }
+  return false;
+}
+
+/// "layer,height_mm,angle_deg,radius_mm" of a local value; the three that it has not are empty.
+std::string place_fields(const evaluation::LocalValue& local) {
+  using Place = evaluation::LocalValue::Place;
+  switch (local.place) {
+    case Place::kLayer:
+      return fmt::format("{},{},,", local.layer, number(local.position));
+    case Place::kAngle:
+      return ",," + number(core::degrees(local.position)) + ",";
+    case Place::kRadius:
+      return ",,," + number(local.position);
+  }
+  return ",,,";
+}
+
 std::string measured(const std::optional<double>& value) { return value ? number(*value) : ""; }
 
 }  // namespace
@@ -41,7 +65,9 @@ std::string write_results_csv(const record::RunRecord& record,
                   text_field(header.part_id), text_field(header.serial));
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
-      "verdict,reason,verification_operator,quoted_um,low_um,high_um\n";
+      "verdict,reason,verification_operator,quoted_um,low_um,high_um";
+  const bool lower = any_lower_limit(evaluation);
+  text += lower ? ",lower_limit_um\n" : "\n";
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
@@ -52,11 +78,33 @@ std::string write_results_csv(const record::RunRecord& record,
                                                           um_field(known->low_mm) + "," +
                                                           um_field(known->high_mm);
       text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{}\n", head, text_field(feature.feature.id),
+          "{},{},{},{},{},{},{},{},{},{},{}", head, text_field(feature.feature.id),
           text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),
           um_field(result.value_mm()), um_field(asked.tolerance_mm), name_of(result.verdict),
           text_field(result.reason.english()),
           text_field(result.value ? result.value->operator_text().english() : ""), interval);
+      text += lower ? "," + um_field(asked.lower_mm) + "\n" : "\n";
+    }
+  }
+  return text;
+}
+
+std::string write_sections_csv(const record::RunRecord& record,
+                               const evaluation::Evaluation& evaluation) {
+  std::string text =
+      "run,feature,characteristic,symbol,layer,height_mm,angle_deg,radius_mm,value_um,least_um,"
+      "reason\n";
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+      if (!result.finding) continue;
+      const std::string head = fmt::format(
+          "{},{},{},{}", text_field(record.header.run_id), text_field(feature.feature.id),
+          text_field(result.characteristic.id), evaluation::symbol_of(result.characteristic));
+      for (const evaluation::LocalValue& local : result.finding->local) {
+        text += fmt::format("{},{},{},{},{}\n", head, place_fields(local),
+                            local.none ? "" : um_field(local.value_mm), um_field(local.least_mm),
+                            local.none ? text_field(local.none->what) : "");
+      }
     }
   }
   return text;

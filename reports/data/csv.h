@@ -17,4 +17,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string write_results_csv(const record::RunRecord& record,
                                             const evaluation::Evaluation& evaluation);
 
+/// sections.csv: one row for each section, generatrix or circle of a characteristic.
+[[nodiscard]] std::string write_sections_csv(const record::RunRecord& record,
+                                             const evaluation::Evaluation& evaluation);
+
 }  // namespace rondure::reports

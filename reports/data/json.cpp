@@ -13,11 +13,12 @@
 namespace rondure::reports {
 namespace {
 
-Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
-Json vector_json(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
-
 Json axis_json(const fit::Axis& axis) {
   return {{"point_mm", vector_json(axis.point_mm)}, {"direction", vector_json(axis.direction)}};
+}
+
+Json plane_json(const fit::Plane& plane) {
+  return {{"point_mm", vector_json(plane.point_mm)}, {"normal", vector_json(plane.normal)}};
 }
 
 Json header_json(const record::RunRecord& record) {
@@ -96,6 +97,15 @@ Json range_json(const std::optional<fit::DeviationRange>& range) {
 }
 
 Json zone_json(const evaluation::FeatureResult& feature) {
+  if (feature.mz_plane) {
+    const fit::MinZonePlane& mz = *feature.mz_plane;
+    return {
+        {"plane", plane_json(mz.outer)},
+        {"deviation_um", in_um(mz.width_mm)},
+        {"contacts",
+         {{"outer", contacts_json(mz.top, feature)}, {"inner", contacts_json(mz.bottom, feature)}}},
+        {"certificate", certificate_json(mz.certificate)}};
+  }
   const auto zone = zone_of(feature);
   if (!zone) return nullptr;
   Json json;
@@ -115,6 +125,11 @@ Json zone_json(const evaluation::FeatureResult& feature) {
 }
 
 Json least_squares_json(const evaluation::FeatureResult& feature) {
+  if (const auto& plane = feature.ls_plane) {
+    return {{"plane", plane_json(plane->plane)},
+            {"deviation_um", in_um(plane->deviation_mm)},
+            {"rms_um", in_um(plane->rms_mm)}};
+  }
   const auto ls = least_squares_of(feature);
   if (!ls) return nullptr;
   Json json;

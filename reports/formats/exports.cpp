@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "evaluation/analysis_result.h"
+#include "evaluation/part/find.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
@@ -37,6 +38,7 @@ std::string calibration_of(const evaluation::Evaluation& evaluation) {
 }
 
 constexpr const char* kResultsFile = "results.csv";
+constexpr const char* kSectionsFile = "sections.csv";
 
 /// "html, json and csv".
 std::string enumerated(const std::vector<std::string>& words) {
@@ -75,11 +77,11 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
 
 const std::vector<Export>& exports() {
   static const std::vector<Export> all = {
-      {Format::kHtml, "report.html"}, {Format::kJson, "report.json"},
-      {Format::kCsv, "touches.csv"},  {Format::kCsv, kSeriesFile},
-      {Format::kCsv, kResultsFile},   {Format::kQif, "report.qif"},
-      {Format::kDmis, "report.dmo"},  {Format::kJson, kCalibrationFile},
-      {Format::kPdf, "report.pdf"}};
+      {Format::kHtml, "report.html"},    {Format::kJson, "report.json"},
+      {Format::kCsv, "touches.csv"},     {Format::kCsv, kSeriesFile},
+      {Format::kCsv, kResultsFile},      {Format::kCsv, kSectionsFile},
+      {Format::kQif, "report.qif"},      {Format::kDmis, "report.dmo"},
+      {Format::kJson, kCalibrationFile}, {Format::kPdf, "report.pdf"}};
   return all;
 }
 
@@ -96,6 +98,14 @@ bool applies(const Export& what, const record::RunRecord& record) {
   if (what.file == kSeriesFile) {
     return std::any_of(record.series.begin(), record.series.end(), [](const auto& series) {
       return series.role == record::Series::Role::kData;
+    });
+  }
+  if (what.file == kSectionsFile) {
+    return std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
+      const auto& asked = feature.characteristics;
+      return std::any_of(asked.begin(), asked.end(), [&](const auto& characteristic) {
+        return evaluation::is_found(feature, characteristic);
+      });
     });
   }
   if (what.file != kCalibrationFile) return true;
@@ -117,6 +127,7 @@ std::string render(const Export& what, const record::RunRecord& record,
   if (what.format == Format::kDmis) return write_dmis(record, evaluation);
   if (what.file == kSeriesFile) return write_series_csv(record);
   if (what.file == kResultsFile) return write_results_csv(record, evaluation);
+  if (what.file == kSectionsFile) return write_sections_csv(record, evaluation);
   return write_touches_csv(record);
 }
 

@@ -6,6 +6,7 @@
 #include "core/utf8.h"
 #include "evaluation/analysis.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "reports/words/internal/facts.h"
 
 namespace rondure::reports {
@@ -66,12 +67,18 @@ record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
   out.symbol = evaluation::symbol_of(asked);
   out.reference = evaluation::reference_of(asked);
   out.filter = feature.analysis ? filter_text(*feature.analysis).english() : "unfiltered";
+  if (found.finding) {
+    out.filter = found.finding->filter.english();
+    if (out.reference.empty()) out.reference = found.finding->reference.english();
+  }
   out.sampling =
       feature.analysis ? sampling_text(*feature.analysis).english() : sampling_of(feature, asked);
   if (found.value) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;
+  out.lower_limit = asked.lower_mm;
   out.verdict = name_of(found.verdict);
-  out.certificate = fit::name_of(certificate_of(feature, asked));
+  out.certificate =
+      fit::name_of(found.finding ? CertificateKind::kNone : certificate_of(feature, asked));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -65,10 +66,29 @@ double sample_percentile(const std::vector<double>& sorted, double share) {
   return (1.0 - part) * sorted[left] + part * sorted[left + 1];
 }
 
+struct LimitPair {
+  std::optional<double> lower_mm;
+  std::optional<double> upper_mm;
+};
+
+/// Index of a log-normal model, of one side or the lesser of both.
+double index_of(const LimitPair& limits, const Moments& ln) {
+  double index = std::numeric_limits<double>::infinity();
+  if (limits.upper_mm) {
+    index = std::expm1(std::log(*limits.upper_mm) - ln.mean) / std::expm1(3.0 * ln.sd);
+  }
+  if (limits.lower_mm) {
+    const double below = *limits.lower_mm > 0.0 ? std::log(*limits.lower_mm) - ln.mean
+                                                : -std::numeric_limits<double>::infinity();
+    index = std::min(index, std::expm1(below) / std::expm1(-3.0 * ln.sd));
+  }
+  return index;
+}
+
 /// Lower confidence bound of the index of a log-normal model: the 5 % point of its generalised
 /// pivotal quantity. Standard deviation and mean are drawn from their uncertainty in the sample: sd
 /// / sd* from chi square, the mean from sd* / sqrt(n). Fixed seed, same bits.
-double lower_bound(double limit_mm, const Moments& ln, double n) {
+double lower_bound(const LimitPair& limits, const Moments& ln, double n) {
   core::KeyedNoise noise(kSeed, {});
   const double freedom = n - 1.0;
   std::vector<double> drawn(kDraws);
@@ -76,28 +96,42 @@ double lower_bound(double limit_mm, const Moments& ln, double n) {
     const double probability = 0.5 * std::erfc(-noise.normal() / std::sqrt(2.0));
     const double sd = ln.sd * std::sqrt(freedom / core::chi_square_quantile(probability, freedom));
     const double mean = ln.mean + noise.normal() * sd / std::sqrt(n);
-    index = std::expm1(std::log(limit_mm) - mean) / std::expm1(3.0 * sd);
+    index = index_of(limits, {mean, sd});
   }
   return core::order_statistic(std::move(drawn), kDraws / 20);
 }
 
-Capability log_normal(const Moments& ln, double n, double limit_mm) {
+/// The index from the points of the capability.
+void set_index(const LimitPair& limits, Capability& out) {
+  out.index = std::numeric_limits<double>::infinity();
+  if (limits.upper_mm) {
+    out.index = (*limits.upper_mm - out.median_mm) / (out.upper_point_mm - out.median_mm);
+  }
+  if (limits.lower_mm) {
+    out.index = std::min(
+        out.index, (out.median_mm - *limits.lower_mm) / (out.median_mm - *out.lower_point_mm));
+  }
+}
+
+Capability log_normal(const Moments& ln, double n, const LimitPair& limits) {
   Capability out;
   out.median_mm = std::exp(ln.mean);
   out.upper_point_mm = std::exp(ln.mean + 3.0 * ln.sd);
-  out.index = (limit_mm - out.median_mm) / (out.upper_point_mm - out.median_mm);
-  out.lower_bound = lower_bound(limit_mm, ln, n);
+  if (limits.lower_mm) out.lower_point_mm = std::exp(ln.mean - 3.0 * ln.sd);
+  set_index(limits, out);
+  out.lower_bound = lower_bound(limits, ln, n);
   return out;
 }
 
-Capability of_sample(std::span<const double> values_mm, double limit_mm) {
+Capability of_sample(std::span<const double> values_mm, const LimitPair& limits) {
   std::vector<double> sorted(values_mm.begin(), values_mm.end());
   std::sort(sorted.begin(), sorted.end());
   Capability out;
   out.method = Capability::Method::kSample;
   out.median_mm = sample_percentile(sorted, 0.5);
   out.upper_point_mm = sample_percentile(sorted, kUpperShare);
-  out.index = (limit_mm - out.median_mm) / (out.upper_point_mm - out.median_mm);
+  if (limits.lower_mm) out.lower_point_mm = sample_percentile(sorted, 1.0 - kUpperShare);
+  set_index(limits, out);
   return out;
 }
 
@@ -116,6 +150,13 @@ core::Result<ControlLimits> control_limits(std::span<const double> values_mm) {
 }
 
 core::Result<Capability> upper_capability(std::span<const double> values_mm, double limit_mm) {
+  return capability_between(values_mm, std::nullopt, limit_mm);
+}
+
+core::Result<Capability> capability_between(std::span<const double> values_mm,
+                                            const std::optional<double>& lower_mm,
+                                            const std::optional<double>& upper_mm) {
+  const LimitPair limits = {lower_mm, upper_mm};
   const auto ln = logarithms(values_mm, kLeastForIndex);
   if (!ln) return core::fail(ln.error());
   const double p = anderson_darling_p(*ln);
@@ -126,9 +167,9 @@ core::Result<Capability> upper_capability(std::span<const double> values_mm, dou
                     "{:.2g}), and {} are too few for percentiles of their own ({} are needed)",
                     p, values_mm.size(), kEnoughForSample));
   }
-  Capability out =
-      p < kLeastP ? of_sample(values_mm, limit_mm)
-                  : log_normal(moments_of(*ln), static_cast<double>(values_mm.size()), limit_mm);
+  Capability out = p < kLeastP
+                       ? of_sample(values_mm, limits)
+                       : log_normal(moments_of(*ln), static_cast<double>(values_mm.size()), limits);
   out.fit_p = p;
   return out;
 }

@@ -36,18 +36,20 @@ struct ControlLimits {
 ///          kRank when all values are equal. O(n). Source: ISO 7870-2:2013, individuals chart.
 [[nodiscard]] core::Result<ControlLimits> control_limits(std::span<const double> values_mm);
 
-/// One-sided index of how far the values stay below an upper limit, relative to their spread.
+/// Index of how far the values stay within their limits, relative to their spread.
 struct Capability {
   enum class Method {
     kLogNormal,  ///< Percentiles of the log-normal distribution fitted to the values.
     kSample,     ///< Percentiles of the values themselves.
   };
   Method method = Method::kLogNormal;
-  double index = 0.0;                 ///< (U - x50) / (x99.865 - x50).
+  /// (U - x50) / (x99.865 - x50), (x50 - L) / (x50 - x0.135), or the lesser of both.
+  double index = 0.0;
   std::optional<double> lower_bound;  ///< One-sided 95 % confidence; for the log-normal model only.
   double median_mm = 0.0;             ///< x50
   double upper_point_mm = 0.0;        ///< x99.865
-  double fit_p = 0.0;                 ///< p of the Anderson-Darling test of ln x.
+  std::optional<double> lower_point_mm = {};  ///< x0.135, where there is a lower limit.
+  double fit_p = 0.0;                         ///< p of the Anderson-Darling test of ln x.
 };
 
 /// The index PpkU by the percentile method (ISO 22514-2). It is CpkU when the process is shown to
@@ -62,6 +64,12 @@ struct Capability {
 ///          few values for their own percentiles. O(n log n).
 [[nodiscard]] core::Result<Capability> upper_capability(std::span<const double> values_mm,
                                                         double limit_mm);
+
+/// The same above a lower limit (PpkL), below an upper one, or between both (Ppk).
+/// @pre At least one limit.
+[[nodiscard]] core::Result<Capability> capability_between(std::span<const double> values_mm,
+                                                          const std::optional<double>& lower_mm,
+                                                          const std::optional<double>& upper_mm);
 
 /// p of the Anderson-Darling test that the values come from a normal distribution whose mean and
 /// standard deviation are estimated from them. n >= 8 values, not all equal.

@@ -42,7 +42,8 @@ Json result_json(const record::ArchivedResult& r) {
           {"plan_revision", r.head.plan_revision},
           {"plan_sha256", r.head.plan_sha256},
           {"journal_sha256", r.head.journal_sha256},
-          {"version", r.head.version}};
+          {"version", r.head.version},
+          {"lower_limit", optional_json(outside(r.result.lower_limit, r.result.unit))}};
 }
 
 Json um_json(double mm) { return mm / core::kMicrometre; }

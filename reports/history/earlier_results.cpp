@@ -58,6 +58,7 @@ Json json_of(const ArchivedResult& r) {
   out["upper_limit"] = optional_json(r.result.upper_limit);
   out["time_s"] = r.time_s;
   out["number"] = r.number;
+  if (r.result.lower_limit) out["lower_limit"] = *r.result.lower_limit;
   return out;
 }
 
@@ -70,6 +71,7 @@ ArchivedResult result_of(const Json& json) {
   out.head.simulated = json.at("simulated").get<bool>();
   out.result.value = optional_of(json.at("value"));
   out.result.upper_limit = optional_of(json.at("upper_limit"));
+  if (json.contains("lower_limit")) out.result.lower_limit = optional_of(json["lower_limit"]);
   out.time_s = json.at("time_s").get<std::int64_t>();
   out.number = json.at("number").get<int>();
   return out;
@@ -92,7 +94,8 @@ core::Result<EarlierResults> parse_earlier(const std::string& text) {
       out.push_back(result_of(row));
       const record::ArchiveResult& result = out.back().result;
       if (core::is_measurable(result.value.value_or(0.0)) &&
-          core::is_measurable(result.upper_limit.value_or(0.0))) {
+          core::is_measurable(result.upper_limit.value_or(0.0)) &&
+          core::is_measurable(result.lower_limit.value_or(0.0))) {
         continue;
       }
       return core::fail(core::Code::kSyntax,

@@ -99,6 +99,9 @@ void note_mixtures(RunChart& chart) {
   note_mixture(chart, core::phrase("upper limits"), [](const auto& r) {
     return r.result.upper_limit ? um(*r.result.upper_limit) + " um" : std::string("none");
   });
+  note_mixture(chart, core::phrase("lower limits"), [](const auto& r) {
+    return r.result.lower_limit ? um(*r.result.lower_limit) + " um" : std::string("none");
+  });
 }
 
 /// Repeated measurements of one part show how well it is measured, not the spread of the process.
@@ -126,7 +129,7 @@ void add_limits(RunChart& chart, const std::vector<double>& values) {
 }
 
 void add_capability(RunChart& chart, const std::vector<double>& values) {
-  if (!chart.upper_limit_mm) {
+  if (!chart.upper_limit_mm && !chart.lower_limit_mm) {
     chart.notes.push_back(core::phrase("no capability: the characteristic has no tolerance"));
     return;
   }
@@ -136,7 +139,7 @@ void add_capability(RunChart& chart, const std::vector<double>& values) {
         "not what the process makes"));
     return;
   }
-  const auto capability = upper_capability(values, *chart.upper_limit_mm);
+  const auto capability = capability_between(values, chart.lower_limit_mm, chart.upper_limit_mm);
   if (!capability) {
     chart.notes.push_back(core::phrase("no capability: {}", capability.error().said()));
     return;
@@ -144,14 +147,16 @@ void add_capability(RunChart& chart, const std::vector<double>& values) {
   chart.capability = *capability;
   const bool controlled = chart.limits && chart.beyond.size() <= chart.allowed_beyond &&
                           values.size() >= kEnoughForIndex;
-  chart.index_name = controlled ? "CpkU" : "PpkU";
+  const std::string side = !chart.lower_limit_mm ? "U" : !chart.upper_limit_mm ? "L" : "";
+  chart.index_name = (controlled ? "Cpk" : "Ppk") + side;
   if (values.size() < kEnoughForIndex) {
     chart.notes.push_back(core::phrase("{} is a rough estimate: {} results, {} are needed",
                                        chart.index_name, values.size(), kEnoughForIndex));
   } else if (!controlled) {
     chart.notes.push_back(
-        core::phrase("performance (PpkU), not capability (CpkU): {} beyond the control limits, {} "
+        core::phrase("performance ({}), not capability ({}): {} beyond the control limits, {} "
                      "expected of a stable process",
+                     "Ppk" + side, "Cpk" + side,
                      chart.beyond.size() == 1 ? core::phrase("{} result", chart.beyond.size())
                                               : core::phrase("{} results", chart.beyond.size()),
                      chart.allowed_beyond));
@@ -165,6 +170,7 @@ RunChart run_chart_of(std::span<const ArchivedResult> newest_first) {
   choose_results(chart, newest_first);
   if (chart.results.empty()) return chart;
   chart.upper_limit_mm = chart.results.back().result.upper_limit;
+  chart.lower_limit_mm = chart.results.back().result.lower_limit;
   const std::vector<double> values = values_of(chart);
   add_limits(chart, values);
   add_capability(chart, values);
@@ -178,6 +184,15 @@ ChartRange range_of(const RunChart& chart) {
   ChartRange out;
   out.low_mm = std::min(*low, chart.limits ? chart.limits->lower_mm : *low);
   out.high_mm = std::max(*high, chart.limits ? chart.limits->upper_mm : *high);
+  if (chart.lower_limit_mm) {  // a size: what counts is its place between the limits
+    out.limit_shown = chart.upper_limit_mm.has_value();
+    out.low_mm = std::min(out.low_mm, *chart.lower_limit_mm);
+    out.high_mm = std::max(out.high_mm, chart.upper_limit_mm.value_or(out.high_mm));
+    const double room_mm = std::max(0.06 * (out.high_mm - out.low_mm), core::kMicrometre);
+    out.low_mm -= room_mm;
+    out.high_mm += room_mm;
+    return out;
+  }
   const double span_mm = std::max(out.high_mm - out.low_mm, 0.1 * out.high_mm);
   if (chart.upper_limit_mm && *chart.upper_limit_mm < out.low_mm + 4.0 * span_mm) {
     out.limit_shown = true;
@@ -204,9 +219,17 @@ core::Phrase capability_in_words(const RunChart& chart) {
     index = core::phrase("{}, at least {} with 95 % confidence", index, fixed(*c.lower_bound, 2));
   }
   const bool model = c.method == Capability::Method::kLogNormal;
-  const core::Phrase percentiles = core::phrase(
-      "median {} um, 99.865 % point {} um of the {}", um(c.median_mm), um(c.upper_point_mm),
-      model ? core::phrase("fitted log-normal distribution") : core::phrase("results themselves"));
+  const core::Phrase model_words =
+      model ? core::phrase("fitted log-normal distribution") : core::phrase("results themselves");
+  if (c.lower_point_mm) {
+    const core::Phrase between =
+        core::phrase("0.135 % point {} um, median {} um, 99.865 % point {} um of the {}",
+                     um(*c.lower_point_mm), um(c.median_mm), um(c.upper_point_mm), model_words);
+    return core::phrase("{} ({})", joined(index, between),
+                        core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
+  }
+  const core::Phrase percentiles = core::phrase("median {} um, 99.865 % point {} um of the {}",
+                                                um(c.median_mm), um(c.upper_point_mm), model_words);
   return core::phrase("{} ({})", joined(index, percentiles),
                       core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
 }

@@ -17,11 +17,14 @@ namespace rondure::reports {
 struct RunChart {
   std::vector<record::ArchivedResult> results;  ///< Oldest first; each has a value and is not void.
   std::optional<double> upper_limit_mm;         ///< The tolerance of the newest result.
+  std::optional<double> lower_limit_mm;         ///< Its lower limit, of a size.
   std::optional<ControlLimits> limits;
   std::vector<std::size_t> beyond;  ///< Results beyond a control limit.
   std::size_t allowed_beyond = 0;   ///< Number expected beyond in a stable process: 0.27 %.
   std::optional<Capability> capability;
-  std::string index_name;  ///< "CpkU" in statistical control, otherwise "PpkU".
+  /// "CpkU" in statistical control, otherwise "PpkU"; "Cpk", "Ppk" between two limits, "CpkL",
+  /// "PpkL" above a lower one.
+  std::string index_name;
   /// Sentences on results left out, missing statistics and mixed conditions.
   std::vector<core::Phrase> notes;
 };

@@ -79,6 +79,7 @@ void draw_levels(Svg& svg, const RunAxes& axes, const RunChart& chart, bool limi
     levels.push_back({chart.limits->lower_mm, "control", "LCL"});
   }
   if (limit_shown) levels.push_back({*chart.upper_limit_mm, "limit", tr("tolerance")});
+  if (chart.lower_limit_mm) levels.push_back({*chart.lower_limit_mm, "limit", tr("lower limit")});
   std::sort(levels.begin(), levels.end(),
             [](const Level& a, const Level& b) { return a.value_mm > b.value_mm; });
   double free = 0.0;
@@ -103,7 +104,8 @@ void draw_results(Svg& svg, const RunAxes& axes, const RunChart& chart,
   svg.path(d, "run");
   const double r = values_mm.size() > 300 ? 1.6 : values_mm.size() > 100 ? 2.4 : 3.2;
   for (std::size_t i = 0; i < values_mm.size(); ++i) {
-    if (chart.upper_limit_mm && values_mm[i] > *chart.upper_limit_mm) {
+    if ((chart.upper_limit_mm && values_mm[i] > *chart.upper_limit_mm) ||
+        (chart.lower_limit_mm && values_mm[i] < *chart.lower_limit_mm)) {
       svg.cross(x(i), y(i), r + 1.6, "cross");
     } else if (std::binary_search(chart.beyond.begin(), chart.beyond.end(), i)) {
       svg.triangle(x(i), y(i), r + 2.0, "beyond");

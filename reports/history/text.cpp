@@ -97,6 +97,7 @@ std::string TextCanvas::text(bool coloured) const {
 /// X beyond a control limit, # beyond the tolerance.
 char mark_of(const RunChart& chart, std::size_t index, double value_mm) {
   if (chart.upper_limit_mm && value_mm > *chart.upper_limit_mm) return '#';
+  if (chart.lower_limit_mm && value_mm < *chart.lower_limit_mm) return '#';
   return std::binary_search(chart.beyond.begin(), chart.beyond.end(), index) ? 'X' : 'o';
 }
 
@@ -145,6 +146,10 @@ std::string history_table(std::span<const record::ArchivedResult> newest_first) 
                     um_or_dash(r->result.upper_limit), cell(r->result.verdict, 16));
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
+    if (r->result.lower_limit) {  // below the limit, which is the upper one
+      out += fmt::format("{:>{}}\n",
+                         fmt::format("lower limit {:>7}", um_or_dash(r->result.lower_limit)), 63);
+    }
   }
   return out;
 }
@@ -163,12 +168,14 @@ std::string history_chart(const RunChart& chart, bool coloured) {
     line(chart.limits->upper_mm, '-', "UCL");
   }
   if (chart.upper_limit_mm) line(*chart.upper_limit_mm, '=', "U");
+  if (chart.lower_limit_mm) line(*chart.lower_limit_mm, '=', "L");
   draw_results(canvas, chart, values_mm);
   std::string out = head_of(chart) + canvas.text(coloured) + legend_of(chart);
   if (chart.limits) {
     out += wrapped("",
                    "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); "
-                   "U: tolerance");
+                   "U: tolerance" +
+                       std::string(chart.lower_limit_mm ? "; L: its lower limit" : ""));
   }
   if (chart.upper_limit_mm && !range.limit_shown) {
     out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));

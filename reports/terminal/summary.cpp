@@ -1,6 +1,7 @@
 #include "reports/terminal/summary.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "reports/data/contour.h"
 #include "reports/escaping.h"
 #include "reports/terminal/internal/columns.h"
@@ -172,14 +174,15 @@ void add_head(std::string& out, const record::RunRecord& record,
 /// Bias of a value and the largest influence.
 void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   const evaluation::UncertaintyResult& u = *value.uncertainty().result();
+  const std::string unit(name_of(value.unit()));
   const auto line = [&](const std::string& name, const evaluation::UncertaintyStatement& s) {
     const auto number = [&](double mm) {
-      return fixed(1e3 * mm, evaluation::decimals_for(s.expanded_mm()));
+      return core::length_in(value.unit(), mm, evaluation::decimals_for(s.expanded_mm()));
     };
     add_wrapped(out, name,
-                trf("{} um, {:g} % within [{}, {}] um {}", number(s.estimate_mm),
+                trf("{} {}, {:g} % within [{}, {}] {} {}", number(s.estimate_mm), unit,
                     100.0 * value.uncertainty().coverage_1(), number(s.low_mm), number(s.high_mm),
-                    tr(name_of(s.measurand))));
+                    unit, tr(name_of(s.measurand))));
   };
   line("    " + tr("corrected"), u.sampled);
   if (u.whole) line("", *u.whole);
@@ -196,18 +199,101 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
 }
 
+/// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm".
+std::string limits_text(const record::Characteristic& asked) {
+  if (!asked.toleranced()) return tr("no limit");
+  if (evaluation::unit_of(asked) == core::LengthUnit::kUm && !asked.lower_mm)
+    return trf("limit {} um", um(*asked.tolerance_mm));
+  constexpr double kSteps = 1e6;  // of a nanometre: limits are sums of a nominal and a deviation
+  const auto mm = [](double length_mm) { return core::decimal(core::on_grid(length_mm, kSteps)); };
+  if (!asked.lower_mm) return trf("at most {} mm", mm(*asked.tolerance_mm));
+  if (!asked.tolerance_mm) return trf("at least {} mm", mm(*asked.lower_mm));
+  return trf("{} to {} mm", mm(*asked.lower_mm), mm(*asked.tolerance_mm));
+}
+
+/// "layer 3 at 12.000 mm", "generatrix at 90.0 deg", "circle of radius 20.000 mm".
+std::string place_of(const evaluation::LocalValue& local) {
+  using Place = evaluation::LocalValue::Place;
+  if (local.place == Place::kLayer)
+    return trf("layer {} at {} mm", local.layer + 1, fixed(local.position, 3));
+  return local.place == Place::kAngle ? trf("generatrix at {} deg", core::deg(local.position, 1))
+                                      : trf("circle of radius {} mm", fixed(local.position, 3));
+}
+
+/// The judged values where there are several, the worst section, rocking datums, points that take
+/// no part, warnings.
+void add_finding(std::string& out, const evaluation::Finding& finding,
+                 const evaluation::StatedValue& stated) {
+  const auto number = [&](double length_mm) {
+    return fmt::format("{} {}", stated.in_digits(length_mm), name_of(stated.unit()));
+  };
+  if (finding.judged.size() > 1) {
+    std::string text;
+    for (const evaluation::JudgedValue& value : finding.judged) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : tr("; "), value.symbol,
+                          number(value.value_mm));
+    }
+    add_wrapped(out, "    " + tr("values"), text);
+  }
+  if (finding.local.size() > 1 && finding.worst < finding.local.size()) {
+    const evaluation::LocalValue& worst = finding.local[finding.worst];
+    const std::string least = worst.least_mm ? number(*worst.least_mm) + tr(" to ") : "";
+    add_wrapped(out, "    " + tr("worst"),
+                trf("{}: {}, one of {}", place_of(worst), least + number(worst.value_mm),
+                    finding.local.size()));
+  }
+  std::size_t missing = 0;
+  const evaluation::LocalValue* first = nullptr;
+  for (const evaluation::LocalValue& local : finding.local) {
+    if (!local.none) continue;
+    if (first == nullptr) first = &local;
+    ++missing;
+  }
+  if (first != nullptr) {
+    add_wrapped(out, "    " + tr("no value"),
+                trf("{} of {}: {}: {}", missing, finding.local.size(), place_of(*first),
+                    words(first->none->said())));
+  }
+  constexpr double kPlay_mm = core::kMicrometre;  // less is that of every real surface
+  for (const evaluation::DatumResult& datum : finding.datums) {
+    if (!(datum.play_mm > kPlay_mm)) continue;
+    std::string text = trf("datum {} rocks by {} um", datum.name, um(datum.play_mm));
+    if (!finding.about_equalised_mm.empty()) {
+      text += trf("; {} about the equalised datum", number(finding.about_equalised_mm.front()));
+    }
+    add_wrapped(out, "    " + tr("warning"), text);
+  }
+  if (!finding.left_out.empty()) {
+    std::map<std::string, std::size_t> why;
+    for (const evaluation::LeftOut& row : finding.left_out)
+      ++why[row.window.empty() ? tr("outlier rule") : printable(row.window)];
+    std::string text;
+    for (const auto& [name, rows] : why)
+      text += fmt::format("{}{} {}", text.empty() ? "" : tr(", "), name, rows);
+    add_wrapped(out, "    " + tr("left out"), trf("{} points: {}", finding.left_out.size(), text));
+  }
+  for (const core::Error& warning : finding.warnings)
+    add_wrapped(out, "    " + tr("warning"), line_of(warning));
+}
+
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
 void add_characteristic(std::string& out, const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   const std::string value =
-      result.value ? result.value->in_digits(result.value->quoted_mm()) + " um" : tr("no value");
-  const std::string limit =
-      asked.tolerance_mm ? trf("limit {} um", um(*asked.tolerance_mm)) : tr("no limit");
-  std::string line = fmt::format("  {} {}{:>14}   {} {}  ", tr(evaluation::symbol_of(asked)),
-                                 evaluation::reference_of(asked), value, padded(limit, 19),
-                                 padded(tr(name_of(result.verdict)), 16));
-  line += shortened(printable(asked.id), kTerminalColumns - columns(line));
-  out += line + "\n";
+      result.value ? fmt::format("{} {}", result.value->in_digits(result.value->quoted_mm()),
+                                 name_of(result.value->unit()))
+                   : tr("no value");
+  std::string line = fmt::format(
+      "  {} {}{:>14}   {} {}  ", tr(evaluation::symbol_of(asked)), evaluation::reference_of(asked),
+      value, padded(limits_text(asked), 19), padded(tr(name_of(result.verdict)), 16));
+  constexpr std::size_t kLeastName = 3;
+  if (columns(line) + kLeastName <= kTerminalColumns) {
+    out += line + shortened(printable(asked.id), kTerminalColumns - columns(line)) + "\n";
+  } else {  // a long symbol leaves no room for the name
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+    add_wrapped(out, "", printable(asked.id));
+  }
   const bool simple = result.value && !result.value->uncertainty().result();
   if (result.verdict == evaluation::Verdict::kVoid ||
       result.verdict == evaluation::Verdict::kUndecided || (!simple && result.outcome)) {
@@ -215,6 +301,7 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
   }
   if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
   if (!simple && result.value) add_uncertainty(out, *result.value);
+  if (result.finding && result.value) add_finding(out, *result.finding, *result.value);
 }
 
 /// The sketch with its legend beside it.

@@ -10,7 +10,8 @@ namespace {
 
 /// Collects every number below `node` with its JSON pointer. The cloud is left out: it repeats the
 /// touches, which the journal's digests cover, and it may have a million rows. The curves of an
-/// analysis are left out too: they follow from its series, and report.json holds them.
+/// analysis and the generatrices of a surface are left out too: they follow from series and
+/// touches, and report.json holds them.
 void collect(const Json& node, const std::string& pointer, std::vector<record::StoredResult>& out) {
   if (node.is_number()) {
     out.push_back({pointer, node.get<double>()});
@@ -18,7 +19,8 @@ void collect(const Json& node, const std::string& pointer, std::vector<record::S
   }
   if (node.is_object()) {
     for (const auto& [key, value] : node.items()) {
-      if (key != "cloud" && key != "curves") collect(value, pointer + "/" + key, out);
+      if (key != "cloud" && key != "curves" && key != "lines")
+        collect(value, pointer + "/" + key, out);
     }
   }
   if (node.is_array()) {

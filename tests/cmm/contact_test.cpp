@@ -389,6 +389,128 @@ TEST(FirstContact, TurnsWithThePart) {
   EXPECT_NEAR(one->travel_mm, two->travel_mm, 1e-12);
 }
 
+TEST(FirstContact, WithASteepConeIsTheLeastTravelToAnyOfItsPoints) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    core::KeyedNoise random(seed, {11});
+    PartSurface part = random_part(random, false);
+    const double slope = std::tan(between(random, -40.0, 40.0) * core::kDegree);
+    part.half_length_mm = between(random, 8.0, 12.0);
+    part.radius_mm = 20.0;
+    part.form.taper_mm = slope * part.half_length_mm;
+    const double theta = between(random, 0.0, core::kTwoPi);
+    const Vector3d normal =
+        Vector3d(std::cos(theta), std::sin(theta), -slope) / std::hypot(1.0, slope);
+    const Vector3d met = surface_point(part, theta, between(random, -4.0, 4.0));
+    const Line line = {met + 5.0 * normal, random_tilted(random, -normal, 0.3)};
+    expect_true_contact(part, line, 2.0);
+  }
+}
+
+/// Least distance of a place from the graph of a function over two parameters, near a start.
+template <class Point>
+double least_distance(const Point& point, const Vector3d& from, Eigen::Vector2d at) {
+  const auto distance = [&](const Eigen::Vector2d& where) { return (point(where) - from).norm(); };
+  double best = distance(at);
+  for (double step = 1.0; step > 1e-9;) {
+    const double before = best;
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector2d next =
+          at + step * Eigen::Vector2d(std::cos(k * M_PI / 4), std::sin(k * M_PI / 4));
+      if (distance(next) >= best) continue;
+      at = next;
+      best = distance(next);
+    }
+    if (best >= before) step *= 0.5;
+  }
+  return best;
+}
+
+TEST(FirstContactWithAFace, TouchesItAndOverlapsItNowhere) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    core::KeyedNoise random(seed, {12});
+    FaceSurface face;
+    face.inner_mm = 10.0;
+    face.outer_mm = 40.0;
+    face.mirrored = seed % 2 == 1;
+    face.tilt_rad = between(random, -0.01, 0.01);
+    face.toward_rad = between(random, 0.0, core::kTwoPi);
+    face.saucer_mm = between(random, -0.5, 0.5);
+    face.wave_mm = between(random, -0.1, 0.1);
+    face.wave_order = static_cast<int>(seed % 5);
+    const auto point = [&](const Eigen::Vector2d& xy) {
+      return Vector3d(xy.x(), xy.y(), face.height_at(xy.x(), xy.y()));
+    };
+    const double theta = between(random, 0.0, core::kTwoPi);
+    const Vector3d start(22.0 * std::cos(theta), 22.0 * std::sin(theta), 7.0);
+    const Vector3d d = random_tilted(random, -Vector3d::UnitZ(), 0.4);
+    const auto contact = first_contact(face, start, d, 2.0, 20.0);
+    ASSERT_TRUE(contact) << contact.error().what;
+    EXPECT_NEAR((contact->tip_P_mm - contact->point_P_mm).norm(), 2.0, 1e-11);
+    EXPECT_NEAR(contact->point_P_mm.z(), point(contact->point_P_mm.head<2>()).z(), 1e-12);
+    EXPECT_NEAR((start + contact->travel_mm * d - contact->tip_P_mm).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(least_distance(point, contact->tip_P_mm, contact->tip_P_mm.head<2>()), 2.0, 1e-10);
+    EXPECT_EQ(first_contact(face, start, d, 2.0, contact->travel_mm - 1e-9).error().code,
+              core::Code::kNoTouch);
+  }
+}
+
+TEST(FirstContactWithAFace, IsOnItsRingAndFromItsFreeSideOnly) {
+  FaceSurface face;
+  face.inner_mm = 10.0;
+  face.outer_mm = 30.0;
+  const Vector3d down = -Vector3d::UnitZ();
+  // The failure, or none for a contact.
+  const auto code = [&](const Vector3d& start, const Vector3d& d) -> std::optional<core::Code> {
+    const auto contact = first_contact(face, start, d, 2.0, 20.0);
+    if (contact) return std::nullopt;
+    return contact.error().code;
+  };
+  EXPECT_EQ(code({20.0, 0.0, 8.0}, down), std::nullopt);
+  EXPECT_EQ(code({9.9, 0.0, 8.0}, down), core::Code::kNoTouch);
+  EXPECT_EQ(code({30.1, 0.0, 8.0}, down), core::Code::kNoTouch);
+  EXPECT_EQ(code({20.0, 0.0, 8.0}, -down), core::Code::kNoTouch);
+  EXPECT_EQ(code({20.0, 0.0, -8.0}, -down), core::Code::kNoTouch);
+  EXPECT_EQ(code({20.0, 0.0, 1.9}, down), core::Code::kCollision);
+  face.wave_mm = 0.9;
+  face.wave_order = 15;
+  EXPECT_EQ(code({20.0, 0.0, 8.0}, down), std::nullopt);
+  face.wave_mm = 1.1;
+  EXPECT_EQ(code({20.0, 0.0, 8.0}, down), core::Code::kNotConverged);
+}
+
+TEST(FirstContactWithABall, TouchesItAndOverlapsItNowhere) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    core::KeyedNoise random(seed, {13});
+    BallSurface ball;
+    ball.radius_mm = between(random, 3.0, 30.0);
+    for (const int order : {2, 3, 5}) {
+      ball.lobes.push_back(
+          {order, between(random, 0.0, 0.01), between(random, 0.0, core::kTwoPi), 0.0});
+    }
+    const Vector3d out = random_tilted(random, Vector3d::UnitX(), 1.2);
+    const Eigen::Matrix3d turn =
+        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), out).toRotationMatrix();
+    const auto point = [&](const Eigen::Vector2d& at) {
+      const Vector3d u =
+          turn * Vector3d(at.x() / ball.radius_mm, at.y() / ball.radius_mm, 1.0).normalized();
+      return Vector3d(ball.radius_at(u) * u);
+    };
+    const Vector3d start = (ball.radius_mm + 6.0) * out;
+    const Vector3d d = random_tilted(random, -out, 0.2);
+    const auto contact = first_contact(ball, start, d, 2.0, 20.0);
+    ASSERT_TRUE(contact) << contact.error().what;
+    EXPECT_NEAR((contact->tip_P_mm - contact->point_P_mm).norm(), 2.0, 1e-11);
+    EXPECT_NEAR((start + contact->travel_mm * d - contact->tip_P_mm).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(least_distance(point, contact->tip_P_mm, {0.0, 0.0}), 2.0, 1e-10);
+    EXPECT_EQ(first_contact(ball, start, d, 2.0, contact->travel_mm - 1e-9).error().code,
+              core::Code::kNoTouch);
+    EXPECT_EQ(first_contact(ball, start, -d, 2.0, 20.0).error().code, core::Code::kNoTouch);
+  }
+}
+
 TEST(FirstContactWithSphere, StopsAtTheSumOfTheRadii) {
   const auto contact =
       first_contact_with_sphere({1, 2, 3}, 12.5, {1, 2, 30}, -Vector3d::UnitZ(), 2.0, 20.0);

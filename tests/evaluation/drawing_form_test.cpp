@@ -25,12 +25,12 @@ using test::asked;
 using test::drawn;
 using test::DrawnSurface;
 using Indication = record::Indication;
-using Parameter = Indication::Parameter;
 using testing::UnorderedElementsAre;
 
-constexpr double kDigits = 1e-10;
+constexpr double kFormDigits = 1e-10;
 
-record::Characteristic asked_about(Form form, Reference reference, Parameter parameter) {
+record::Characteristic asked_about(Form form, Reference reference,
+                                   Indication::Parameter parameter) {
   record::Characteristic out = asked(form, reference);
   out.indication.parameter = parameter;
   return out;
@@ -47,7 +47,8 @@ Finding form_of(const DrawnSurface& part, const record::Characteristic& asked,
 }
 
 double form_value(const DrawnSurface& part, Form form, Reference reference,
-                  Parameter parameter = Parameter::kTotal, Proof proof = Proof::kFull) {
+                  Indication::Parameter parameter = Indication::Parameter::kTotal,
+                  Proof proof = Proof::kFull) {
   return form_of(part, asked_about(form, reference, parameter), proof).judged.front().value_mm;
 }
 
@@ -55,19 +56,19 @@ TEST(DrawingForm, OfW1HasEveryDigit) {
   const auto part = drawn(test::w1(), {false, 1.4987});
   for (const Proof proof : {Proof::kFull, Proof::kNone}) {
     const auto total = [&](Reference reference) {
-      return form_value(part, Form::kCylindricity, reference, Parameter::kTotal, proof);
+      return form_value(part, Form::kCylindricity, reference, Indication::Parameter::kTotal, proof);
     };
-    EXPECT_NEAR(total(Reference::kLeastSquares), 0.013274091480, kDigits);
-    EXPECT_NEAR(total(Reference::kMinimumZone), 0.012925222992, kDigits);
-    EXPECT_NEAR(total(Reference::kMinimumCircumscribed), 0.014990571544, kDigits);
-    EXPECT_NEAR(total(Reference::kMaximumInscribed), 0.013103715746, kDigits);
+    EXPECT_NEAR(total(Reference::kLeastSquares), 0.013274091480, kFormDigits);
+    EXPECT_NEAR(total(Reference::kMinimumZone), 0.012925222992, kFormDigits);
+    EXPECT_NEAR(total(Reference::kMinimumCircumscribed), 0.014990571544, kFormDigits);
+    EXPECT_NEAR(total(Reference::kMaximumInscribed), 0.013103715746, kFormDigits);
   }
-  const auto about_ls = [&](Parameter parameter) {
+  const auto about_ls = [&](Indication::Parameter parameter) {
     return form_value(part, Form::kCylindricity, Reference::kLeastSquares, parameter);
   };
-  EXPECT_NEAR(about_ls(Parameter::kPeak), 0.006779747648, kDigits);
-  EXPECT_NEAR(about_ls(Parameter::kValley), 0.006494343833, kDigits);
-  EXPECT_NEAR(about_ls(Parameter::kRms), 0.004304023965, kDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kPeak), 0.006779747648, kFormDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kValley), 0.006494343833, kFormDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kRms), 0.004304023965, kFormDigits);
   const Finding zone = form_of(part, asked(Form::kCylindricity));
   EXPECT_THAT(zone.rows, UnorderedElementsAre(24, 28, 32, 2, 6, 10));
   EXPECT_EQ(zone.reference.english(), "MZCY");
@@ -82,18 +83,18 @@ TEST(DrawingForm, OfTheSectionsOfW1HasEveryDigit) {
   const Finding squares = form_of(part, asked(Form::kRoundness, Reference::kLeastSquares));
   ASSERT_EQ(zone.local.size(), 3U);
   for (std::size_t j = 0; j < 3; ++j) {
-    EXPECT_NEAR(zone.local[j].value_mm, mz[j], kDigits);
-    EXPECT_NEAR(squares.local[j].value_mm, ls[j], kDigits);
+    EXPECT_NEAR(zone.local[j].value_mm, mz[j], kFormDigits);
+    EXPECT_NEAR(squares.local[j].value_mm, ls[j], kFormDigits);
   }
   EXPECT_EQ(zone.worst, 2U);
   EXPECT_EQ(zone.judged.front().symbol, "RONt");
-  EXPECT_NEAR(zone.judged.front().value_mm, mz[2], kDigits);
+  EXPECT_NEAR(zone.judged.front().value_mm, mz[2], kFormDigits);
   auto second = asked(Form::kRoundness);
   second.indication.section = Indication::Section::kSCS;
   second.indication.section_layers = {1.0, 2.0};
   const Finding named = form_of(part, second);
   EXPECT_EQ(named.local.size(), 2U);
-  EXPECT_NEAR(named.judged.front().value_mm, mz[1], kDigits);
+  EXPECT_NEAR(named.judged.front().value_mm, mz[1], kFormDigits);
   EXPECT_EQ(named.reference.english(), "MZCI of section 1, 2");
 }
 
@@ -102,38 +103,38 @@ TEST(DrawingForm, OfW2HasEveryDigit) {
   const auto total = [&](Reference reference) {
     return form_value(part, Form::kCylindricity, reference);
   };
-  EXPECT_NEAR(total(Reference::kLeastSquares), 0.013113329553, kDigits);
-  EXPECT_NEAR(total(Reference::kMinimumZone), 0.012258387523, kDigits);
+  EXPECT_NEAR(total(Reference::kLeastSquares), 0.013113329553, kFormDigits);
+  EXPECT_NEAR(total(Reference::kMinimumZone), 0.012258387523, kFormDigits);
   EXPECT_NEAR(total(Reference::kMinimumCircumscribed), 0.017120683899, 1e-7);
   EXPECT_NEAR(total(Reference::kMaximumInscribed), 0.013688429668, 1e-7);
-  const auto about_ls = [&](Parameter parameter) {
+  const auto about_ls = [&](Indication::Parameter parameter) {
     return form_value(part, Form::kCylindricity, Reference::kLeastSquares, parameter);
   };
-  EXPECT_NEAR(about_ls(Parameter::kPeak), 0.005106329340, kDigits);
-  EXPECT_NEAR(about_ls(Parameter::kValley), 0.008007000213, kDigits);
-  EXPECT_NEAR(about_ls(Parameter::kRms), 0.003839465262, kDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kPeak), 0.005106329340, kFormDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kValley), 0.008007000213, kFormDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kRms), 0.003839465262, kFormDigits);
   const double mz[] = {0.002345528766, 0.002295522438, 0.002077187855, 0.002128465590};
   const Finding sections = form_of(part, asked(Form::kRoundness));
-  for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(sections.local[j].value_mm, mz[j], kDigits);
+  for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(sections.local[j].value_mm, mz[j], kFormDigits);
 }
 
 TEST(DrawingForm, OfW6LeavesTheKeywayOut) {
   const auto part = drawn(test::w6(), {true, 1.5}, {4});
-  const auto about_ls = [&](Parameter parameter) {
+  const auto about_ls = [&](Indication::Parameter parameter) {
     return form_value(part, Form::kCylindricity, Reference::kLeastSquares, parameter);
   };
-  EXPECT_NEAR(about_ls(Parameter::kTotal), 0.005921111894, kDigits);
-  EXPECT_NEAR(about_ls(Parameter::kPeak), 0.003244244779, kDigits);
-  EXPECT_NEAR(about_ls(Parameter::kValley), 0.002676867115, kDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kTotal), 0.005921111894, kFormDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kPeak), 0.003244244779, kFormDigits);
+  EXPECT_NEAR(about_ls(Indication::Parameter::kValley), 0.002676867115, kFormDigits);
   EXPECT_NEAR(form_value(part, Form::kCylindricity, Reference::kMinimumZone), 0.005500437469,
-              kDigits);
+              kFormDigits);
   const Finding sections = form_of(part, asked(Form::kRoundness));
-  EXPECT_NEAR(sections.local[0].value_mm, 0.005356876307, kDigits);
-  EXPECT_NEAR(sections.local[1].value_mm, 0.005429806783, kDigits);
+  EXPECT_NEAR(sections.local[0].value_mm, 0.005356876307, kFormDigits);
+  EXPECT_NEAR(sections.local[1].value_mm, 0.005429806783, kFormDigits);
   EXPECT_FALSE(sections.no_verdict);
   EXPECT_NEAR(
       form_value(drawn(test::w6(), {true, 1.5}), Form::kCylindricity, Reference::kMinimumZone),
-      2.876876894098, kDigits);
+      2.876876894098, kFormDigits);
 }
 
 TEST(DrawingForm, OfW8IsThatOfTheFilteredPoints) {
@@ -154,43 +155,53 @@ TEST(DrawingForm, OfW8IsThatOfTheFilteredPoints) {
   const auto part = drawn(layer, {false, 1.0});
   part.of->feature.shape = record::Shape::kCircle;
   EXPECT_NEAR(form_value(part, Form::kRoundness, Reference::kLeastSquares), 0.014761219827,
-              kDigits);
-  EXPECT_NEAR(form_value(part, Form::kRoundness, Reference::kLeastSquares, Parameter::kRms),
-              0.003699531587, kDigits);
-  EXPECT_NEAR(form_value(part, Form::kRoundness, Reference::kMinimumZone), 0.013080953212, kDigits);
+              kFormDigits);
+  EXPECT_NEAR(
+      form_value(part, Form::kRoundness, Reference::kLeastSquares, Indication::Parameter::kRms),
+      0.003699531587, kFormDigits);
+  EXPECT_NEAR(form_value(part, Form::kRoundness, Reference::kMinimumZone), 0.013080953212,
+              kFormDigits);
 }
 
 TEST(DrawingForm, OfPlanesHasEveryDigit) {
   const auto face = test::drawn_plane(test::all_of(test::w4_face()));
-  EXPECT_NEAR(form_value(face, Form::kFlatness, Reference::kLeastSquares), 0.005428189038, kDigits);
-  EXPECT_NEAR(form_value(face, Form::kFlatness, Reference::kLeastSquares, Parameter::kPeak),
-              0.002344499915, kDigits);
-  EXPECT_NEAR(form_value(face, Form::kFlatness, Reference::kLeastSquares, Parameter::kValley),
-              0.003083689123, kDigits);
-  EXPECT_NEAR(form_value(face, Form::kFlatness, Reference::kLeastSquares, Parameter::kRms),
-              0.001829028978, kDigits);
+  EXPECT_NEAR(form_value(face, Form::kFlatness, Reference::kLeastSquares), 0.005428189038,
+              kFormDigits);
+  EXPECT_NEAR(
+      form_value(face, Form::kFlatness, Reference::kLeastSquares, Indication::Parameter::kPeak),
+      0.002344499915, kFormDigits);
+  EXPECT_NEAR(
+      form_value(face, Form::kFlatness, Reference::kLeastSquares, Indication::Parameter::kValley),
+      0.003083689123, kFormDigits);
+  EXPECT_NEAR(
+      form_value(face, Form::kFlatness, Reference::kLeastSquares, Indication::Parameter::kRms),
+      0.001829028978, kFormDigits);
   const Finding zone = form_of(face, asked(Form::kFlatness));
-  EXPECT_NEAR(zone.judged.front().value_mm, 0.005350052640, kDigits);
+  EXPECT_NEAR(zone.judged.front().value_mm, 0.005350052640, kFormDigits);
   EXPECT_THAT(zone.rows, UnorderedElementsAre(1, 7, 15, 21));
   EXPECT_EQ(zone.reference.english(), "MZPL");
   EXPECT_FALSE(zone.no_verdict);
   const auto crowned = test::drawn_plane(test::w5_plane());
-  EXPECT_NEAR(form_value(crowned, Form::kFlatness, Reference::kLeastSquares), 0.00642, kDigits);
-  EXPECT_NEAR(form_value(crowned, Form::kFlatness, Reference::kMinimumZone), 0.00635, kDigits);
+  EXPECT_NEAR(form_value(crowned, Form::kFlatness, Reference::kLeastSquares), 0.00642, kFormDigits);
+  EXPECT_NEAR(form_value(crowned, Form::kFlatness, Reference::kMinimumZone), 0.00635, kFormDigits);
 }
 
 TEST(DrawingSides, ShaftAndBoreSwapPeakAndValley) {
   const auto shaft = drawn(test::w1(), {false, 1.5});
   const auto bore = drawn(test::w1(), {true, 1.5});
   for (const Form form : {Form::kCylindricity, Form::kRoundness}) {
-    const auto about_ls = [&](const DrawnSurface& part, Parameter parameter) {
+    const auto about_ls = [&](const DrawnSurface& part, Indication::Parameter parameter) {
       return form_value(part, form, Reference::kLeastSquares, parameter);
     };
-    EXPECT_NE(about_ls(shaft, Parameter::kPeak), about_ls(shaft, Parameter::kValley));
-    EXPECT_EQ(about_ls(shaft, Parameter::kTotal), about_ls(bore, Parameter::kTotal));
+    EXPECT_NE(about_ls(shaft, Indication::Parameter::kPeak),
+              about_ls(shaft, Indication::Parameter::kValley));
+    EXPECT_EQ(about_ls(shaft, Indication::Parameter::kTotal),
+              about_ls(bore, Indication::Parameter::kTotal));
   }
-  EXPECT_EQ(form_value(shaft, Form::kCylindricity, Reference::kLeastSquares, Parameter::kPeak),
-            form_value(bore, Form::kCylindricity, Reference::kLeastSquares, Parameter::kValley));
+  EXPECT_EQ(form_value(shaft, Form::kCylindricity, Reference::kLeastSquares,
+                       Indication::Parameter::kPeak),
+            form_value(bore, Form::kCylindricity, Reference::kLeastSquares,
+                       Indication::Parameter::kValley));
 }
 
 TEST(DrawingRelations, OfFormHoldWithTheirSlack) {
@@ -261,10 +272,10 @@ TEST(DrawingRefusals, OfFormSayWhatToPlanInstead) {
     return finding ? core::Error{} : finding.error();
   };
   const auto part = drawn(test::w1(), {false, 1.5});
-  EXPECT_EQ(
-      refusal(part, asked_about(Form::kCylindricity, Reference::kMinimumZone, Parameter::kPeak))
-          .code,
-      core::Code::kMeaning);
+  EXPECT_EQ(refusal(part, asked_about(Form::kCylindricity, Reference::kMinimumZone,
+                                      Indication::Parameter::kPeak))
+                .code,
+            core::Code::kMeaning);
   const auto one_layer = drawn({test::w1().front()}, {false, 1.5});
   EXPECT_EQ(refusal(one_layer, asked(Form::kCylindricity)).code, core::Code::kRank);
   const auto threes =

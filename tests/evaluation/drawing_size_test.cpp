@@ -25,7 +25,7 @@ using Size = Indication::Size;
 using Rank = Indication::Rank;
 using record::Form;
 
-constexpr double kDigits = 1e-10;
+constexpr double kSizeDigits = 1e-10;
 constexpr double kRocking = 1e-7;  // GN, GX of a tapered journal
 const fit::Material kShaft{false, 1.4987};
 const fit::Material kBore{true, 1.5};
@@ -97,17 +97,17 @@ DrawnSurface w1_at_20_degC() {
 TEST(DrawingSize, OfW1HasEveryDigit) {
   for (const Proof proof : {Proof::kFull, Proof::kNone}) {
     const auto part = drawn(test::w1(), kShaft);
-    EXPECT_NEAR(value(part, size_asked(Size::kGG), proof), 24.990122662043, kDigits);
-    EXPECT_NEAR(value(part, size_asked(Size::kGN), proof), 25.003379302565, kDigits);
-    EXPECT_NEAR(value(part, size_asked(Size::kGX), proof), 24.977528966340, kDigits);
-    EXPECT_NEAR(value(part, size_asked(Size::kGC), proof), 24.990454189110, kDigits);
+    EXPECT_NEAR(value(part, size_asked(Size::kGG), proof), 24.990122662043, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(Size::kGN), proof), 25.003379302565, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(Size::kGX), proof), 24.977528966340, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(Size::kGC), proof), 24.990454189110, kSizeDigits);
   }
   const auto warm = w1_at_20_degC();
-  EXPECT_NEAR(value(warm, size_asked(Size::kGG)), 24.989652860704, kDigits);
-  EXPECT_NEAR(value(warm, size_asked(Size::kGN)), 25.002909252007, kDigits);
-  EXPECT_NEAR(value(warm, size_asked(Size::kGX)), 24.977059401755, kDigits);
-  EXPECT_NEAR(value(warm, rank_asked(Rank::kSX)), 24.991825191661, kDigits);
-  EXPECT_NEAR(value(warm, rank_asked(Rank::kSN)), 24.987345108986, kDigits);
+  EXPECT_NEAR(value(warm, size_asked(Size::kGG)), 24.989652860704, kSizeDigits);
+  EXPECT_NEAR(value(warm, size_asked(Size::kGN)), 25.002909252007, kSizeDigits);
+  EXPECT_NEAR(value(warm, size_asked(Size::kGX)), 24.977059401755, kSizeDigits);
+  EXPECT_NEAR(value(warm, rank_asked(Rank::kSX)), 24.991825191661, kSizeDigits);
+  EXPECT_NEAR(value(warm, rank_asked(Rank::kSN)), 24.987345108986, kSizeDigits);
 }
 
 TEST(DrawingSize, OfW1HasEveryDigitOfItsRanks) {
@@ -115,15 +115,15 @@ TEST(DrawingSize, OfW1HasEveryDigitOfItsRanks) {
   const double expected[] = {24.992295033840, 24.987814866940, 24.990122662068, 24.990321456530,
                              24.990054950390, 0.004480166900,  0.001499276509};
   for (std::size_t i = 0; i < std::size(expected); ++i) {
-    EXPECT_NEAR(value(part, rank_asked(static_cast<Rank>(i))), expected[i], kDigits) << i;
+    EXPECT_NEAR(value(part, rank_asked(static_cast<Rank>(i))), expected[i], kSizeDigits) << i;
   }
   const Finding all = found(part, size_asked(Size::kLP));
   ASSERT_EQ(all.judged.size(), 2U);
   EXPECT_EQ(all.judged[0].symbol, "d LP SX");
   EXPECT_EQ(all.judged[1].symbol, "d LP SN");
-  EXPECT_NEAR(all.judged[0].value_mm, expected[0], kDigits);
-  EXPECT_NEAR(all.judged[1].value_mm, expected[1], kDigits);
-  EXPECT_NEAR(number(all, "SM"), expected[3], kDigits);
+  EXPECT_NEAR(all.judged[0].value_mm, expected[0], kSizeDigits);
+  EXPECT_NEAR(all.judged[1].value_mm, expected[1], kSizeDigits);
+  EXPECT_NEAR(number(all, "SM"), expected[3], kSizeDigits);
   EXPECT_EQ(number(all, "pairs"), 18.0);
   EXPECT_EQ(number(all, "lost pairs"), 0.0);
   ASSERT_EQ(all.rows.size(), 4U);  // two of the greatest, two of the least
@@ -158,19 +158,19 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
   ASSERT_EQ(sections.local.size(), 3U);
   for (std::size_t j = 0; j < 3; ++j) {
     EXPECT_EQ(sections.local[j].layer, static_cast<int>(j));
-    EXPECT_NEAR(sections.local[j].value_mm, gg[j], kDigits);
+    EXPECT_NEAR(sections.local[j].value_mm, gg[j], kSizeDigits);
   }
   ASSERT_EQ(sections.judged.size(), 2U);
-  EXPECT_NEAR(sections.judged[0].value_mm, gg[2], kDigits);
-  EXPECT_NEAR(sections.judged[1].value_mm, gg[0], kDigits);
+  EXPECT_NEAR(sections.judged[0].value_mm, gg[2], kSizeDigits);
+  EXPECT_NEAR(sections.judged[1].value_mm, gg[0], kSizeDigits);
   EXPECT_EQ(sections.worst, 0U);  // below the lower limit
   const Finding circumscribed = found(part, size_asked(Size::kGN, Indication::Section::kACS));
   for (std::size_t j = 0; j < 3; ++j) {
-    EXPECT_NEAR(circumscribed.local[j].value_mm, gn[j], kDigits);
+    EXPECT_NEAR(circumscribed.local[j].value_mm, gn[j], kSizeDigits);
   }
   auto second = size_asked(Size::kGG, Indication::Section::kSCS);
   second.indication.section_layers = {2.0};
-  EXPECT_NEAR(value(part, second), gg[1], kDigits);
+  EXPECT_NEAR(value(part, second), gg[1], kSizeDigits);
   second.indication.section_layers = {4.0};
   EXPECT_EQ(refusal(part, second).code, core::Code::kRank);
 }
@@ -196,33 +196,33 @@ TEST(DrawingSize, OfAnySectionListsItsGreatestAndItsLeast) {
 
 TEST(DrawingSize, OfW2HasEveryDigit) {
   const auto part = drawn(test::w2(), {false, 0.0});
-  EXPECT_NEAR(value(part, size_asked(Size::kGG)), 39.998642923760, kDigits);
+  EXPECT_NEAR(value(part, size_asked(Size::kGG)), 39.998642923760, kSizeDigits);
   EXPECT_NEAR(value(part, size_asked(Size::kGN)), 40.007007118519, kRocking);
   EXPECT_NEAR(value(part, size_asked(Size::kGX)), 39.984416299395, kRocking);
-  EXPECT_NEAR(value(part, size_asked(Size::kGC)), 39.996674586266, kDigits);
-  EXPECT_NEAR(value(part, rank_asked(Rank::kSX)), 40.007007314984, kDigits);
+  EXPECT_NEAR(value(part, size_asked(Size::kGC)), 39.996674586266, kSizeDigits);
+  EXPECT_NEAR(value(part, rank_asked(Rank::kSX)), 40.007007314984, kSizeDigits);
 }
 
 TEST(DrawingSize, OfW6HasEveryDigit) {
   const auto part = drawn(test::w6(), kBore, {4});
-  EXPECT_NEAR(value(part, size_asked(Size::kGG)), 39.999953257850, kDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGN)), 40.005130693014, kDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGX)), 39.994130396679, kDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGC)), 39.999630265339, kDigits);
+  EXPECT_NEAR(value(part, size_asked(Size::kGG)), 39.999953257850, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(Size::kGN)), 40.005130693014, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(Size::kGX)), 39.994130396679, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(Size::kGC)), 39.999630265339, kSizeDigits);
   const Finding local = found(part, size_asked(Size::kLP));
   EXPECT_EQ(number(local, "pairs"), 14.0);
   EXPECT_EQ(number(local, "lost pairs"), 2.0);
-  EXPECT_NEAR(number(local, "SX"), 40.005130701989, kDigits);
-  EXPECT_NEAR(number(local, "SN"), 39.994129828310, kDigits);
-  EXPECT_NEAR(number(local, "SA"), 39.999972416259, kDigits);
-  EXPECT_NEAR(number(local, "SQ"), 0.003750924192, kDigits);
+  EXPECT_NEAR(number(local, "SX"), 40.005130701989, kSizeDigits);
+  EXPECT_NEAR(number(local, "SN"), 39.994129828310, kSizeDigits);
+  EXPECT_NEAR(number(local, "SA"), 39.999972416259, kSizeDigits);
+  EXPECT_NEAR(number(local, "SQ"), 0.003750924192, kSizeDigits);
   const auto forgotten = drawn(test::w6(), kBore);
-  EXPECT_NEAR(value(forgotten, size_asked(Size::kGG)), 40.378788150630, kDigits);
-  EXPECT_NEAR(value(forgotten, size_asked(Size::kGN)), 42.999503191355, kDigits);
-  EXPECT_NEAR(value(forgotten, size_asked(Size::kGX)), 39.994130396679, kDigits);
+  EXPECT_NEAR(value(forgotten, size_asked(Size::kGG)), 40.378788150630, kSizeDigits);
+  EXPECT_NEAR(value(forgotten, size_asked(Size::kGN)), 42.999503191355, kSizeDigits);
+  EXPECT_NEAR(value(forgotten, size_asked(Size::kGX)), 39.994130396679, kSizeDigits);
   const Finding spoilt = found(forgotten, size_asked(Size::kLP));
   EXPECT_EQ(number(spoilt, "pairs"), 2.0);
-  EXPECT_NEAR(number(spoilt, "SX"), 42.999503198979, kDigits);
+  EXPECT_NEAR(number(spoilt, "SX"), 42.999503198979, kSizeDigits);
 }
 
 /// The dense section of the specification, filtered at 50 UPR, at some heights.
@@ -266,18 +266,18 @@ TEST(DrawingSize, OfW8HasEveryDigit) {
   const auto part = w8({20.0});
   const Finding local = found(part, filtered(size_asked(Size::kLP)));
   EXPECT_EQ(number(local, "pairs"), 180.0);
-  EXPECT_NEAR(number(local, "SX"), 38.009035157494, kDigits);
-  EXPECT_NEAR(number(local, "SN"), 37.991094644894, kDigits);
-  EXPECT_NEAR(number(local, "SA"), 38.000000000000, kDigits);
-  EXPECT_NEAR(number(local, "SM"), 38.000279393401, kDigits);
-  EXPECT_NEAR(number(local, "SD"), 38.000064901194, kDigits);
-  EXPECT_NEAR(number(local, "SR"), 0.017940512600, kDigits);
-  EXPECT_NEAR(number(local, "SQ"), 0.005697049139, kDigits);
-  EXPECT_NEAR(value(part, filtered(size_asked(Size::kCC))), 38.000016866345, kDigits);
-  EXPECT_NEAR(value(part, filtered(size_asked(Size::kCA))), 37.999999832642, kDigits);
-  EXPECT_NEAR(value(part, filtered(size_asked(Size::kGG))), 38.000000000000, kDigits);
+  EXPECT_NEAR(number(local, "SX"), 38.009035157494, kSizeDigits);
+  EXPECT_NEAR(number(local, "SN"), 37.991094644894, kSizeDigits);
+  EXPECT_NEAR(number(local, "SA"), 38.000000000000, kSizeDigits);
+  EXPECT_NEAR(number(local, "SM"), 38.000279393401, kSizeDigits);
+  EXPECT_NEAR(number(local, "SD"), 38.000064901194, kSizeDigits);
+  EXPECT_NEAR(number(local, "SR"), 0.017940512600, kSizeDigits);
+  EXPECT_NEAR(number(local, "SQ"), 0.005697049139, kSizeDigits);
+  EXPECT_NEAR(value(part, filtered(size_asked(Size::kCC))), 38.000016866345, kSizeDigits);
+  EXPECT_NEAR(value(part, filtered(size_asked(Size::kCA))), 37.999999832642, kSizeDigits);
+  EXPECT_NEAR(value(part, filtered(size_asked(Size::kGG))), 38.000000000000, kSizeDigits);
   EXPECT_NEAR(value(w8({20.0, 20.004, 20.001}), filtered(size_asked(Size::kCV))), 38.004599991166,
-              kDigits);
+              kSizeDigits);
 }
 
 TEST(DrawingSize, OfADenseSectionWithoutOppositeSamplesIsOfItsSeries) {
@@ -339,11 +339,11 @@ TEST(DrawingEnvelope, OfW1FailsThoughEveryOtherSizeIsInside) {
   const Finding fails = found(w1_at_20_degC(), envelope_asked(24.979, 25.0));
   ASSERT_EQ(fails.judged.size(), 2U);
   EXPECT_EQ(fails.judged[0].symbol, "d GN");
-  EXPECT_NEAR(fails.judged[0].value_mm, 25.002909252007, kDigits);
+  EXPECT_NEAR(fails.judged[0].value_mm, 25.002909252007, kSizeDigits);
   EXPECT_EQ(fails.judged[0].limits.upper_mm, 25.0);
   EXPECT_FALSE(fails.judged[0].limits.lower_mm);
   EXPECT_EQ(fails.judged[1].symbol, "d LP SN");
-  EXPECT_NEAR(fails.judged[1].value_mm, 24.987345108986, kDigits);
+  EXPECT_NEAR(fails.judged[1].value_mm, 24.987345108986, kSizeDigits);
   EXPECT_EQ(fails.judged[1].limits.lower_mm, 24.979);
   EXPECT_FALSE(fails.judged[1].limits.upper_mm);
 }
@@ -352,10 +352,10 @@ TEST(DrawingEnvelope, OfABoreIsItsInscribedCylinderAgainstTheLowerLimit) {
   const Finding bore = found(drawn(test::w6(), kBore, {4}), envelope_asked(39.995, 40.010));
   ASSERT_EQ(bore.judged.size(), 2U);
   EXPECT_EQ(bore.judged[0].symbol, "d GX");
-  EXPECT_NEAR(bore.judged[0].value_mm, 39.994130396679, kDigits);
+  EXPECT_NEAR(bore.judged[0].value_mm, 39.994130396679, kSizeDigits);
   EXPECT_EQ(bore.judged[0].limits.lower_mm, 39.995);
   EXPECT_EQ(bore.judged[1].symbol, "d LP SX");
-  EXPECT_NEAR(bore.judged[1].value_mm, 40.005130701989, kDigits);
+  EXPECT_NEAR(bore.judged[1].value_mm, 40.005130701989, kSizeDigits);
   EXPECT_EQ(bore.judged[1].limits.upper_mm, 40.010);
 }
 
@@ -363,7 +363,7 @@ TEST(DrawingEnvelope, FailsWhereLocalSizeIsUndefinedAndIsVoidWhereItHolds) {
   const auto odd = drawn(test::turned_layers(3, 7, round_12), {false, 0.0});
   const Finding fails = found(odd, envelope_asked(23.9, 23.99));
   ASSERT_EQ(fails.judged.size(), 1U);
-  EXPECT_NEAR(fails.judged[0].value_mm, 24.0, kDigits);
+  EXPECT_NEAR(fails.judged[0].value_mm, 24.0, kSizeDigits);
   EXPECT_EQ(refusal(odd, envelope_asked(23.9, 24.01)).code, core::Code::kSampling);
 }
 

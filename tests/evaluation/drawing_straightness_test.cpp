@@ -21,7 +21,7 @@ using test::drawn;
 using test::DrawnSurface;
 using Indication = record::Indication;
 
-constexpr double kDigits = 1e-10;
+constexpr double kLineDigits = 1e-10;
 
 record::Characteristic median_line_asked() {
   record::Characteristic out = asked(Form::kStraightness);
@@ -57,13 +57,13 @@ TEST(DrawingStraightness, OfTheGeneratricesOfW2HasEveryDigit) {
     EXPECT_EQ(zone.local[k].place, LocalValue::Place::kAngle);
     const double off_rad = zone.local[k].position - static_cast<double>(k) * 45.0 * core::kDegree;
     EXPECT_NEAR(std::remainder(off_rad, core::kTwoPi), 0.0, 0.002);
-    EXPECT_NEAR(zone.local[k].value_mm, mz[k], kDigits);
+    EXPECT_NEAR(zone.local[k].value_mm, mz[k], kLineDigits);
   }
   EXPECT_EQ(zone.worst, 5U);
   EXPECT_EQ(zone.rows, (std::vector<std::size_t>{5, 13, 21, 29}));
-  EXPECT_NEAR(zone.judged.front().value_mm, mz[5], kDigits);
+  EXPECT_NEAR(zone.judged.front().value_mm, mz[5], kLineDigits);
   const Finding squares = line_of(part, asked(Form::kStraightness, Reference::kLeastSquares));
-  EXPECT_NEAR(squares.judged.front().value_mm, 0.005444722141, kDigits);
+  EXPECT_NEAR(squares.judged.front().value_mm, 0.005444722141, kLineDigits);
   EXPECT_EQ(squares.judged.front().symbol, "STRt");
 }
 
@@ -84,7 +84,7 @@ TEST(DrawingStraightness, OfABoreSwapsPeakAndValley) {
 TEST(DrawingStraightness, OfTheMedianLineOfW2HasEveryDigit) {
   const auto part = drawn(test::w2(), kPlainShaft);
   const Finding line = line_of(part, median_line_asked());
-  EXPECT_NEAR(line.judged.front().value_mm, 0.002483893854, kDigits);
+  EXPECT_NEAR(line.judged.front().value_mm, 0.002483893854, kLineDigits);
   EXPECT_EQ(line.centers_mm.size(), 4U);
   EXPECT_FALSE(line.no_verdict);
   auto squares = median_line_asked();
@@ -109,16 +109,16 @@ TEST(DrawingTaper, OfW2HasEveryDigit) {
   ASSERT_EQ(taper.local.size(), 4U);
   ASSERT_EQ(ranges.local.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(taper.local[k].value_mm, tapers[k], kDigits);
-    EXPECT_NEAR(ranges.local[k].value_mm, parallel[k], kDigits);
+    EXPECT_NEAR(taper.local[k].value_mm, tapers[k], kLineDigits);
+    EXPECT_NEAR(ranges.local[k].value_mm, parallel[k], kLineDigits);
   }
   EXPECT_EQ(taper.worst, 2U);
   EXPECT_EQ(taper.judged.front().symbol, "CYLtt");
-  EXPECT_NEAR(taper.judged.front().value_mm, tapers[2], kDigits);
-  EXPECT_NEAR(ranges.judged.front().value_mm, parallel[2], kDigits);
+  EXPECT_NEAR(taper.judged.front().value_mm, tapers[2], kLineDigits);
+  EXPECT_NEAR(ranges.judged.front().value_mm, parallel[2], kLineDigits);
   ASSERT_EQ(taper.numbers.size(), 2U);
-  EXPECT_NEAR(taper.numbers[0].value, 0.017869044029, kDigits);
-  EXPECT_NEAR(taper.numbers[1].value, 0.017063657767, kDigits);
+  EXPECT_NEAR(taper.numbers[0].value, 0.017869044029, kLineDigits);
+  EXPECT_NEAR(taper.numbers[1].value, 0.017063657767, kLineDigits);
   EXPECT_EQ(taper.rows.size(), 8U);  // of both generatrices of the plane
 }
 

@@ -82,7 +82,9 @@ evaluation::CharacteristicResult judged(const record::Characteristic& asked) {
   feature.feature.characteristics = {asked};
   feature.characteristics.clear();
   made.record.ending = "finished";
-  decide(made.record, evaluation::DecisionRule(), std::nullopt, feature);
+  std::vector<std::optional<evaluation::FoundCharacteristic>> found(
+      feature.feature.characteristics.size());
+  decide(made.record, evaluation::DecisionRule(), std::nullopt, found, feature);
   return feature.characteristics.at(0);
 }
 

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "reports/data/json.h"
@@ -35,6 +36,63 @@ std::map<std::string, evaluation::CharacteristicResult> by_id(
   std::map<std::string, evaluation::CharacteristicResult> out;
   for (const auto& c : feature.characteristics) out[c.characteristic.id] = c;
   return out;
+}
+
+TEST(Symbols, AreThoseOfTheDrawing) {
+  using Indication = record::Indication;
+  using record::Form;
+  const auto symbol = [](Form form, const auto& indicate) {
+    record::Characteristic asked;
+    asked.form = form;
+    indicate(asked.indication);
+    return evaluation::symbol_of(asked);
+  };
+  const auto nothing = [](Indication&) {};
+  EXPECT_EQ(symbol(Form::kCylindricity, nothing), "CYLt");
+  EXPECT_EQ(symbol(Form::kCylindricity,
+                   [](Indication& i) { i.parameter = Indication::Parameter::kPeak; }),
+            "CYLp");
+  EXPECT_EQ(
+      symbol(Form::kFlatness, [](Indication& i) { i.parameter = Indication::Parameter::kRms; }),
+      "FLTq");
+  EXPECT_EQ(symbol(Form::kRoundness, [](Indication& i) { i.section = Indication::Section::kSCS; }),
+            "RONt SCS");
+  EXPECT_EQ(symbol(Form::kDiameter, nothing), "d LP");
+  EXPECT_EQ(symbol(Form::kDiameter, [](Indication& i) { i.size = Indication::Size::kGN; }), "d GN");
+  EXPECT_EQ(symbol(Form::kDiameter,
+                   [](Indication& i) {
+                     i.rank = Indication::Rank::kSX;
+                     i.section = Indication::Section::kACS;
+                   }),
+            "d LP SX ACS");
+  EXPECT_EQ(symbol(Form::kDiameter,
+                   [](Indication& i) { i.requirement = Indication::Requirement::kEnvelope; }),
+            "d E");
+  EXPECT_EQ(symbol(Form::kStraightness, nothing), "STRt");
+  EXPECT_EQ(symbol(Form::kStraightness, [](Indication& i) { i.of = Indication::Of::kMedianLine; }),
+            "STRt median line");
+  EXPECT_EQ(symbol(Form::kTaper, nothing), "CYLtt");
+  EXPECT_EQ(symbol(Form::kRunOut, nothing), "Run-out");  // of a wheel
+  EXPECT_EQ(symbol(Form::kRunOut,
+                   [](Indication& i) {
+                     i.direction = Indication::Direction::kAxial;
+                     i.datum = {"A-B"};
+                   }),
+            "Run-out axial");
+  EXPECT_EQ(symbol(Form::kTotalRunOut, [](Indication& i) { i.datum = {"A"}; }),
+            "Total run-out radial");
+}
+
+TEST(Symbols, OfReferencesAreThoseOfTheShape) {
+  record::Characteristic asked;
+  asked.reference = Reference::kLeastSquares;
+  EXPECT_EQ(evaluation::reference_of(asked), "LSCY");
+  asked.form = record::Form::kStraightness;
+  EXPECT_EQ(evaluation::reference_of(asked), "LSLI");
+  asked.form = record::Form::kFlatness;
+  EXPECT_EQ(evaluation::reference_of(asked), "LSPL");
+  asked.form = record::Form::kDiameter;
+  EXPECT_EQ(evaluation::reference_of(asked), "");
 }
 
 TEST(References, ACylinderIsJudgedAboutAllFour) {

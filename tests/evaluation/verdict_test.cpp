@@ -490,7 +490,8 @@ TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWas
     evaluation::FeatureResult feature = sound->features[0];
     feature.characteristics.clear();
     path.spoil(feature);
-    decide(run, sound->rule, sound->probe, feature);
+    std::vector<std::optional<FoundCharacteristic>> found(feature.feature.characteristics.size());
+    decide(run, sound->rule, sound->probe, found, feature);
     const evaluation::CharacteristicResult& result = feature.characteristics.at(0);
     EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
     EXPECT_THAT(result.reason, HasSubstr(path.reason));

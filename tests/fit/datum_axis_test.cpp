@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "fit/datums/datum.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/sections.h"
@@ -215,6 +216,23 @@ TEST(DatumAxis, DoesNotDependOnPlaceOrderOrRepeatedPoints) {
   EXPECT_NEAR(turned->radii_mm[0], first->radii_mm[0], 1e-9);
 }
 
+TEST(DatumAxis, ThatRocksEndsAtTheLastContactOfItsValley) {
+  // Four points hold the bore to 2e-10 mm; the fifth carries a multiplier of 8e-8 and the axis.
+  const Space bore = {{15.7195, 0.2556, 0.0046},   {-0.4723, 16.4492, 0.0282},
+                      {-16.6654, 0.2556, -0.0071}, {-0.4723, -15.9374, -0.0355},
+                      {15.7597, 0.1576, 48.554},   {-0.4352, 16.3538, 48.5697},
+                      {-16.6314, 0.1576, 48.5653}, {-0.4352, -16.0379, 48.5238}};
+  const auto datum =
+      datum_axis(std::vector<DatumCylinder>{{bore, true}}, DatumAssociation::kOneSided);
+  ASSERT_TRUE(datum.has_value());
+  EXPECT_EQ(datum->ending, ZoneEnding::kConverged);
+  EXPECT_NEAR(datum->radii_mm[0], 16.192441981599988, 1e-12);
+  ASSERT_EQ(datum->contacts.size(), 5U);
+  EXPECT_EQ(datum->contacts[3].index, 5U);
+  EXPECT_NEAR(datum->axis.direction.x(), 0.0006999764421856, 1e-10);
+  EXPECT_NEAR(datum->axis.direction.y(), -0.0019653155705871, 1e-10);
+}
+
 TEST(DatumAxis, RefusesFeaturesThatFixNoAxis) {
   const Space section = test::w3_a()[0];
   const auto of = [](std::vector<DatumCylinder> features) {
@@ -254,6 +272,27 @@ TEST(DatumSystem, OfAnAxisAndAPlaneStandsOnTheFarthestPoint) {
     for (const auto& p : face) highest = std::max(highest, side * p.z());
     EXPECT_EQ(plane->normal.z(), side);
     EXPECT_NEAR(side * plane->point_mm.z(), highest, 1e-12);
+  }
+}
+
+TEST(DatumSystem, OfTwoPlanesLeansTheSecondOnItsHighestPoints) {
+  const Plane primary =
+      min_zone_plane(test::w5_plane(), Eigen::Vector3d(Eigen::Vector3d::UnitZ()))->outer;
+  // A side face, 0.05 deg out of square, with a hollow.
+  const Space face = {{60.0, -20.0, -5.0},   {60.004, 0.0, -6.0},  {60.013, 20.0, -5.0},
+                      {60.01, -20.0, -25.0}, {60.001, 0.0, -24.0}, {60.021, 20.0, -25.0}};
+  const auto plane = datum_plane_square_to(primary, face, Eigen::Vector3d(1.0, 0.1, 0.2));
+  ASSERT_TRUE(plane.has_value()) << plane.error().what;
+  EXPECT_NEAR(plane->normal.dot(primary.normal), 0.0, 1e-14);
+  EXPECT_GT(plane->normal.x(), 0.9);
+  const auto depth = [&](const Eigen::Vector3d& normal) {
+    return extremes_of(face, [&](const auto& p) { return normal.dot(p); }).width();
+  };
+  const Extremes heights = extremes_of(face, [&](const auto& p) { return height_mm(*plane, p); });
+  EXPECT_NEAR(heights.high, 0.0, 1e-11);
+  for (int i = -4000; i <= 4000; ++i) {
+    const Eigen::AngleAxisd turn(1e-2 * std::pow(i / 4000.0, 3), primary.normal);
+    EXPECT_GE(depth(turn * plane->normal), heights.width() - 1e-11);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "fit/profiles/generatrix.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sections.h"
+#include "fit/profiles/form_terms.h"
 #include "fit/references/min_zone_line.h"
 #include "tests/fit/drawing_cases.h"
 
@@ -68,6 +70,20 @@ TEST_F(TaperedJournal, HasABentMedianLine) {
   EXPECT_NEAR(min_zone_line(median_line(*sections))->diameter_mm, 0.002483893854, kDigits);
 }
 
+TEST_F(TaperedJournal, OmitsGeneratricesThroughAWindow) {
+  auto layers = layers_;
+  layers[0].erase(layers[0].begin() + 5);
+  layers[2].erase(layers[2].begin() + 2);
+  const auto lines = generatrices(layers, axis_);
+  ASSERT_TRUE(lines.has_value()) << lines.error().what;
+  ASSERT_EQ(lines->size(), 6U);
+  const auto all = *generatrices(layers_, axis_);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Generatrix& same = all[std::vector<std::size_t>{0, 1, 3, 4, 6, 7}[k]];
+    EXPECT_EQ((*lines)[k].distances_mm, same.distances_mm);
+  }
+}
+
 TEST_F(TaperedJournal, HasNoGeneratricesIfItsLayersAreStaggered) {
   auto layers = layers_;
   for (auto& p : layers[2]) p = Eigen::Vector3d(p.x() - 0.2 * p.y(), p.y() + 0.2 * p.x(), p.z());
@@ -77,6 +93,100 @@ TEST_F(TaperedJournal, HasNoGeneratricesIfItsLayersAreStaggered) {
   auto one = *generatrices(layers_, axis_);
   one.resize(2);
   EXPECT_EQ(opposite_generatrices(one, length_).error().code, core::Code::kSampling);
+}
+
+TEST_F(TaperedJournal, SeparatesIntoTaperBarrelBendAndLobes) {
+  const auto form = form_terms(layers_, *ls_cylinder(points_));
+  ASSERT_TRUE(form.has_value()) << form.error().what;
+  ASSERT_EQ(form->highest_axial, 2);
+  ASSERT_EQ(form->highest_undulation, 3);
+  EXPECT_NEAR(form->at(0, 0).cosine_mm, 0.000702170452, kDigits);
+  EXPECT_NEAR(form->at(1, 0).cosine_mm, 0.004467259978, kDigits);
+  EXPECT_NEAR(form->at(2, 0).cosine_mm, -0.002106516590, kDigits);
+  const double amplitudes[3][3] = {{0.000584183735, 0.001402152013, 0.000037066204},
+                                   {0.000000131190, 0.000128466070, 0.000071383419},
+                                   {0.001752559593, 0.000098138081, 0.000053445435}};
+  for (int p = 0; p <= 2; ++p) {
+    for (int k = 1; k <= 3; ++k) {
+      EXPECT_NEAR(form->at(p, k).amplitude_mm(), amplitudes[p][k - 1], kDigits) << p << k;
+    }
+  }
+  EXPECT_NEAR(form->rms_mm, 0.000136373477, kDigits);
+  // As planted: taper 4 x 0.0045, barrel 1.5 x 0.0021, bow 1.5 x 0.0017, with noise of 0.0003.
+  EXPECT_NEAR(form->taper_mm(), 0.018, 3e-4);
+  EXPECT_NEAR(form->saddle_mm(), -0.00315, 3e-4);
+  EXPECT_NEAR(form->bend_mm(), 0.00255, 3e-4);
+}
+
+TEST(FormTerms, AreAsManyAsTheSectionsDetermine) {
+  const auto cylinder = ls_cylinder(test::all_of(test::w2()));
+  auto layers = test::w2();
+  layers.resize(2);
+  const auto two = form_terms(layers, *cylinder);
+  ASSERT_TRUE(two.has_value()) << two.error().what;
+  EXPECT_EQ(two->highest_axial, 1);
+  EXPECT_EQ(two->highest_undulation, 3);
+  // Six points carry two undulations, but not across a gap of 135 deg.
+  layers[1].erase(layers[1].begin(), layers[1].begin() + 2);
+  EXPECT_EQ(form_terms(layers, *cylinder)->highest_undulation, 1);
+  layers.resize(1);
+  EXPECT_EQ(form_terms(layers, *cylinder).error().code, core::Code::kRank);
+}
+
+/// A section with lobes about a centre beside the axis.
+DenseSection lobed_section(double height, const Eigen::Vector2d& center, std::size_t count) {
+  DenseSection out{center, height, {0.3, std::vector<double>(count)}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = out.profile.angle_rad(i);
+    out.profile.r_mm[i] =
+        20.0 + 0.002 * height + 0.01 * std::cos(3.0 * t - 0.4) + 0.004 * std::sin(7.0 * t);
+  }
+  return out;
+}
+
+TEST(DenseGeneratrices, LieAtTheirAngleAboutTheAxis) {
+  for (const std::size_t count : {360U, 361U}) {
+    const Eigen::Vector2d center(0.3, -0.2);
+    const auto lines = dense_generatrices(std::vector{lobed_section(5.0, center, count)});
+    ASSERT_TRUE(lines.has_value());
+    ASSERT_EQ(lines->size(), 36U);
+    for (std::size_t k = 0; k < 36; ++k) {
+      const Generatrix& line = (*lines)[k];
+      EXPECT_NEAR(core::degrees(line.angle_rad), 10.0 * static_cast<double>(k), 1e-12);
+      const Eigen::Vector2d from_center =
+          line.distances_mm[0] *
+              Eigen::Vector2d(std::cos(line.angle_rad), std::sin(line.angle_rad)) -
+          center;
+      const double t = std::atan2(from_center.y(), from_center.x());
+      EXPECT_NEAR(from_center.norm(),
+                  20.01 + 0.01 * std::cos(3.0 * t - 0.4) + 0.004 * std::sin(7.0 * t), 1e-12);
+    }
+  }
+}
+
+TEST(DenseGeneratrices, OfATaperWithABentAxisAreStraightOnlySquareToTheBend) {
+  std::vector<DenseSection> sections;
+  for (const double height : {0.0, 10.0, 20.0}) {
+    sections.push_back(lobed_section(height, {height == 10.0 ? 0.006 : 0.0, 0.0}, 90));
+  }
+  const auto lines = dense_generatrices(sections, 4);
+  ASSERT_TRUE(lines.has_value());
+  const auto zone = [&](std::size_t k) {
+    return generatrix_straightness((*lines)[k].heights_mm, (*lines)[k].distances_mm)->zone_mm;
+  };
+  EXPECT_NEAR(zone(0), 0.006, 1e-7);
+  EXPECT_NEAR(zone(2), 0.006, 1e-7);
+  // There the surface at another angle of the lobes comes up: 0.006 / 20 rad times their slope.
+  EXPECT_LT(zone(1), 2e-5);
+  EXPECT_EQ(opposite_generatrices(*lines, 20.0)->size(), 2U);
+}
+
+TEST(DenseGeneratrices, NeedAScan) {
+  const std::vector<DenseSection> few = {lobed_section(0.0, {0.0, 0.0}, 7)};
+  EXPECT_EQ(dense_generatrices(few).error().code, core::Code::kSampling);
+  EXPECT_EQ(dense_generatrices({}).error().code, core::Code::kNoPoints);
+  EXPECT_EQ(dense_generatrices(std::vector{lobed_section(0.0, {0.0, 0.0}, 90)}, 0).error().code,
+            core::Code::kBadOption);
 }
 
 }  // namespace

@@ -98,6 +98,49 @@ TEST(GroundContour, QuickEnvelopeIsTheOneOfLookingAtEverything) {
   }
 }
 
+/// df/du of a periodic function at u = 2 pi i / n, n even: that of its trigonometric interpolant.
+std::vector<double> periodic_derivative(const std::vector<double>& f) {
+  const std::size_t n = f.size();
+  std::vector<double> out(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 1; k < n; ++k) {
+      const double weight = (k % 2 == 0 ? 0.5 : -0.5) / std::tan(0.5 * test::turn_angle(k, n));
+      out[i] += weight * f[(i + n - k) % n];
+    }
+  }
+  return out;
+}
+
+// Section 3: rho(theta) of the wheel centre and its derivative, without x' and y'.
+TEST(GroundContour, ParallelCurveIsThatOfThePolarForm) {
+  const CrankGeometry geometry;
+  const double wheel = geometry.wheel_radius_mm;
+  const auto path = wheel_path(geometry, test::spec_errors()).value();
+  const auto curve = parallel_curve(path, wheel);
+  const std::size_t n = path.x_mm.size();
+  std::vector<double> rho;
+  std::vector<double> lead;  // theta minus the angle of the sample: periodic
+  for (std::size_t i = 0; i < n; ++i) {
+    rho.push_back(std::hypot(path.x_mm[i], path.y_mm[i]));
+    const double theta = std::atan2(path.y_mm[i], path.x_mm[i]);
+    lead.push_back(std::remainder(theta - test::turn_angle(i, n), core::kTwoPi));
+  }
+  const auto rho_step = periodic_derivative(rho);
+  const auto lead_step = periodic_derivative(lead);
+  for (std::size_t i = 0; i < n; ++i) {
+    SCOPED_TRACE(i);
+    const double slope = rho_step[i] / (1.0 + lead_step[i]);
+    const double q = std::hypot(rho[i], slope);
+    // rho^2 + Rgw^2 - 2 Rgw rho^2 / q without its cancellation.
+    const double square = (rho[i] - wheel) * (rho[i] - wheel) +
+                          2.0 * wheel * rho[i] * slope * slope / (q * (q + rho[i]));
+    const double theta = lead[i] + test::turn_angle(i, n);
+    const double beta = theta + std::atan2(wheel * slope, rho[i] * (q - wheel));
+    EXPECT_NEAR(curve.r_mm[i], std::sqrt(square), 1e-9 * kMicrometre);
+    EXPECT_NEAR(std::remainder(curve.beta_rad[i] - beta, core::kTwoPi), 0.0, 1e-10);
+  }
+}
+
 TEST(GroundContour, CentralDifferencesAreAsFarOffAsTheSpecificationSays) {
   const CrankGeometry geometry;
   const auto path = wheel_path(geometry, test::spec_errors()).value();
@@ -191,7 +234,8 @@ TEST(GroundContour, FirstOrderIsCloseToTheEnvelope) {
   EXPECT_NEAR(largest_difference(first, ground) / kMicrometre, 0.009, 5e-4);  // section 5
 }
 
-// Every other position of the wheel is a kilometre away: the ones between cut only parts of the turn.
+// Every other position of the wheel is a kilometre away: the ones between cut only parts of the
+// turn.
 TEST(GroundContour, RefusesErrorsThatLeaveAnglesWithoutARadius) {
   auto errors = test::spec_errors(300);
   for (std::size_t i = 0; i < errors.x_mm.size(); i += 2) errors.x_mm[i] = 1e6;

@@ -21,6 +21,11 @@ namespace rondure::test {
 inline constexpr double kUm = core::kMicrometre;
 inline constexpr double kUrad = 1e-6;
 
+/// Axes C about +Z and A about +X, through the origin.
+inline const fit::RotaryAxis kC = {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+inline const fit::RotaryAxis kA = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero()};
+inline constexpr double kDeg45 = 45.0 * core::kDegree;
+
 /// True (t; w) at an angle from the reference; zero at 0.
 using TrueErrors = std::function<fit::Vector6(double)>;
 
@@ -39,6 +44,21 @@ inline Eigen::Matrix<double, Eigen::Dynamic, 6> error_matrix(
     out.middleRows<3>(3 * static_cast<Eigen::Index>(i)) << Eigen::Matrix3d::Identity(),
         -fit::cross_matrix(p_mm[i]);
   }
+  return out;
+}
+
+/// Balls of the reference pose after the nominal rotation.
+inline std::vector<Eigen::Vector3d> turned(const std::vector<Eigen::Vector3d>& p,
+                                           const fit::RotaryAxis& axis, double angle) {
+  std::vector<Eigen::Vector3d> out;
+  for (const Eigen::Vector3d& one : p) out.emplace_back(axis.turn(angle) * one);
+  return out;
+}
+
+/// Names of balls: "a", "b", ...
+inline std::vector<std::string> letters(std::size_t n) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < n; ++i) out.emplace_back(1, static_cast<char>('a' + i));
   return out;
 }
 
@@ -123,5 +143,32 @@ inline std::vector<Eigen::Vector3d> example_balls() {
 }
 
 inline std::vector<double> circle_of(int n) { return angles_deg(0.0, 360.0 * (n - 1) / n, n); }
+
+/// Measurement of the worked example, section 10.
+inline fit::RotaryMeasurement example(const Probing& probing) {
+  return measured(kC, example_balls(), circle_of(24), example_errors, probing);
+}
+
+inline const fit::RotaryStation& station_at(const fit::RotaryStudy& study, double deg) {
+  return *std::find_if(study.stations.begin(), study.stations.end(), [&](const auto& s) {
+    return std::abs(s.angle_rad - deg * core::kDegree) < 1e-9;
+  });
+}
+
+/// Balls spread round a part on the fixture, and errors of one of its axes.
+inline std::vector<Eigen::Vector3d> five_balls() {
+  return {{60, 10, 40}, {-55, 30, 100}, {-20, -65, 20}, {35, -40, 110}, {20, 65, 70}};
+}
+
+inline fit::Vector6 fixture_errors(double phi) {
+  fit::Vector6 out;
+  out << wave(phi, 3, 2, 0.4), wave(phi, 20, 1, 0.2), wave(phi, 15, 1, 1.0) + wave(phi, 2, 3, 0.1),
+      wave(phi, 10, 1, 0.3), wave(phi, 90, 1, 0.5), wave(phi, 70, 1, -0.4);
+  out.head<3>() *= kUm;
+  out.tail<3>() *= kUrad;
+  return out;
+}
+
+inline fit::Vector6 no_errors(double /*angle*/) { return fit::Vector6::Zero(); }
 
 }  // namespace rondure::test

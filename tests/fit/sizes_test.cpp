@@ -8,6 +8,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sections.h"
 #include "fit/profiles/profile_filter.h"
+#include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/sizes/calculated_sizes.h"
 #include "fit/sizes/envelope.h"
@@ -127,6 +128,37 @@ TEST(GlobalSizes, OfShaftAndBoreDifferByFourTipRadii) {
   ASSERT_TRUE(shaft && bore);
   EXPECT_NEAR(bore->gg_mm - shaft->gg_mm, 6.0, 1e-12);
   EXPECT_EQ(global_sizes(all_of(test::w1()), {false, -0.1}).error().code, core::Code::kBadOption);
+}
+
+TEST(GlobalSizes, OfAnOpenCapHaveNoInscribedSphere) {
+  const std::vector<Eigen::Vector3d> cap = {
+      {100.0, 50.0, 44.4994},          {114.4988, 50.0, 30.0},
+      {100.0, 64.4991, 30.0},          {85.5003, 50.0, 30.0},
+      {100.0, 35.5015, 30.0},          {107.2497, 57.2497, 40.252624},
+      {92.75045, 57.24955, 40.252412}, {92.7506, 42.7506, 40.2522},
+      {107.24955, 42.75045, 40.252412}};
+  const auto sizes = global_sizes_of_sphere(cap, kBore);
+  ASSERT_TRUE(sizes.has_value());
+  EXPECT_NEAR(sizes->gg_mm, 2.0 * (14.499006959907 + 1.5), kDigits);
+  EXPECT_NEAR(sizes->gc_mm, 2.0 * (14.499399912845 - 0.0003 + 1.5), kDigits);
+  EXPECT_EQ(sizes->gx_mm.error().code, core::Code::kReferenceAbsent);
+  EXPECT_EQ(global_sizes_of_sphere(cap, {false, -1.0}).error().code, core::Code::kBadOption);
+}
+
+TEST(GlobalSizes, OfASphereAreThoseOfTheSpheresThatTouchIt) {
+  const std::vector<Eigen::Vector3d> points = {{10.003, 0, 0},          {-9.998, 0, 0},
+                                               {0, 10.001, 0},          {0, -10.002, 0},
+                                               {0, 0, 9.997},           {0, 0, -10.0},
+                                               {5.774, 5.773, 5.772},   {-5.772, -5.774, 5.774},
+                                               {5.773, -5.773, -5.774}, {-5.774, 5.773, -5.773}};
+  const auto sizes = global_sizes_of_sphere(points, kShaft);
+  const auto outside = min_circumscribed_sphere(points);
+  const auto inside = max_inscribed_sphere(points);
+  ASSERT_TRUE(sizes && sizes->gx_mm && outside && inside);
+  EXPECT_NEAR(sizes->gn_mm, 2.0 * (outside->radius_mm - 1.4987), kDigits);
+  EXPECT_NEAR(*sizes->gx_mm, 2.0 * (inside->radius_mm - 1.4987), kDigits);
+  EXPECT_LT(*sizes->gx_mm, sizes->gg_mm);
+  EXPECT_LT(sizes->gg_mm, sizes->gn_mm);
 }
 
 TEST(LocalSizes, AreThoseOfTheThreeLobedShaft) {

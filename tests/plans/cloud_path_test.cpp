@@ -78,6 +78,20 @@ double from_solid(const Vector3d& p, double r0, double r1, double z0, double z1)
   return std::sqrt(dr * dr + dz * dz);
 }
 
+/// Distance of a place outside a frustum: to its ends, or to the foot on its wall.
+double from_cone(const Vector3d& p, const NominalPlan& n) {
+  const double slope = std::tan(n.half_angle_deg * core::kDegree);
+  const auto radius = [&](double z) { return 0.5 * n.diameter_mm + (z - n.from_mm) * slope; };
+  const double r = p.head<2>().norm();
+  const double off_wall = r - radius(p.z());  // along the radius
+  const double foot_z =
+      std::clamp(p.z() + off_wall * slope / (1.0 + slope * slope), n.from_mm, n.to_mm);
+  if (off_wall <= 0.0 && p.z() >= n.from_mm && p.z() <= n.to_mm) return 0.0;
+  return std::min({std::hypot(r - radius(foot_z), p.z() - foot_z),
+                   from_solid(p, 0.0, radius(n.from_mm), n.from_mm, n.from_mm),
+                   from_solid(p, 0.0, radius(n.to_mm), n.to_mm, n.to_mm)});
+}
+
 /// Distance of a place from the part, and from everything else.
 struct Distances {
   double part_mm;
@@ -91,8 +105,17 @@ Distances distances(const Plan& plan, const Placement& placement, const Vector3d
   const double radius = 0.5 * f.nominal.diameter_mm;
   const bool bore = f.side == record::Side::kInside;
   Distances out{};
-  out.part_mm = from_solid(p, bore ? radius : 0.0, bore ? radius + 20.0 : radius, f.nominal.from_mm,
-                           f.nominal.to_mm);
+  if (f.type == record::Shape::kPlane) {
+    out.part_mm = from_solid(p, 0.5 * f.nominal.from_diameter_mm, 0.5 * f.nominal.to_diameter_mm,
+                             f.nominal.z_mm, f.nominal.z_mm);
+  } else if (f.type == record::Shape::kSphere) {
+    out.part_mm = std::max(0.0, (p - vector3(f.nominal.center_mm)).norm() - radius);
+  } else if (f.type == record::Shape::kCone) {
+    out.part_mm = from_cone(p, f.nominal);
+  } else {
+    out.part_mm = from_solid(p, bore ? radius : 0.0, bore ? radius + 20.0 : radius,
+                             f.nominal.from_mm, f.nominal.to_mm);
+  }
   for (const SectionPlan& s : plan.part.sections) {
     out.part_mm =
         std::min(out.part_mm, from_solid(p, 0.0, 0.5 * s.diameter_mm, s.from_mm, s.to_mm));
@@ -189,6 +212,96 @@ TEST(CloudPath, KeepsBallShaftAndHolderClearOfEverythingInRandomCells) {
   }
   EXPECT_GT(reached, 10);
   EXPECT_GT(refused, 5);
+}
+
+/// A random cell with a face between a flange and a shaft, a cone or a ball in place of its
+/// surface.
+Plan random_turned_plan(core::KeyedNoise& random, record::Shape type) {
+  Plan plan = random_plan(random);
+  FeaturePlan& f = plan.features.front();
+  f.type = type;
+  f.side = record::Side::kOutside;
+  f.sampling.margin_mm = between(random, 6.0, 14.0);
+  plan.part.sections.clear();
+  NominalPlan n;
+  if (type == record::Shape::kPlane) {
+    const double shaft = between(random, 10.0, 40.0);
+    n.faces = random.uniform() < 0.7 ? record::Faces::kUp : record::Faces::kDown;
+    n.from_diameter_mm = shaft;
+    n.to_diameter_mm = shaft + between(random, 70.0, 100.0);
+    n.z_mm = between(random, -20.0, 40.0);
+    const double up = n.faces == record::Faces::kUp ? 1.0 : -1.0;
+    const double shaft_end = n.z_mm + up * between(random, 5.0, 50.0);
+    const double flange_end = n.z_mm - up * between(random, 5.0, 20.0);
+    plan.part.sections.push_back(
+        {std::min(n.z_mm, shaft_end), std::max(n.z_mm, shaft_end), shaft, 0.0});
+    plan.part.sections.push_back(
+        {std::min(n.z_mm, flange_end), std::max(n.z_mm, flange_end), n.to_diameter_mm, 0.0});
+  } else if (type == record::Shape::kCone) {
+    n = {between(random, 20.0, 60.0), -40.0, 20.0};
+    n.half_angle_deg = between(random, -9.0, 40.0);
+  } else {
+    n = {between(random, 50.0, 80.0), -10.0, 24.0};
+    n.center_mm = {between(random, -3.0, 3.0), 0.0, between(random, 0.0, 14.0)};
+  }
+  f.nominal = n;
+  return plan;
+}
+
+/// Paths in random cells are clear, or the cell is refused.
+void expect_turned_paths_clear(record::Shape type, int least_reached) {
+  int reached = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise random(seed, {5});
+    const Plan plan = random_turned_plan(random, type);
+    const FeaturePlan& feature = plan.features.front();
+    const PathGeometry geometry = path_geometry(plan, feature, 0.0);
+    const Placement placement = random_placement(random, plan);
+    const Scene scene(plan, feature);
+    const auto targets = *sampling_targets(feature);
+    const CloudPath path(scene, placement, geometry, 500.0, targets,
+                         short_tour(targets, bare_cost(targets, geometry)));
+    if (!path.unreachable().empty()) continue;
+    ++reached;
+    expect_whole_path_clear(plan, path, geometry, placement);
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_GE(reached, least_reached);
+}
+
+TEST(FacePath, MeetsNoShoulder) { expect_turned_paths_clear(record::Shape::kPlane, 10); }
+TEST(ConePath, KeepsBallShaftAndHolderClear) {
+  expect_turned_paths_clear(record::Shape::kCone, 10);
+}
+TEST(SpherePath, KeepsBallShaftAndHolderClear) {
+  expect_turned_paths_clear(record::Shape::kSphere, 10);
+}
+
+TEST(FacePath, IsRefusedWhereAShaftRisesBesideTheTouch) {
+  Plan plan = plain_plan();
+  FeaturePlan& face = plan.features.front();
+  face.type = record::Shape::kPlane;
+  face.nominal = {};
+  face.nominal.from_diameter_mm = 30.0;
+  face.nominal.to_diameter_mm = 60.0;
+  face.nominal.faces = record::Faces::kUp;
+  face.sampling = {2, 6, 5.0, 0.0, 1.0};
+  const auto refused = [&] {
+    return reachable_targets(plan, 0) ? std::string() : reachable_targets(plan, 0).error().what;
+  };
+  EXPECT_EQ(refused(), "");
+  plan.part.sections.push_back({0.0, 50.0, 30.0, 0.0});
+  EXPECT_EQ(refused(), "") << "the inner circle is 3 mm from the shaft, as much as the approach";
+  plan.part.sections.back().diameter_mm = 31.0;
+  EXPECT_THAT(refused(), AllOf(HasSubstr("the ball"), HasSubstr("to a shoulder of the part")));
+  face.nominal.faces = record::Faces::kDown;
+  EXPECT_EQ(refused(), "") << "it rises from the other side";
+  plan.part.sections.back() = {-50.0, 0.0, 30.0, 0.0};
+  EXPECT_EQ(refused(), "");
+  plan.probe->stylus_length_mm = 60.0;
+  plan.probe->stylus_diameter_mm = 2.0;
+  EXPECT_THAT(refused(), HasSubstr("the shaft of the stylus"));
 }
 
 TEST(CloudPath, IsNeverLongerThanInTheOrderOfTheTargets) {

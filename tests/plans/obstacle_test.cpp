@@ -45,6 +45,9 @@ Revolved random_solid(core::KeyedNoise& random) {
   if (out.ball) out.inner_mm = 0.0;
   out.from_mm = between(random, -30.0, 0.0);
   out.to_mm = out.from_mm + between(random, 1.0, 50.0);
+  if (!out.ball && random.uniform() < 0.4) {
+    out.widens_mm = between(random, -0.95, 1.5) * (out.outer_mm - out.inner_mm);
+  }
   return out;
 }
 
@@ -82,6 +85,18 @@ TEST(Obstacle, NeverOverlooksAndSeldomExaggerates) {
   }
   EXPECT_GT(hits, 300);
   EXPECT_GT(near_misses, 300);
+}
+
+TEST(Obstacle, OfAFrustumHasTheDistanceOfItsWall) {
+  const Revolved frustum = {0.0, 10.0, 0.0, 10.0, false, 10.0};  // 45 deg
+  EXPECT_NEAR(distance_mm(frustum, {0.0, 17.0, 5.0}), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(distance_mm(frustum, {-21.0, 0.0, 11.0}), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(distance_mm(frustum, {3.0, 0.0, 12.5}), 2.5, 1e-12);
+  EXPECT_EQ(distance_mm(frustum, {14.0, 0.0, 5.0}), 0.0);
+  const Obstacle grown(frustum, 2.0);
+  const Vector3d along(0.0, 10.0, 10.0);  // beside the wall
+  EXPECT_TRUE(grown.meets({{0.0, 10.0 + 2.7, 0.0}, along, Vector3d::Zero()}));
+  EXPECT_FALSE(grown.meets({{0.0, 10.0 + 2.95, 0.0}, along, Vector3d::Zero()}));
 }
 
 TEST(Obstacle, MayBeFollowedAtItsVeryDistance) {

@@ -107,7 +107,30 @@ TEST(ResumeOldJournals, GoesOnInVersion5ToTheBitsOfARunWithoutInterruption) {
   EXPECT_EQ(record::measured_bits(read->record), record::measured_bits(whole));
 }
 
-TEST(ResumeOldJournals, ARunOfTheSamePlanDecidesTheSameInVersion6) {
+TEST(ResumeOldJournals, GoesOnInVersion6) {
+  const record::Scratch scratch;
+  fs::create_directory(scratch / "run");
+  fs::copy_file(testing::source_dir() / "tests/data/journal_v6_interrupted/journal.db",
+                scratch / "run" / "journal.db");
+  const auto before = journal_of(scratch / "run");
+  if (before.header.version != core::kVersion) GTEST_SKIP() << "a run of another program version";
+  const auto plan = parse_plan(before.header.plan_text, {}, "plan.json");
+  ASSERT_TRUE(plan) << testing::lines_of(plan);
+  {
+    auto run = resume_plan(*plan, options_for(scratch / "run"));
+    ASSERT_TRUE(run) << run.error().front().what;
+    ASSERT_FALSE(run->failure) << run->failure->what;
+    ASSERT_TRUE(run->journal.seal({}));
+  }
+  const auto read = record::read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->version, 6);
+  EXPECT_TRUE(read->broken.empty());
+  EXPECT_EQ(read->record.ending, "finished");
+  EXPECT_GT(read->record.touches.size(), before.touches.size());
+}
+
+TEST(ResumeOldJournals, ARunOfTheSamePlanDecidesTheSameInCodes) {
   const auto old = journal_of(testing::source_dir() / "tests/data/journal_v5");
   const auto plan = parse_plan(old.header.plan_text, {}, "plan.json");
   ASSERT_TRUE(plan) << testing::lines_of(plan);

@@ -26,6 +26,7 @@
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
+#include "tests/plans/turned_part.h"
 #include "tests/record/sample_run.h"
 #include "wire/tcp_line.h"
 
@@ -187,6 +188,16 @@ void expect_same(const record::RunRecord& run, const record::RunRecord& wanted) 
     ASSERT_EQ(a.scale_temperature_degC, b.scale_temperature_degC) << i;
     ASSERT_TRUE(a.layer == b.layer && a.point == b.point && a.pose == b.pose) << i;
   }
+}
+
+TEST(TurnedPartOverWire, HasTheBitsOfTheRunInOneProcess) {
+  const Plan inside = testing::turned_part();
+  const record::Scratch scratch;
+  const auto wanted = run_of(inside, scratch / "inside");
+  WireServer server(inside, true);
+  const auto run = run_of(over_wire(inside, server.port()), scratch / "wire");
+  EXPECT_GT(run.touches.size(), 60U);
+  expect_same(run, wanted);
 }
 
 TEST(ScanOverWire, HasTheBitsOfTheRunInOneProcessAlsoWhenItIsResumed) {

@@ -56,9 +56,9 @@ std::string every_value(const ArchiveResult& r) {
   const auto number = [](const std::optional<double>& x) {
     return x ? fmt::format("{:a}", *x) : std::string("-");
   };
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", r.feature, r.characteristic, r.symbol,
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", r.feature, r.characteristic, r.symbol,
                      r.reference, r.filter, r.sampling, number(r.value), number(r.upper_limit),
-                     r.unit, r.verdict, r.certificate);
+                     r.unit, r.verdict, r.certificate, number(r.lower_limit));
 }
 
 ArchivePlace place_of(const std::string& text) {

@@ -171,6 +171,47 @@ TEST_P(EitherArchive, KeepsHostileTextAsText) {
   EXPECT_EQ(all_of(archive).size(), texts.size());
 }
 
+TEST_P(EitherArchive, KeepsBothLimits) {
+  Archive archive = open_archive(place_);
+  ArchiveRun run = archive_run(1, 2);
+  run.results[0].lower_limit = 0.004;
+  ASSERT_TRUE(archive.push(run));
+  const auto found = all_of(archive);  // the newest first
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(every_value(found[1].result), every_value(run.results[0]));
+  EXPECT_EQ(every_value(found[0].result), every_value(run.results[1]));
+}
+
+TEST_P(EitherArchive, OfVersionOneGetsItsLowerLimitsWithTheFirst) {
+  {
+    Archive archive = open_archive(place_);
+    ASSERT_TRUE(archive.push(archive_run(1, 1)));
+  }
+  const std::string older =
+      "alter table rondure_result drop column lower_limit; update rondure_archive set version = 1";
+  if (server_) {
+    (void)server_->sql(older);
+  } else {
+    const std::string command = fmt::format(
+        "/usr/bin/python3 -c \"import sqlite3;d=sqlite3.connect('{}');d.executescript('{}')\"",
+        place_.address, older);
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+  auto reader = Archive::open(place_, Archive::Access::kRead);
+  ASSERT_TRUE(reader) << reader.error().what;
+  EXPECT_EQ(all_of(*reader).size(), 1U);
+  Archive archive = open_archive(place_);
+  ASSERT_TRUE(archive.push(archive_run(2, 1)));  // needs no lower limit
+  EXPECT_EQ(all_of(archive).size(), 2U);
+  ArchiveRun run = archive_run(3, 1);
+  run.results[0].lower_limit = 0.004;
+  ASSERT_TRUE(archive.push(run));
+  const auto found = all_of(*reader);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].result.lower_limit, 0.004);
+  EXPECT_EQ(found[1].result.lower_limit, std::nullopt);
+}
+
 TEST_P(EitherArchive, OfAnotherVersionIsRefused) {
   (void)open_archive(place_);
   if (server_) {
@@ -186,7 +227,7 @@ TEST_P(EitherArchive, OfAnotherVersionIsRefused) {
     const auto archive = Archive::open(place_, access);
     ASSERT_FALSE(archive);
     EXPECT_EQ(archive.error().code, core::Code::kFile);
-    EXPECT_THAT(archive.error().what, AllOf(HasSubstr("version 9"), HasSubstr("knows version 1")));
+    EXPECT_THAT(archive.error().what, AllOf(HasSubstr("version 9"), HasSubstr("knows version 2")));
   }
 }
 

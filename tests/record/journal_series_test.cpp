@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "record/journal/journal.h"
+#include "record/tasks/settings.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 
@@ -173,6 +174,25 @@ TEST(JournalTouches, AllHaveATemperatureInVersion4WhichIsStillReadAndChecked) {
   for (const Touch& touch : read->record.touches) {
     EXPECT_EQ(touch.temperature_degC, 20.0);
     EXPECT_EQ(touch.scale_temperature_degC, 20.0);
+  }
+}
+
+TEST(JournalCharacteristics, OfVersion6HaveTheirToleranceAsUpperLimitAndIndicateNothingElse) {
+  const auto read =
+      read_journal(fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v6_interrupted");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->version, 6);
+  EXPECT_THAT(read->broken, IsEmpty());
+  const auto& asked = read->record.features.front().characteristics;
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0].tolerance_mm, 0.012);
+  EXPECT_FALSE(asked[1].toleranced());
+  for (const Characteristic& characteristic : asked) {
+    EXPECT_FALSE(characteristic.lower_mm);
+    const Indication& indication = characteristic.indication;
+    EXPECT_EQ(settings_of_task(indication).size(), settings_of_task(Indication()).size());
+    EXPECT_EQ(indication.section, Indication::Section::kAll);
+    EXPECT_FALSE(indication.filter);
   }
 }
 

@@ -272,5 +272,48 @@ TEST(PointsCsv, ReadsAMillionRowsInATenthOfASecondOrSoOfAProcessor) {
 #endif
 }
 
+TEST(FeatureCsv, GivesTheRowsOfOneFeatureWithTheirLayers) {
+  const std::string text =
+      "x,feature,y,z,layer\n1,A,2,3,1\n# a comment\n4, B ,5,6,0\r\n7,A,8,9,0\n7,A,8,10,0\n";
+  const auto a = parse_feature_csv(text, "shaft.csv", "A");
+  ASSERT_TRUE(a) << a.error().what;
+  ASSERT_EQ(a->points_mm.size(), 3U);
+  EXPECT_EQ(a->points_mm[0], Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(a->layers, (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(a->layer_count(), 2);
+  EXPECT_EQ(a->least_points_per_layer(), 1);
+  EXPECT_EQ(a->dimensions, 3);
+  const auto b = parse_feature_csv(text, "shaft.csv", "B");
+  ASSERT_TRUE(b) << b.error().what;
+  EXPECT_EQ(b->points_mm.size(), 1U);
+}
+
+TEST(FeatureCsv, ReadsFilesOfOneFeatureAsBefore) {
+  const std::string text = "x,y,z\n1,2,3\n4,5,6\n";
+  const auto table = parse_feature_csv(text, "pin.csv", "");
+  ASSERT_TRUE(table) << table.error().what;
+  EXPECT_EQ(table->points_mm, parse_points_csv(text, "pin.csv")->points_mm);
+  EXPECT_EQ(table->layer_count(), 0);
+  EXPECT_FALSE(parse_points_csv("x,y,z,layer\n1,2,3,0\n", "pin.csv"))
+      << "who knows nothing of layers mixes none";
+}
+
+TEST(FeatureCsv, NamesWhatDoesNotFit) {
+  const auto code_of = [](const std::string& text, const std::string& feature) {
+    const auto table = parse_feature_csv(text, "shaft.csv", feature);
+    return table ? core::Code::kInternal : table.error().code;
+  };
+  const std::string two = "x,y,z,feature\n1,2,3,A\n4,5,6,B\n";
+  EXPECT_EQ(code_of(two, ""), core::Code::kMissingKey) << "two surfaces are not one";
+  EXPECT_EQ(code_of(two, "C"), core::Code::kNoPoints);
+  EXPECT_EQ(code_of("x,y,z\n1,2,3\n", "A"), core::Code::kMeaning);
+  EXPECT_EQ(code_of("x,y,z,layer\n1,2,3,0\n4,5,6,2\n", ""), core::Code::kSampling);
+  for (const char* layer : {"-1", "0.5", "1e9", "", "A"}) {
+    const std::string text = std::string("x,y,z,layer\n1,2,3,") + layer + "\n";
+    EXPECT_EQ(code_of(text, ""), core::Code::kSyntax) << layer;
+  }
+  EXPECT_EQ(code_of("x,y,z,feature\n1,2,3,\n", "A"), core::Code::kSyntax);
+}
+
 }  // namespace
 }  // namespace rondure::record

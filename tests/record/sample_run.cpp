@@ -10,6 +10,7 @@
 #include "core/noise.h"
 #include "core/numbers.h"
 #include "record/journal/message_text.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::record {
 namespace {
@@ -61,6 +62,18 @@ Header sample_header(Numbers& n) {
   return h;
 }
 
+Indication sample_indication(Numbers& n) {
+  Indication out;
+  out.size = Indication::Size::kGN;
+  if (n.whole(2) == 1) out.rank = Indication::Rank::kSQ;
+  for (int i = n.whole(3); i > 0; --i) out.section_layers.push_back(n.real());
+  for (int i = n.whole(3); i > 0; --i) out.datum.push_back(n.text());
+  if (n.whole(2) == 1) out.from_mm = n.real();
+  if (n.whole(2) == 1) out.filter = Indication::Filter::kSpline;
+  if (n.whole(2) == 1) out.decision_rule.emplace().zones = n.text();
+  return out;
+}
+
 Feature sample_feature(Numbers& n) {
   Feature f;
   f.id = n.text();
@@ -84,6 +97,8 @@ Feature sample_feature(Numbers& n) {
     c.reference = kReferences[static_cast<std::size_t>(n.whole(4))];
     if (n.whole(3) > 0) c.tolerance_mm = n.real();
     c.drawing_zone = n.text();
+    if (n.whole(3) > 0) c.lower_mm = n.real();
+    c.indication = sample_indication(n);
     f.characteristics.push_back(c);
   }
   return f;
@@ -184,8 +199,9 @@ void add_feature(Bits& bits, const Feature& f) {
   bits << f.points_file << f.points_sha256 << f.tip_radius_mm.has_value()
        << f.tip_radius_mm.value_or(0.0) << f.characteristics.size();
   for (const Characteristic& c : f.characteristics) {
-    bits << c.id << static_cast<int>(c.form) << static_cast<int>(c.reference)
-         << c.tolerance_mm.has_value() << c.tolerance_mm.value_or(0.0) << c.drawing_zone;
+    bits << c.id << static_cast<int>(c.form) << static_cast<int>(c.reference) << c.tolerance_mm
+         << c.lower_mm << c.drawing_zone;
+    add_settings(bits, settings_of_task(c.indication));
     for (const HarmonicLimit& l : c.harmonic_limits) bits << l.first << l.last << l.amplitude_mm;
   }
   add_settings(bits, f.settings);

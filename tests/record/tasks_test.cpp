@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -169,6 +170,54 @@ UncertaintyTask full_uncertainty() {
   return out;
 }
 
+CharacteristicTask full_characteristic() {
+  CharacteristicTask out;
+  out.id = "30h6";
+  out.form = Form::kDiameter;
+  out.reference = Reference::kLeastSquares;
+  out.lower_um = -13.0;
+  out.upper_um = kOdd;
+  out.harmonic_limits = {{2, 15, kOdd}};
+  Indication& i = out.indication;
+  i.parameter = Indication::Parameter::kPeak;
+  i.size = Indication::Size::kGN;
+  i.rank = Indication::Rank::kSQ;
+  i.section = Indication::Section::kSCS;
+  i.section_layers = {1.0, 3.0};
+  i.requirement = Indication::Requirement::kEnvelope;
+  i.of = Indication::Of::kMedianLine;
+  i.direction = Indication::Direction::kConical;
+  i.radius_mm = kOdd;
+  i.angle_deg = -0.0;
+  i.from_mm = -kOdd;
+  i.to_mm = kOdd;
+  i.datum = {"A-B", "C"};
+  i.association = Indication::Association::kZone;
+  i.filter = Indication::Filter::kSpline;
+  i.cutoff_upr = 50.0;
+  i.cutoff_mm = 0.8;
+  i.outliers = Indication::Outliers::kFiveScales;
+  i.decision_rule = full_rule();
+  return out;
+}
+
+SurfaceSettings full_surface() {
+  SurfaceSettings out;
+  out.letter = "A";
+  out.clamping = "one";
+  out.faces = Faces::kDown;
+  out.half_angle_deg = -kOdd;
+  out.first_layer_mm = kOdd;
+  out.exclude.resize(2);
+  out.exclude[0].name = "keyway";
+  out.exclude[0].from_deg = 85.0;
+  out.exclude[0].to_deg = kOdd;
+  out.exclude[1].name = "hole";
+  out.exclude[1].guard_mm = 0.0;
+  out.exclude[1].found_beyond_um = kOdd;
+  return out;
+}
+
 FixtureSettings full_fixture() {
   FixtureSettings out;
   out.id = "F-01";
@@ -189,6 +238,10 @@ TEST(Tasks, ComeBackFromTheirSettingsWithTheSameBits) {
   comes_back(UncertaintyTask());
   comes_back(full_uncertainty());
   comes_back(EnvironmentSettings{"limits", kOdd});
+  comes_back(CharacteristicTask());
+  comes_back(full_characteristic());
+  comes_back(SurfaceSettings());
+  comes_back(full_surface());
   comes_back(FixtureSettings());
   comes_back(full_fixture());
   comes_back(MergedPosesSettings{Merge::kKinematics, 3, {kOdd, 1.0, -0.0}, {0.0, kOdd, 2.0}});
@@ -214,6 +267,10 @@ TEST(Tasks, RefuseAnUnknownWordByTheNameOfItsSetting) {
   refuses_other_words(full_contour(), {"parts/name", "parts/axes", "parts/pin", "parts/main"});
   refuses_other_words(full_rotary_axes(), {"balls/id"});
   refuses_other_words(full_rule(), {"zones", "outcomes", "repeats", "outliers"});
+  refuses_other_words(full_characteristic(), {"id", "drawing_zone", "datum", "decision_rule/zones",
+                                              "decision_rule/outcomes", "decision_rule/repeats",
+                                              "decision_rule/outliers"});
+  refuses_other_words(full_surface(), {"letter", "clamping", "exclude/name"});
   refuses_other_words(full_uncertainty());
   refuses_other_words(SamplingSettings{SamplingMethod::kScan});
   refuses_other_words(MergedPosesSettings());
@@ -271,6 +328,77 @@ TEST(Tasks, GiveACharacteristicInMillimetresAboutTheMinimumZoneUnlessTheyNameAno
   asked.tolerance_um.reset();
   EXPECT_EQ(characteristic_of(asked).reference, Reference::kLeastSquares);
   EXPECT_FALSE(characteristic_of(asked).tolerance_mm);
+}
+
+TEST(Characteristics, HaveTheLimitsOfASizeAsSizes) {
+  CharacteristicTask asked;
+  asked.form = Form::kDiameter;
+  asked.lower_um = -13.0;
+  EXPECT_DOUBLE_EQ(*characteristic_of(asked, 30.0).lower_mm, 29.987);
+  EXPECT_FALSE(characteristic_of(asked, 30.0).tolerance_mm);
+  asked.upper_um = 0.0;
+  EXPECT_EQ(characteristic_of(asked, 30.0).tolerance_mm, 30.0);
+}
+
+TEST(Characteristics, LimitTheRangeOfSizesByTheRangeItself) {
+  CharacteristicTask asked;
+  asked.form = Form::kDiameter;
+  asked.tolerance_um = 5.0;
+  asked.upper_um = 5.0;
+  for (const auto rank : {Indication::Rank::kSR, Indication::Rank::kSQ}) {
+    asked.indication.rank = rank;
+    EXPECT_EQ(characteristic_of(asked, 30.0).tolerance_mm, 5.0 * core::kMicrometre);
+  }
+}
+
+TEST(Characteristics, TakeFromTheFeatureThenFromThePlan) {
+  std::array<CharacteristicLevel, 2> levels;
+  auto& [feature, plan] = levels;
+  plan.defaults.reference = Reference::kMinimumCircumscribed;
+  plan.defaults.filter = Indication::Filter::kGaussian;
+  plan.defaults.cutoff_upr = 50.0;
+  feature.defaults.cutoff_upr = 150.0;
+  feature.decision_rule.emplace().ratio = 10.0;
+  CharacteristicTask asked;
+  asked.form = Form::kRoundness;
+  auto kept = characteristic_of(asked, 0.0, levels);
+  EXPECT_EQ(kept.reference, Reference::kMinimumCircumscribed);
+  EXPECT_EQ(kept.indication.filter, Indication::Filter::kGaussian);
+  EXPECT_EQ(kept.indication.cutoff_upr, 150.0);
+  EXPECT_EQ(kept.indication.outliers, Indication::Outliers::kNone);
+  ASSERT_TRUE(kept.indication.decision_rule);
+  EXPECT_EQ(kept.indication.decision_rule->ratio, 10.0);
+
+  asked.indication.filter = Indication::Filter::kNone;
+  asked.reference = Reference::kLeastSquares;
+  asked.indication.decision_rule.emplace();
+  kept = characteristic_of(asked, 0.0, levels);
+  EXPECT_EQ(kept.reference, Reference::kLeastSquares);
+  EXPECT_FALSE(kept.indication.cutoff_upr) << "nothing to cut off";
+  EXPECT_EQ(kept.indication.decision_rule->ratio, 4.0) << "the nearest rule as a whole";
+}
+
+TEST(Characteristics, TakeNothingThatTheirFormDoesNotKnow) {
+  std::array<CharacteristicLevel, 1> levels;
+  levels[0].defaults.reference = Reference::kMaximumInscribed;
+  levels[0].defaults.filter = Indication::Filter::kGaussian;
+  levels[0].defaults.cutoff_upr = 50.0;
+  levels[0].defaults.cutoff_mm = 0.8;
+  levels[0].defaults.association = Indication::Association::kLs;
+  CharacteristicTask asked;
+  asked.form = Form::kFlatness;
+  auto kept = characteristic_of(asked, 0.0, levels);
+  EXPECT_EQ(kept.reference, Reference::kMinimumZone) << "a plane has no maximum inscribed";
+  EXPECT_FALSE(kept.indication.filter);
+  EXPECT_FALSE(kept.indication.association);
+  asked.form = Form::kRunOut;
+  kept = characteristic_of(asked, 0.0, levels);
+  EXPECT_EQ(kept.indication.association, Indication::Association::kLs);
+  EXPECT_EQ(kept.indication.cutoff_upr, 50.0);
+  EXPECT_FALSE(kept.indication.cutoff_mm);
+  asked.form = Form::kCylindricity;
+  asked.indication.parameter = Indication::Parameter::kPeak;
+  EXPECT_EQ(characteristic_of(asked, 0.0, levels).reference, Reference::kLeastSquares);
 }
 
 TEST(Tasks, RefuseAWholeNumberThatIsNone) {

@@ -67,6 +67,22 @@ TEST(UpperCapability, OfALogNormalProcessIsTheOneOfItsPercentiles) {
   EXPECT_NEAR(found->upper_point_mm, upper_point, 1e-4);
 }
 
+TEST(CapabilityBetween, TwoLimitsIsTheLesserOfBothSides) {
+  std::uint64_t state = 11;
+  const auto values = log_normals(state, 500, 30.0, 0.00005);
+  const auto upper = upper_capability(values, 30.006);
+  const auto lower = capability_between(values, 29.997, std::nullopt);
+  const auto both = capability_between(values, 29.997, 30.006);
+  ASSERT_TRUE(upper && lower && both);
+  EXPECT_NEAR(upper->index, 6.0 / 4.5, 0.15);
+  EXPECT_NEAR(lower->index, 3.0 / 4.5, 0.1);
+  EXPECT_EQ(lower->index,
+            (lower->median_mm - 29.997) / (lower->median_mm - *lower->lower_point_mm));
+  EXPECT_EQ(both->index, lower->index);
+  EXPECT_LE(*both->lower_bound, *lower->lower_bound);
+  EXPECT_FALSE(upper->lower_point_mm);
+}
+
 TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
   const int rounds = std::getenv("RONDURE_FULL") != nullptr ? 20'000 : 1'000;
   std::uint64_t state = 7;

@@ -172,6 +172,31 @@ TEST(History, TableAndChartFitATerminal) {
   }
 }
 
+TEST(History, OfASizeShowsBothLimits) {
+  auto sizes = results(60);
+  for (ArchivedResult& r : sizes) {
+    r.result.symbol = "d GN";
+    r.result.value = 30.0 + (*r.result.value - 0.008);
+    r.result.lower_limit = 29.995;
+    r.result.upper_limit = 30.004;
+  }
+  const RunChart chart = run_chart_of(sizes);
+  ASSERT_TRUE(chart.capability);
+  EXPECT_EQ(chart.index_name.substr(1), "pk");
+  EXPECT_EQ(chart.lower_limit_mm, 29.995);
+  const std::string text = history_chart(chart, false);
+  expect_plain_80_columns(text);
+  EXPECT_THAT(text, AllOf(HasSubstr("L 29995.0"), HasSubstr("U 30004.0"),
+                          HasSubstr("L: its lower limit"), HasSubstr("0.135 % point")));
+  expect_plain_80_columns(history_table(sizes));
+  EXPECT_THAT(history_table(sizes), HasSubstr("lower limit 29995.0"));
+  EXPECT_THAT(history_svg(chart), HasSubstr("lower limit 29995.0"));
+  EXPECT_THAT(history_csv_header(), HasSubstr(",lower_limit\n"));
+  EXPECT_THAT(history_csv_rows(sizes), HasSubstr(",29995\n"));
+  sizes.front().result.value = 29.9;
+  EXPECT_THAT(history_chart(run_chart_of(sizes), false), HasSubstr("#"));
+}
+
 TEST(History, KeepsHostileTextAsText) {
   for (const std::string& text : hostile_fields()) {
     SCOPED_TRACE(text.substr(0, 40));

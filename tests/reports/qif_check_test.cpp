@@ -65,7 +65,7 @@ Case bare_case() {
 std::vector<Case> all_cases() {
   return {cylinder_case(4, 7, 3), failing_case(),      undecided_case(), circle_case(500),
           spiral_case(150),       unfinished_case(),   analysis_case(),  points_case(4, 9),
-          points_case(1, 40),     hostile_case("x<y"), bare_case()};
+          points_case(1, 40),     hostile_case("x<y"), bare_case(),      drawing_case()};
 }
 
 pugi::xml_node characteristic(const pugi::xml_document& xml, int number) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "reports/html/report.h"
 
 namespace rondure::reports {
@@ -383,6 +386,119 @@ Case hostile_case(const std::string& text) {
                                   evaluation::TemperatureTerm(said)),
         evaluation::UncertaintyStatus::none(said));
   }
+  return made;
+}
+
+namespace {
+
+/// A characteristic with its finding, which carries the value.
+evaluation::CharacteristicResult found_result(record::Characteristic asked,
+                                              evaluation::Finding finding,
+                                              evaluation::Verdict verdict) {
+  finding.reference = core::as_it_is("GN");
+  finding.filter = core::phrase("unfiltered");
+  const evaluation::JudgedValue& first = finding.judged.front();
+  evaluation::StatedValue value(
+      first.symbol, first.value_mm,
+      evaluation::ValueOperator(evaluation::ReferenceTerm(finding.reference),
+                                evaluation::FilterTerm(finding.filter),
+                                evaluation::SamplingTerm(core::phrase("{} x {} points", 4, 7)),
+                                evaluation::TipTerm(core::phrase("r_tip {:.4f} mm", 1.4986)),
+                                evaluation::TemperatureTerm(core::as_it_is("20.12 degC"))),
+      evaluation::UncertaintyStatus::none(core::phrase("the plan declares no uncertainty")),
+      evaluation::Measurand::kSampledPoints, evaluation::unit_of(asked));
+  evaluation::CharacteristicResult result{
+      std::move(asked), std::move(value), verdict, core::Phrase("As the limits say."), {}, {}};
+  result.finding = std::make_shared<const evaluation::Finding>(std::move(finding));
+  return result;
+}
+
+}  // namespace
+
+Case drawing_case() {
+  using evaluation::LocalValue;
+  using Indication = record::Indication;
+  Case made = cylinder_case(4, 7, 3);
+  evaluation::FeatureResult& journal = made.evaluation.features.front();
+
+  record::Characteristic envelope{"50h6 E", record::Form::kDiameter, {}, 50.0, ""};
+  envelope.lower_mm = 49.984;
+  envelope.indication.requirement = Indication::Requirement::kEnvelope;
+  evaluation::Finding mating;
+  mating.judged = {{"d GN", 50.0012, {{}, 50.0}}, {"d LP SN", 49.9931, {49.984, {}}}};
+  journal.characteristics.push_back(
+      found_result(envelope, mating, evaluation::Verdict::kDoesNotConform));
+
+  record::Characteristic mean = envelope;
+  mean.id = "50h6 mean";
+  mean.indication = {};
+  mean.indication.size = Indication::Size::kGG;
+  mean.indication.section = Indication::Section::kACS;
+  evaluation::Finding sections;
+  sections.judged = {{"d GG", 49.9955, {49.984, 50.0}}};
+  for (int layer = 0; layer < 4; ++layer) {
+    sections.local.push_back(
+        {LocalValue::Place::kLayer, layer, 5.0 + 10.0 * layer, 49.9955 + 0.0004 * layer});
+  }
+  sections.local[2].none = core::Error{core::Code::kSparse, "2 points are left", ""};
+  sections.numbers = {{"SA", 49.9958}, {"pairs", 12.0, false}};
+  sections.left_out = {{3, "keyway"}, {4, "keyway"}, {9, ""}};
+  journal.characteristics.push_back(found_result(mean, sections, evaluation::Verdict::kConforms));
+
+  record::Characteristic turns{"run-out", record::Form::kRunOut, {}, 0.015, ""};
+  turns.indication.datum = {"A-B"};
+  turns.indication.filter = Indication::Filter::kGaussian;
+  turns.indication.cutoff_upr = 50.0;
+  evaluation::Finding circles;
+  circles.judged = {{"Run-out", 0.0121, {{}, 0.015}}};
+  circles.local = {{LocalValue::Place::kLayer, 0, 5.0, 0.0093},
+                   {LocalValue::Place::kLayer, 1, 15.0, 0.0121}};
+  circles.worst = 1;
+  circles.about_equalised_mm = {0.0113};
+  circles.lines = {{0.5, {1.0, 2.0}, {0.001, -0.001}}};
+  evaluation::DatumResult common;
+  common.name = "A-B";
+  common.radii_mm = {26.5, 26.5};
+  common.features = {0, 1};
+  common.length_mm = 40.0;
+  common.play_mm = 0.0078;
+  common.equalised = fit::Axis{{0.001, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  circles.datums = {common};
+  journal.characteristics.push_back(found_result(turns, circles, evaluation::Verdict::kConforms));
+
+  evaluation::FeatureResult face;
+  face.feature = made.record.features.front();
+  face.feature.id = "face-B";
+  face.feature.shape = record::Shape::kPlane;
+  face.feature.characteristics.clear();
+  face.cloud = journal.cloud;
+  face.ls_plane = fit::LsPlane{{{0.0, 0.0, 60.0}, {0.0, 0.0, 1.0}}, 0.0031, 0.0008};
+  face.mz_plane = fit::MinZonePlane{};
+  face.mz_plane->outer = {{0.0, 0.0, 60.0015}, {0.0, 0.0, 1.0}};
+  face.mz_plane->width_mm = 0.0029;
+  face.tip_radius_mm = kTip;
+  record::Characteristic flat{"flat", record::Form::kFlatness, record::Reference::kMinimumZone,
+                              0.004, ""};
+  evaluation::Finding zone;
+  zone.judged = {{"FLTt", 0.0029, {{}, 0.004}}};
+  face.characteristics.push_back(found_result(flat, zone, evaluation::Verdict::kConforms));
+  record::Characteristic square{"square", record::Form::kPerpendicularity, {}, 0.008, ""};
+  square.indication.datum = {"A"};
+  evaluation::Finding right;
+  right.judged = {{"PER", 0.0051, {{}, 0.008}}};
+  right.datums = {common};
+  right.datums[0].name = "A";
+  right.datums[0].features = {0};
+  face.characteristics.push_back(found_result(square, right, evaluation::Verdict::kConforms));
+  made.record.features.push_back(face.feature);
+  for (auto* feature : {&journal, &face}) {
+    auto& asked = made.record.features[feature == &journal ? 0 : 1].characteristics;
+    asked.clear();
+    for (const auto& result : feature->characteristics) asked.push_back(result.characteristic);
+    feature->feature.characteristics = asked;
+  }
+  made.evaluation.features.push_back(std::move(face));
+  made.evaluation.verdict = evaluation::Verdict::kDoesNotConform;
   return made;
 }
 

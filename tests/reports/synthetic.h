@@ -33,6 +33,10 @@ struct Case {
 /// cylinder_case(4, 7, 3) whose every text is `text`.
 [[nodiscard]] Case hostile_case(const std::string& text);
 
+/// A journal, land-A, and a face, face-B, of which a drawing asks an envelope size, a mean size in
+/// sections, run-out about the common datum of both, perpendicularity and flatness.
+[[nodiscard]] Case drawing_case();
+
 /// The HTML report of a case.
 [[nodiscard]] std::string page_of(const Case& made);
 

@@ -121,6 +121,32 @@ core::Result<Contact> as_contact(const std::optional<SideContact>& first,
   return contact;
 }
 
+/// Curvature of the form times radius of the tip up to which the shift by the form has one value.
+constexpr double kGentle = 0.5;
+
+core::Error too_rough(const char* what) {
+  return {core::Code::kNotConverged,
+          fmt::format("the waves of the simulated {} are too steep for the tip; lower their "
+                      "amplitude or their order",
+                      what),
+          {}};
+}
+
+/// The fixed point of a function that contracts.
+template <class Function>
+core::Result<Vector3d> settled(const Function& next) {
+  constexpr int kIterations = 200;
+  constexpr double kStep_mm = 1e-13;
+  Vector3d value = Vector3d::Zero();
+  for (int i = 0; i < kIterations; ++i) {
+    const Vector3d last = value;
+    value = next(last);
+    if ((value - last).norm() <= kStep_mm) return value;
+  }
+  return core::fail(core::Code::kNotConverged,
+                    "the contact of tip and part was not found within the iteration limit");
+}
+
 }  // namespace
 
 core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& start_P_mm,
@@ -139,8 +165,8 @@ core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& 
   const auto keep_first = [&first](const std::optional<SideContact>& other) {
     if (other && (!first || other->travel_mm < first->travel_mm)) first = other;
   };
-  keep_first(end_contact(surface, sweep, 1.0));
-  keep_first(end_contact(surface, sweep, -1.0));
+  if (surface.upper_end) keep_first(end_contact(surface, sweep, 1.0));
+  if (surface.lower_end) keep_first(end_contact(surface, sweep, -1.0));
   const bool within_bore = start_P_mm.head<2>().norm() < surface.radius_mm &&
                            std::abs(start_P_mm.z()) < surface.half_length_mm;
   if (surface.inside && !within_bore) {
@@ -149,6 +175,90 @@ core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& 
     keep_first(*wall);
   }
   return as_contact(first, sweep);
+}
+
+core::Result<Contact> first_contact(const FaceSurface& surface, const Vector3d& start_P_mm,
+                                    const Vector3d& direction_P, double tip_radius_mm,
+                                    double max_travel_mm) {
+  const SphereSweep sweep = {start_P_mm, direction_P, tip_radius_mm, max_travel_mm};
+  const double k = std::max(2, surface.wave_order);
+  const double curvature_1_mm =
+      (2.0 * std::abs(surface.saucer_mm) + k * k * std::abs(surface.wave_mm)) /
+      (surface.outer_mm * surface.outer_mm);
+  if (curvature_1_mm * tip_radius_mm >= kGentle) return core::fail(too_rough("face"));
+  const auto on_ring = [&](const Vector3d& foot) {
+    const double q = foot.head<2>().norm();
+    return q >= surface.inner_mm && q <= surface.outer_mm;
+  };
+  // A ball on a plane at height 0 has its centre at the height of its radius over its foot; the
+  // form moves the centre by `shift`, which depends on the foot alone.
+  const auto shift_at = [&](const Vector3d& foot) {
+    const Eigen::Vector2d slope = surface.slope_at(foot.x(), foot.y());
+    const Vector3d normal = Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
+    return Vector3d(surface.height_at(foot.x(), foot.y()) * Vector3d::UnitZ() +
+                    tip_radius_mm * (normal - Vector3d::UnitZ()));
+  };
+  const auto at_start =
+      settled([&](const Vector3d& shift) { return shift_at(start_P_mm - shift); });
+  if (!at_start) return core::fail(at_start.error());
+  const double gap_mm = start_P_mm.z() - at_start->z() - tip_radius_mm;
+  if (gap_mm < -kOverlap_mm && gap_mm > -tip_radius_mm && on_ring(start_P_mm - *at_start)) {
+    return core::fail(in_contact_already());
+  }
+  if (direction_P.z() >= 0.0 || gap_mm < -kOverlap_mm) return core::fail(no_contact(max_travel_mm));
+  const auto travel_with = [&](const Vector3d& shift) {
+    return (tip_radius_mm + shift.z() - start_P_mm.z()) / direction_P.z();
+  };
+  if (travel_with(*at_start) > max_travel_mm + surface.outer_mm) {
+    return core::fail(no_contact(max_travel_mm));
+  }
+  const auto shift = settled([&](const Vector3d& last) {
+    return shift_at(start_P_mm + travel_with(last) * direction_P - last);
+  });
+  if (!shift) return core::fail(shift.error());
+  const double travel_mm = travel_with(*shift);
+  Vector3d foot = start_P_mm + travel_mm * direction_P - *shift;
+  foot.z() = surface.height_at(foot.x(), foot.y());
+  if (travel_mm > max_travel_mm || !on_ring(foot)) return core::fail(no_contact(max_travel_mm));
+  return as_contact(SideContact{travel_mm, foot}, sweep);
+}
+
+core::Result<Contact> first_contact(const BallSurface& surface, const Vector3d& start_P_mm,
+                                    const Vector3d& direction_P, double tip_radius_mm,
+                                    double max_travel_mm) {
+  const SphereSweep sweep = {start_P_mm, direction_P, tip_radius_mm, max_travel_mm};
+  double curvature_1_mm = 0.0;
+  for (const Lobe& lobe : surface.lobes) {
+    curvature_1_mm += std::abs(lobe.amplitude_mm) * lobe.order * lobe.order /
+                      (surface.radius_mm * surface.radius_mm);
+  }
+  if (curvature_1_mm * tip_radius_mm >= kGentle) return core::fail(too_rough("ball"));
+  const double reach_mm = surface.radius_mm + tip_radius_mm;
+  const auto shift_at = [&](const Vector3d& toward) {
+    const Vector3d u = toward.normalized();
+    return Vector3d(surface.radius_at(u) * u + tip_radius_mm * surface.normal_at(u) - reach_mm * u);
+  };
+  const auto at_start =
+      settled([&](const Vector3d& shift) { return shift_at(start_P_mm - shift); });
+  if (!at_start) return core::fail(at_start.error());
+  if ((start_P_mm - *at_start).norm() < reach_mm - kOverlap_mm) {
+    return core::fail(in_contact_already());
+  }
+  // Where the line misses a ball moved so far, the place nearest to it stands for the contact.
+  bool meets = false;
+  double travel_mm = 0.0;
+  const auto shift = settled([&](const Vector3d& last) {
+    const Vector3d from = start_P_mm - last;
+    const double along = direction_P.dot(from);
+    const double depth2 = along * along - from.squaredNorm() + reach_mm * reach_mm;
+    meets = along < 0.0 && depth2 >= 0.0;
+    travel_mm = -along - std::sqrt(std::max(0.0, depth2));
+    return shift_at(from + travel_mm * direction_P);
+  });
+  if (!shift) return core::fail(shift.error());
+  if (!meets || travel_mm > max_travel_mm) return core::fail(no_contact(max_travel_mm));
+  const Vector3d u = (start_P_mm + travel_mm * direction_P - *shift).normalized();
+  return as_contact(SideContact{travel_mm, surface.radius_at(u) * u}, sweep);
 }
 
 core::Result<Contact> first_contact_with_sphere(const Vector3d& center_mm, double radius_mm,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "cmm/simulated/part.h"
 #include "cmm/simulated/part_surface.h"
 #include "core/result.h"
 
@@ -26,6 +27,17 @@ struct Contact {
 /// @return  The contact; kCollision when the sphere overlaps the part at its start by more than
 ///          1e-9 mm, kNoTouch when it meets nothing, kNotConverged if the solver fails.
 [[nodiscard]] core::Result<Contact> first_contact(const PartSurface& surface,
+                                                  const Eigen::Vector3d& start_P_mm,
+                                                  const Eigen::Vector3d& direction_P,
+                                                  double tip_radius_mm, double max_travel_mm);
+
+/// The same with a face or a ball, in the frame of the surface; a face is met from its free side
+/// only, and on its ring only. Also kNotConverged where the tip does not reach into the form.
+[[nodiscard]] core::Result<Contact> first_contact(const FaceSurface& surface,
+                                                  const Eigen::Vector3d& start_P_mm,
+                                                  const Eigen::Vector3d& direction_P,
+                                                  double tip_radius_mm, double max_travel_mm);
+[[nodiscard]] core::Result<Contact> first_contact(const BallSurface& surface,
                                                   const Eigen::Vector3d& start_P_mm,
                                                   const Eigen::Vector3d& direction_P,
                                                   double tip_radius_mm, double max_travel_mm);

@@ -1,12 +1,9 @@
 #include "evaluation/factors/internal/outliers.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "core/statistics.h"
+#include "evaluation/part/outliers.h"
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
@@ -17,42 +14,19 @@ namespace {
 using record::Form;
 
 constexpr double kSigmas = 3.0;
-constexpr double kMedianScales = 5.0;
-constexpr double kLeastScaleMm = 1e-4;
 
 /// Marks the deviations that a rule calls outliers.
 /// @param parameters  Number of parameters of the least-squares fit that the deviations come from.
 std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rule,
                           double parameters) {
-  double middle = 0.0;
-  double limit = 0.0;
-  if (rule == OutlierRule::kThreeSigma) {
-    double squares = 0.0;
-    for (const double d : deviations) squares += d * d;
-    const double freedoms = static_cast<double>(deviations.size()) - parameters;
-    limit = freedoms > 0.0 ? kSigmas * std::sqrt(squares / freedoms) : squares + 1.0;
-  } else {
-    middle = core::median(deviations);
-    std::vector<double> apart;
-    for (const double d : deviations) apart.push_back(std::abs(d - middle));
-    limit =
-        kMedianScales *
-        std::max(core::kSigmaPerMedianDeviation * core::median(std::move(apart)), kLeastScaleMm);
-  }
+  if (rule == OutlierRule::kFiveMedians) return beyond_five_scales(deviations);
+  double squares = 0.0;
+  for (const double d : deviations) squares += d * d;
+  const double freedoms = static_cast<double>(deviations.size()) - parameters;
+  const double limit = freedoms > 0.0 ? kSigmas * std::sqrt(squares / freedoms) : squares + 1.0;
   std::vector<bool> out;
-  for (const double d : deviations) out.push_back(std::abs(d - middle) > limit);
+  for (const double d : deviations) out.push_back(std::abs(d) > limit);
   return out;
-}
-
-core::Result<std::size_t> checked_count(const std::vector<bool>& out) {
-  const auto gone = static_cast<std::size_t>(std::count(out.begin(), out.end(), true));
-  if (4 * gone > out.size()) {
-    return core::fail(core::Code::kOutliers,
-                      fmt::format("{} of {} points would be left out, more than a quarter: that "
-                                  "is form",
-                                  gone, out.size()));
-  }
-  return gone;
 }
 
 /// Distances from the least-squares circle of a section.
@@ -81,7 +55,7 @@ core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierR
     const auto deviations = cylinder_deviations(points.all_mm());
     if (!deviations) return core::fail(deviations.error());
     auto out = flagged(*deviations, rule, 5.0);
-    if (auto checked = checked_count(out); !checked) return core::fail(checked.error());
+    if (auto checked = count_of_outliers(out); !checked) return core::fail(checked.error());
     return out;
   }
   std::vector<bool> out;
@@ -89,7 +63,7 @@ core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierR
     const auto deviations = section_deviations(layer);
     if (!deviations) return core::fail(deviations.error());
     const auto of_layer = flagged(*deviations, rule, 3.0);
-    if (auto checked = checked_count(of_layer); !checked) return core::fail(checked.error());
+    if (auto checked = count_of_outliers(of_layer); !checked) return core::fail(checked.error());
     out.insert(out.end(), of_layer.begin(), of_layer.end());
   }
   return out;

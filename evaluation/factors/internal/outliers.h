@@ -13,10 +13,8 @@ namespace rondure::evaluation {
 /// reference (of each section for RONt) with p parameters.
 enum class OutlierRule {
   kNone,
-  kThreeSigma,  ///< |d| > 3 s, s^2 = sum d^2 / (n - p).
-  /// |d - m| > 5 s, m = median d, s = 1.4826 median |d - m|, at least 0.1 um: one bad point cannot
-  /// widen its own limit. Same scales as fit/wheel/outliers.h.
-  kFiveMedians,
+  kThreeSigma,   ///< |d| > 3 s, s^2 = sum d^2 / (n - p).
+  kFiveMedians,  ///< beyond_five_scales().
 };
 inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kThreeSigma,
                                              OutlierRule::kFiveMedians};

@@ -33,6 +33,7 @@ ProbeInfluences probe_influences(const record::ProbeInfluencesTask& said,
   out.tip_radius_mm = said.tip_radius_um ? *said.tip_radius_um * core::kMicrometre
                       : probe            ? probe->radius_sigma_mm
                                          : 0.0;
+  out.reference_sphere_mm = said.reference_sphere_um.value_or(0.0) * core::kMicrometre;
   for (const record::LobeInfluenceTask& lobe : said.lobes) {
     out.lobes.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre, 0.0});
   }

@@ -95,6 +95,13 @@ std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
   return std::nullopt;
 }
 
+std::optional<core::Phrase> too_many_points(std::size_t points) {
+  constexpr std::size_t kMostPoints = 20'000;  // about 10 s of trials; verify repeats them
+  if (points <= kMostPoints) return std::nullopt;
+  return core::phrase("{} points are more than {}, the limit of the trials; give every n-th point",
+                      points, kMostPoints);
+}
+
 tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
     const record::RunRecord& record, const FeatureResult& result,
     const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked) {
@@ -102,12 +109,7 @@ tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
   if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
   const auto declared = declared_for(record, result, probe);
   const Rows rows = rows_of(result, asked);
-  constexpr std::size_t kMostPoints = 20'000;  // about 10 s of trials; verify repeats them
-  if (rows.rows.size() > kMostPoints) {
-    return none(
-        core::phrase("{} points are more than {}, the limit of the trials; give every n-th point",
-                     rows.rows.size(), kMostPoints));
-  }
+  if (auto why = too_many_points(rows.rows.size())) return none(*std::move(why));
   auto cloud = cloud_of(result, rows);
   if (!cloud) return none(cloud.error().said());
   cloud->reference = asked.reference;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,9 @@ struct UncertaintyQuestion {
 /// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
 [[nodiscard]] std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
                                                           const record::Feature& feature);
+
+/// Why no interval is computed of so many points; nothing where one is.
+[[nodiscard]] std::optional<core::Phrase> too_many_points(std::size_t points);
 
 /// The question behind uncertainty_of(), or why there is none: one sentence.
 [[nodiscard]] tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(

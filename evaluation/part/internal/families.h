@@ -25,10 +25,11 @@ namespace rondure::evaluation {
                                                       Proof proof);
 
 /// The datums of a characteristic, in their order.
-/// @param part  As in find(); windows of the datum features are left out, nothing is filtered.
+/// @param part   As in find(); windows of the datum features are left out, nothing is filtered.
+/// @param proof  kNone: without the equalised one and the play beside a one-sided datum.
 [[nodiscard]] core::Result<std::vector<DatumResult>> datums_of(
-    std::span<const MeasuredSurface> part, std::size_t feature,
-    const record::Characteristic& asked);
+    std::span<const MeasuredSurface> part, std::size_t feature, const record::Characteristic& asked,
+    Proof proof);
 
 /// coaxiality, concentricity, parallelism, perpendicularity, angularity about the given datums.
 [[nodiscard]] core::Result<Finding> find_location(const PreparedSurface& surface,

@@ -58,7 +58,7 @@ FormChains::FormChains(const FormCloud& cloud, const ErrorModel& errors, const F
     : errors_(errors), threads_(threads) {
   ChainValues empty;
   empty.changes_mm.resize(errors.names().size());
-  empty.spot_counts.assign(cloud.points.size(), 0);
+  empty.tally.spot_counts.assign(cloud.points.size(), 0);
   for (int k = 0; k < chains; ++k) {
     chains_.push_back(
         std::make_unique<Chain>(cloud, model, whole, seed, static_cast<std::uint64_t>(k)));
@@ -110,15 +110,7 @@ void FormChains::draw_one(Chain& chain, ChainValues& out, std::size_t budget) co
   if (chain.whole) {
     out.whole_mm.push_back(std::max(value, chain.whole->of(draw, chain.noise)) - raise);
   }
-  for (const std::size_t row : draw.spots) ++out.spot_counts[row];
-  out.unresolved_mm += std::sqrt(draw.unresolved_mm2);
-  out.noise_mm += std::sqrt(draw.noise_mm2);
-  out.groups += draw.groups;
-  out.spots += static_cast<double>(draw.spots.size());
-  if (draw.unresolved_mm2 == 0.0) {
-    out.scatter_1 += draw.scatter_1;
-    ++out.resolved;
-  }
+  out.tally.add(draw);
   if (done < kReadDraws) {
     errors_.draw(chain.errors, std::nullopt, chain.changed);
     chain.changed += draw.form_mm;

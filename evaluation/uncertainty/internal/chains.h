@@ -12,6 +12,7 @@
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/form_value.h"
 #include "evaluation/uncertainty/internal/sampler.h"
+#include "evaluation/uncertainty/internal/statement.h"
 #include "evaluation/uncertainty/internal/whole_surface.h"
 
 namespace rondure::evaluation {
@@ -37,13 +38,7 @@ struct ChainValues {
   std::vector<std::vector<double>> changes_mm;
   std::vector<double> of_errors_mm;  ///< Value of the errors alone, on a perfect form.
   std::vector<double> read_mm;       ///< Value of simulated inspections of the drawn forms.
-  double unresolved_mm = 0.0;        ///< Sums over the draws.
-  double noise_mm = 0.0;
-  double groups = 0.0;
-  double spots = 0.0;
-  double scatter_1 = 0.0;        ///< Sum over the draws without unresolved form.
-  int resolved = 0;              ///< Number of those draws.
-  std::vector<int> spot_counts;  ///< For each point, the number of draws in which it is a spot.
+  DrawTally tally;
 };
 
 /// The draws of one measurement, as chains. A chain is a pure function of the seed and its number,

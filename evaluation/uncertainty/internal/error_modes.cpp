@@ -28,12 +28,30 @@ void keep_form(const Eigen::MatrixXd& rigid, std::vector<VectorXd>& columns) {
 
 }  // namespace
 
-ErrorModel::ErrorModel(const FormCloud& cloud, const Influences& influences) {
-  DeclaredModes declared = declared_modes(touched_points(cloud), influences);
-  keep_form(rigid_basis(cloud), declared.columns);
+VectorXd drawn_coefficients(const DeclaredModes& declared, core::KeyedNoise& noise) {
+  VectorXd out(static_cast<Index>(declared.columns.size()));
+  for (const ErrorMode& mode : declared.modes) {
+    if (mode.distribution == Distribution::kPhase) {
+      const double phase = core::kTwoPi * noise.uniform();
+      out[mode.column] = std::sqrt(2.0) * std::cos(phase);
+      out[mode.column + 1] = std::sqrt(2.0) * std::sin(phase);
+    } else {
+      out[mode.column] = draw_one(mode.distribution, noise);
+    }
+  }
+  return out;
+}
+
+ErrorModel::ErrorModel(const FormCloud& cloud, const Influences& influences)
+    : ErrorModel(touched_points(cloud), rigid_basis(cloud), influences) {}
+
+ErrorModel::ErrorModel(std::span<const TouchedPoint> points, const Eigen::MatrixXd& rigid,
+                       const Influences& influences) {
+  DeclaredModes declared = declared_modes(points, influences);
+  keep_form(rigid, declared.columns);
   names_ = std::move(declared.names);
   point_errors_ = std::move(declared.point_errors);
-  const Index n = static_cast<Index>(cloud.points.size());
+  const Index n = static_cast<Index>(points.size());
   columns_.resize(n, static_cast<Index>(declared.columns.size()));
   for (Index k = 0; k < columns_.cols(); ++k) {
     columns_.col(k) = declared.columns[static_cast<std::size_t>(k)];

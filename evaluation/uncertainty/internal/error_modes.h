@@ -62,6 +62,10 @@ struct DeclaredModes {
   std::vector<Eigen::VectorXd> columns;  ///< Columns of the modes [mm].
 };
 
+/// Draws the random number of each mode: one coefficient for each column, of variance 1.
+[[nodiscard]] Eigen::VectorXd drawn_coefficients(const DeclaredModes& declared,
+                                                 core::KeyedNoise& noise);
+
 /// Every declared number as a mode, including motions of the whole part. Points of several surfaces
 /// share each mode.
 [[nodiscard]] DeclaredModes declared_modes(std::span<const TouchedPoint> points,
@@ -73,6 +77,9 @@ class ErrorModel {
  public:
   /// @param influences  As accepted by check_influences().
   ErrorModel(const FormCloud& cloud, const Influences& influences);
+  /// @param rigid  Orthonormal columns of what counts as motion and size: rigid_basis().
+  ErrorModel(std::span<const TouchedPoint> points, const Eigen::MatrixXd& rigid,
+             const Influences& influences);
 
   /// Names of the declared influences, including those that change no form.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }

@@ -133,6 +133,8 @@ FormModel::FormModel(const FormCloud& cloud, const ErrorModel& errors, const For
   first_state();
 }
 
+VectorXd FormModel::place_mm() const { return removed_.array() / root_weight_.array(); }
+
 double FormModel::flagged_share() const {
   return static_cast<double>(flagged_.size()) / static_cast<double>(y_.size());
 }
@@ -142,7 +144,9 @@ void FormModel::weigh(const FormCloud& cloud, const ErrorModel& errors) {
   for (Index i = 0; i < y_.size(); ++i) {
     y_[i] = root_weight_[i] * cloud.points[static_cast<std::size_t>(i)].deviation_mm;
   }
+  removed_ = y_;
   free_of(columns_.rigid(), y_);
+  removed_ -= y_;
   Index count = 0;
   for (Index k = 0; k < errors.columns().cols(); ++k) {
     if (!errors.columns().col(k).isZero(0.0)) ++count;
@@ -709,6 +713,10 @@ void FormChain::draw_form() {
         model_.y_[i] - model_.all_.row(i).head(model_.base_).dot(coefficients_.head(model_.base_));
   }
   draw_.form_mm.array() /= model_.root_weight_.array();
+  const Index rigid = model_.columns_.rigid().cols();
+  draw_.place_mm = model_.removed_;
+  draw_.place_mm.noalias() += model_.all_.leftCols(rigid) * coefficients_.head(rigid);
+  draw_.place_mm.array() /= model_.root_weight_.array();
   draw_.coefficients = VectorXd::Zero(model_.columns_.count());
   draw_.groups = 0;
   for (std::size_t g = 0; g < on_.size(); ++g) {

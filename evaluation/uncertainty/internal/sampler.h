@@ -75,6 +75,8 @@ class FormModel {
   [[nodiscard]] const FormColumns& columns() const { return columns_; }
   /// For each group, the mean square of X^T deviations divided by their number [mm^2].
   [[nodiscard]] const Eigen::VectorXd& energy_mm2() const { return energy_; }
+  /// Position, size and tilt of the points as measured [mm].
+  [[nodiscard]] Eigen::VectorXd place_mm() const;
   /// Fraction of points that a robust start leaves out; above a fifth there is no smooth form.
   [[nodiscard]] double flagged_share() const;
   /// Standard deviation of the residual of the start [mm].
@@ -102,6 +104,7 @@ class FormModel {
   FormColumns columns_;
   bool declared_ = false;
   bool absolute_ = false;
+  Eigen::VectorXd removed_;  ///< Position, size and tilt in the deviations.
   Eigen::VectorXd y_;        ///< Deviations, free of position, size and tilt.
   Eigen::VectorXd imputed_;  ///< y_, as the start imputes it.
   std::vector<std::size_t> flagged_;
@@ -127,7 +130,9 @@ class FormModel {
 
 /// One form that is compatible with the deviations.
 struct FormDraw {
-  Eigen::VectorXd form_mm;         ///< Form at the points.
+  Eigen::VectorXd form_mm;  ///< Form at the points.
+  /// Position, size and tilt at the points: deviations are place, form and errors.
+  Eigen::VectorXd place_mm;
   std::vector<std::size_t> spots;  ///< Rows of the spots.
   Eigen::VectorXd coefficients;    ///< For all columns of the model.
   double unresolved_mm2 = 0.0;     ///< Variance of form rougher than the columns.

@@ -44,15 +44,17 @@ template <class Model>
 struct CoupledZone {
   Model model;
   Eigen::VectorXd bounds;
-  std::vector<CoupledContact> contacts;
+  std::vector<CoupledContact> contacts;    ///< Unless converged, of the longest step from here.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< kConverged: a local minimum to second order.
 };
 
 /// Minimises the sum of upper bounds minus the sum of lower ones over a place that all share: a
 /// common datum (a radius for each feature), a zone of several features, the zone of a cone.
 ///
-/// Every step linearises the measures and solves a quadratic programme with a proximal term; its
-/// reach grows with success. The contacts of a step then start Newton's method on the equations of
+/// Every step linearises the measures and solves a quadratic programme with the curvature that the
+/// contacts of the last step have, and a proximal term, whose reach grows with success. Without the
+/// curvature, steps along a valley that hardly falls would end where they climb its sides. The
+/// contacts of a step then start Newton's method on the equations of
 /// the optimum, which ends the search where all points obey the bounds, the multipliers are >= 0
 /// and no direction along the contacts descends.
 ///
@@ -69,14 +71,16 @@ class CoupledDescent {
   CoupledZone<Model> run() {
     constexpr int kSteps = 200;
     // A longer reach would round the step by more than the distances are.
-    constexpr double kFarthest = 10.0;
+    constexpr double kFarthest = 1e3;
     constexpr double kNearest = 1e-13;
     state_.bounds = bounds_of(state_.model);
     double reach = 1.0;
     for (int i = 0; i < kSteps && reach > kNearest; ++i) {
       const auto step = proximal_step(reach);
       if (!step.solved) break;
-      if (polish(step)) {
+      last_ = contacts_of(step);
+      if (state_.contacts.empty()) state_.contacts = last_;
+      if (polish(with_contacts(last_)) || polish_valley(step)) {
         state_.ending = ZoneEnding::kConverged;
         return state_;
       }
@@ -85,6 +89,7 @@ class CoupledDescent {
       if (value_of(there) < value_of(state_.bounds)) {
         state_.model = next;
         state_.bounds = there;
+        state_.contacts.clear();
         reach = std::min(4.0 * reach, kFarthest);
         if (!state_.model.strayed(start_)) continue;
         state_.ending = ZoneEnding::kStrayed;
@@ -145,19 +150,91 @@ class CoupledDescent {
     for (std::size_t k = 0; k < bounds_.size(); ++k) {
       gradient(kPlace + static_cast<Eigen::Index>(k)) = bounds_[k].sign();
     }
-    const Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(unknowns, unknowns) / reach;
+    Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(unknowns, unknowns) / reach;
+    hessian.topLeftCorner(kPlace, kPlace) += curvature();
     return solve_quadratic_program(hessian, gradient, normals, limits, round_off());
   }
 
-  /// Newton's method on the contacts of a step. Changes the state only if it ends at a minimum.
-  bool polish(const QuadraticStep& step) {
-    constexpr int kRounds = 30;
-    CoupledZone<Model> at = state_;
-    at.contacts.clear();
-    for (std::size_t i = 0; i < step.active.size(); ++i) {
-      at.contacts.push_back(rows_[step.active[i]]);
-      at.contacts.back().multiplier = step.multipliers[i];
+  /// Curvature of the value along the contacts of the last step, without its negative part.
+  [[nodiscard]] Eigen::MatrixXd curvature() const {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(kPlace, kPlace);
+    for (const CoupledContact& c : last_) {
+      out += c.multiplier * bounds_[c.bound].sign() * state_.model.row(c.row).hessian;
     }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(out);
+    return principal.eigenvectors() * principal.eigenvalues().cwiseMax(0.0).asDiagonal() *
+           principal.eigenvectors().transpose();
+  }
+
+  [[nodiscard]] std::vector<CoupledContact> contacts_of(const QuadraticStep& step) const {
+    std::vector<CoupledContact> out;
+    for (std::size_t i = 0; i < step.active.size(); ++i) {
+      out.push_back(rows_[step.active[i]]);
+      out.back().multiplier = step.multipliers[i];
+    }
+    return out;
+  }
+
+  [[nodiscard]] CoupledZone<Model> with_contacts(
+      const std::vector<CoupledContact>& contacts) const {
+    CoupledZone<Model> out = state_;
+    out.contacts = contacts;
+    return out;
+  }
+
+  /// Where too few contacts hold a place that the value hardly distinguishes from its neighbours,
+  /// as a datum that rocks, the optimum lies where the next points come into contact.
+  bool polish_valley(const QuadraticStep& step) {
+    constexpr double kHardlyFalls = 1e-9;  // mm
+    const Eigen::VectorXd& x = step.x;
+    double fall = 0.0;
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      fall -= bounds_[k].sign() * x(kPlace + static_cast<Eigen::Index>(k));
+    }
+    if (!(fall <= kHardlyFalls)) return false;
+    for (const double sense : {1.0, -1.0}) {
+      CoupledZone<Model> at = with_contacts(last_);
+      while (meet_next(sense * x, at)) {
+      }
+      if (at.contacts.size() > last_.size() && polish(std::move(at))) return true;
+    }
+    return false;
+  }
+
+  /// Moves as far in a direction, with all contacts kept, as the next point allows.
+  /// @return Whether there is such a direction and such a point, now a contact.
+  bool meet_next(const Eigen::VectorXd& toward, CoupledZone<Model>& at) const {
+    if (static_cast<Eigen::Index>(at.contacts.size()) >= kPlace + count()) return false;
+    const Eigen::MatrixXd along = kept_moves(at);
+    const Eigen::VectorXd move = along * (along.transpose() * toward);
+    if (!(move.norm() > 1e-6 * toward.norm())) return false;
+    double nearest = std::numeric_limits<double>::infinity();
+    CoupledContact next;
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      const auto bound = static_cast<Eigen::Index>(k);
+      for (std::size_t i = bounds_[k].begin; i < bounds_[k].end; ++i) {
+        const bool held = std::ranges::any_of(
+            at.contacts, [&](const CoupledContact& c) { return c.row == i && c.bound == k; });
+        if (held) continue;
+        const auto [value, gradient] = at.model.slope(i);
+        const double closes =
+            bounds_[k].sign() * (gradient.dot(move.head(kPlace)) - move(kPlace + bound));
+        const double slack = std::max(0.0, bounds_[k].sign() * (at.bounds(bound) - value));
+        if (!(closes > 0.0 && slack < nearest * closes)) continue;
+        nearest = slack / closes;
+        next = {i, k, 0.0};
+      }
+    }
+    if (!std::isfinite(nearest)) return false;
+    at.model = at.model.moved(nearest * move.head(kPlace));
+    at.bounds += nearest * move.tail(count());
+    at.contacts.push_back(next);
+    return true;
+  }
+
+  /// Newton's method on the contacts of a step. Changes the state only if it ends at a minimum.
+  bool polish(CoupledZone<Model> at) {
+    constexpr int kRounds = 30;
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
       const double size = newton_step(at);
@@ -212,24 +289,32 @@ class CoupledDescent {
     return true;
   }
 
+  /// Moves of place and bounds that keep all contacts to first order, as orthonormal columns.
+  [[nodiscard]] Eigen::MatrixXd kept_moves(const CoupledZone<Model>& at) const {
+    const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
+    const Eigen::Index primal = kPlace + count();
+    Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(primal, contacts);
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
+      normals.col(i).head(kPlace) = -at.model.slope(c.row).second;
+      normals(kPlace + static_cast<Eigen::Index>(c.bound), i) = 1.0;
+    }
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals);
+    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(primal, primal);
+    return all.rightCols(primal - contacts);
+  }
+
   /// Whether the value does not fall in any direction that keeps all contacts.
   [[nodiscard]] bool curves_up(const CoupledZone<Model>& at) const {
     const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
     const Eigen::Index primal = kPlace + count();
-    Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(primal, contacts);
-    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(primal, primal);
-    for (Eigen::Index i = 0; i < contacts; ++i) {
-      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
-      const MeasuredRow row = at.model.row(c.row);
-      normals.col(i).head(kPlace) = -row.gradient;
-      normals(kPlace + static_cast<Eigen::Index>(c.bound), i) = 1.0;
-      curvature.topLeftCorner(kPlace, kPlace) +=
-          c.multiplier * bounds_[c.bound].sign() * row.hessian;
-    }
     if (contacts >= primal) return true;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals);
-    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(primal, primal);
-    const Eigen::MatrixXd along = all.rightCols(primal - contacts);
+    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(primal, primal);
+    for (const CoupledContact& c : at.contacts) {
+      curvature.topLeftCorner(kPlace, kPlace) +=
+          c.multiplier * bounds_[c.bound].sign() * at.model.row(c.row).hessian;
+    }
+    const Eigen::MatrixXd along = kept_moves(at);
     const Eigen::MatrixXd reduced = along.transpose() * curvature * along;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(reduced);
     return principal.eigenvalues()(0) > 0.0;
@@ -239,6 +324,7 @@ class CoupledDescent {
   CoupledZone<Model> state_;
   Model start_;
   std::vector<CoupledContact> rows_;
+  std::vector<CoupledContact> last_;  ///< Contacts of the last step.
 };
 
 }  // namespace rondure::fit

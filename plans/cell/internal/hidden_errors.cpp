@@ -1,12 +1,17 @@
 #include "plans/cell/internal/hidden_errors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "cmm/simulated/machine.h"
 #include "core/units.h"
 #include "fixture/axis_motion.h"
+#include "plans/analyses/features.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {
@@ -72,18 +77,79 @@ cmm::SurfaceMark mark(double at_deg, double z_mm, double width_mm, double length
   return out;
 }
 
-void put_marks(const SimulatedPartPlan& part, double middle_mm, cmm::PartSurface& out) {
-  for (const KeywayPlan& key : part.keyways) {
+/// The entry of a feature, if it has one.
+const SimulatedFeaturePlan* entry_of(const SimulationPlan& simulation, const FeaturePlan& feature) {
+  const auto own =
+      std::find_if(simulation.features.begin(), simulation.features.end(),
+                   [&](const SimulatedFeaturePlan& entry) { return entry.id == feature.id; });
+  return own == simulation.features.end() ? nullptr : &*own;
+}
+
+const SimulatedFormPlan& form_of(const SimulationPlan& simulation, const FeaturePlan& feature) {
+  if (const SimulatedFeaturePlan* own = entry_of(simulation, feature)) return *own;
+  return simulation.part;
+}
+
+void put_marks(const SimulationPlan& simulation, const FeaturePlan& feature, double middle_mm,
+               cmm::PartSurface& out) {
+  for (const KeywayPlan& key : form_of(simulation, feature).keyways) {
     auto slot = mark(key.at_deg, key.z_mm - middle_mm, key.width_mm, key.length_mm);
     slot.height_mm = -key.depth_mm;
     slot.flank_mm = std::min(slot.flank_mm, kKeywayFlank_mm);
     out.marks.push_back(slot);
   }
-  for (const BurrPlan& burr : part.burrs) {
+  if (const SimulatedFeaturePlan* own = entry_of(simulation, feature)) {
+    for (const FlatPlan& flat : own->flats) {
+      auto spot = mark(flat.at_deg, flat.z_mm - middle_mm, flat.width_mm, flat.length_mm);
+      spot.height_mm = -flat.depth_um * core::kMicrometre;
+      out.marks.push_back(spot);
+    }
+    return;
+  }
+  for (const BurrPlan& burr : simulation.part.burrs) {
     auto spot = mark(burr.at_deg, burr.z_mm - middle_mm, burr.width_mm, burr.length_mm);
     spot.height_mm = burr.height_um * core::kMicrometre;
     out.marks.push_back(spot);
   }
+}
+
+std::vector<cmm::Lobe> lobes_of(const SimulatedFormPlan& form) {
+  std::vector<cmm::Lobe> out;
+  for (const LobePlan& lobe : form.lobes) {
+    out.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre,
+                   lobe.phase_deg * core::kDegree, lobe.twist_deg * core::kDegree});
+  }
+  return out;
+}
+
+cmm::SimulatedPart::Placed placed_face(const SimulationPlan& simulation,
+                                       const FeaturePlan& feature) {
+  const NominalPlan& n = feature.nominal;
+  cmm::FaceSurface face;
+  face.inner_mm = 0.5 * n.from_diameter_mm;
+  face.outer_mm = 0.5 * n.to_diameter_mm;
+  face.mirrored = n.faces == record::Faces::kDown;
+  if (const SimulatedFeaturePlan* own = entry_of(simulation, feature)) {
+    face.tilt_rad = own->tilt_urad * kMicroradian;
+    face.toward_rad = own->tilt_toward_deg * core::kDegree;
+    face.saucer_mm = own->saucer_um * core::kMicrometre;
+    face.wave_mm = own->wave_um * core::kMicrometre;
+    face.wave_order = own->wave_order;
+  }
+  Eigen::Isometry3d X_PS = Eigen::Isometry3d::Identity();
+  X_PS.translation().z() = n.z_mm;
+  if (face.mirrored) X_PS.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return {face, X_PS};
+}
+
+/// Whether a face takes the place of a flat end at this height.
+bool is_faced(const std::vector<FeaturePlan>& features, double z_mm, record::Faces faces) {
+  constexpr double kOnePlane_mm = 0.5;
+  return std::any_of(features.begin(), features.end(), [&](const FeaturePlan& f) {
+    return f.type == record::Shape::kPlane && is_touched(f) &&
+           f.nominal.faces.value_or(record::Faces::kUp) == faces &&
+           std::abs(f.nominal.z_mm - z_mm) < kOnePlane_mm;
+  });
 }
 
 }  // namespace
@@ -118,20 +184,74 @@ cmm::PartErrors part_errors(const SimulatedPartPlan& part) {
 }
 
 cmm::PartSurface simulated_surface(const SimulationPlan& simulation, const FeaturePlan& feature) {
-  const SimulatedPartPlan& part = simulation.part;
+  const SimulatedFormPlan& form = form_of(simulation, feature);
   cmm::PartSurface out;
-  out.radius_mm = 0.5 * (feature.nominal.diameter_mm + part.diameter_error_um * core::kMicrometre);
+  out.radius_mm = 0.5 * (feature.nominal.diameter_mm + form.diameter_error_um * core::kMicrometre);
   out.half_length_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
   out.inside = feature.side == record::Side::kInside;
-  for (const LobePlan& lobe : part.lobes) {
-    out.form.lobes.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre,
-                              lobe.phase_deg * core::kDegree, lobe.twist_deg * core::kDegree});
+  out.form.lobes = lobes_of(form);
+  out.form.taper_mm = form.taper_um * core::kMicrometre;
+  out.form.barrel_mm = form.barrel_um * core::kMicrometre;
+  out.form.bend_mm = form.bend_um * core::kMicrometre;
+  out.form.bend_phase_rad = form.bend_phase_deg * core::kDegree;
+  if (feature.type == record::Shape::kCone) {
+    // The nominal diameter is at the lower end, the frame at mid-length.
+    const double widens_mm =
+        out.half_length_mm * std::tan(feature.nominal.half_angle_deg * core::kDegree);
+    out.radius_mm += widens_mm;
+    out.form.taper_mm += widens_mm;
   }
-  out.form.taper_mm = part.taper_um * core::kMicrometre;
-  out.form.barrel_mm = part.barrel_um * core::kMicrometre;
-  out.form.bend_mm = part.bend_um * core::kMicrometre;
-  out.form.bend_phase_rad = part.bend_phase_deg * core::kDegree;
-  put_marks(part, 0.5 * (feature.nominal.from_mm + feature.nominal.to_mm), out);
+  put_marks(simulation, feature, 0.5 * (feature.nominal.from_mm + feature.nominal.to_mm), out);
+  return out;
+}
+
+bool has_whole_part(const Plan& plan) {
+  if (!plan.simulation->features.empty()) return true;
+  return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& f) {
+    return is_touched(f) && f.type != record::Shape::kCylinder && f.type != record::Shape::kCircle;
+  });
+}
+
+cmm::SimulatedPart::Placed placed_surface(const SimulationPlan& simulation,
+                                          const FeaturePlan& feature) {
+  if (feature.type == record::Shape::kPlane) return placed_face(simulation, feature);
+  const NominalPlan& n = feature.nominal;
+  const bool ball = feature.type == record::Shape::kSphere;
+  cmm::SimulatedPart::Placed out;
+  out.X_PS.translation() =
+      ball ? vector3(n.center_mm) : Eigen::Vector3d(0.0, 0.0, 0.5 * (n.from_mm + n.to_mm));
+  if (const SimulatedFeaturePlan* own = entry_of(simulation, feature)) {
+    out.X_PS.translation().head<2>() +=
+        Eigen::Vector2d(own->offset_x_um, own->offset_y_um) * core::kMicrometre;
+    const Eigen::Vector3d axis(own->slope_x_urad * kMicroradian, own->slope_y_urad * kMicroradian,
+                               1.0);
+    out.X_PS.linear() =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+  }
+  if (!ball) {
+    out.surface = simulated_surface(simulation, feature);
+    return out;
+  }
+  const SimulatedFormPlan& form = form_of(simulation, feature);
+  out.surface = cmm::BallSurface{0.5 * (n.diameter_mm + form.diameter_error_um * core::kMicrometre),
+                                 lobes_of(form)};
+  return out;
+}
+
+cmm::SimulatedPart simulated_part(const std::vector<FeaturePlan>& features,
+                                  const SimulationPlan& simulation, const FeaturePlan& mounted) {
+  cmm::SimulatedPart out;
+  const bool bore = mounted.side == record::Side::kInside;
+  for (const FeaturePlan& feature : features) {
+    const bool own = feature.id == mounted.id;
+    if (!is_touched(feature) || (!own && (bore || feature.side == record::Side::kInside))) continue;
+    cmm::SimulatedPart::Placed placed = placed_surface(simulation, feature);
+    if (auto* round = std::get_if<cmm::PartSurface>(&placed.surface)) {
+      round->upper_end = !is_faced(features, feature.nominal.to_mm, record::Faces::kUp);
+      round->lower_end = !is_faced(features, feature.nominal.from_mm, record::Faces::kDown);
+    }
+    out.surfaces.push_back(std::move(placed));
+  }
   return out;
 }
 

@@ -12,21 +12,11 @@
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/schema/json_text.h"
 #include "record/archive/place.h"
-#include "record/tasks/form_facts.h"
 
 namespace rondure::plans {
 namespace {
 
 using core::Code;
-
-// The index of the first earlier entry with the same id.
-template <class Entries>
-std::optional<std::size_t> earlier_with_same_id(const Entries& entries, std::size_t index) {
-  for (std::size_t k = 0; k < index; ++k) {
-    if (!entries[k].id.empty() && entries[k].id == entries[index].id) return k;
-  }
-  return std::nullopt;
-}
 
 void check_travel(double min_deg, double max_deg, std::string_view axis, Findings& findings) {
   const std::string lower = fmt::format("/fixture/min_{}_deg", axis);
@@ -146,54 +136,6 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
   }
 }
 
-// Checks the lines of a mask, and that it has an effect.
-void check_mask(const record::CharacteristicTask& c, const std::string& where, Findings& findings) {
-  const bool masked = c.form == record::Form::kHarmonicLimits;
-  if (masked && c.harmonic_limits.empty() && !findings.is_given(where + "/harmonic_limits")) {
-    findings.meaning(Code::kMissingKey, where + "/harmonic_limits",
-                     "this key is missing: the mask, e.g. [{\"from\": 2, \"to\": 50, "
-                     "\"amplitude_um\": 0.3}]");
-  }
-  if (!masked && !c.harmonic_limits.empty()) {
-    findings.meaning(Code::kMeaning, where + "/harmonic_limits",
-                     "has no effect: the form is not \"harmonic-limits\"; remove it");
-  }
-  if (masked && c.tolerance_um) {
-    findings.meaning(Code::kMeaning, where + "/tolerance_um",
-                     "has no effect: the mask holds the limits; remove it");
-  }
-  for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
-    const record::HarmonicLimitTask& line = c.harmonic_limits[i];
-    if (line.from <= line.to) continue;
-    findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
-                     fmt::format("from {} is above to {}; exchange them", line.from, line.to));
-  }
-}
-
-/// Checks that touched sections have enough points for harmonics: as many as reports filter, 7 per
-/// undulation at 50 undulations.
-void check_dense(const FeaturePlan& feature, const record::CharacteristicTask& c,
-                 const std::string& feature_where, const std::string& where, Findings& findings) {
-  constexpr int kDense = 350;
-  constexpr int kHighest = 50;
-  for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
-    if (c.harmonic_limits[i].to <= kHighest) continue;
-    findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
-                     fmt::format("to {} is above {}, the highest harmonic of a touched section",
-                                 c.harmonic_limits[i].to, kHighest));
-  }
-  if (!findings.is_given(feature_where + "/source")) {
-    if (feature.sampling.points_per_layer >= kDense) return;
-    findings.meaning(Code::kSampling, where + "/form",
-                     fmt::format("{} points a layer are too few: harmonics need at least {}",
-                                 feature.sampling.points_per_layer, kDense));
-  } else if (feature.type == record::Shape::kCylinder) {
-    findings.meaning(Code::kMeaning, where + "/form",
-                     "the points of a file have no layers, so a cylinder from a file has no "
-                     "harmonics; give each section as a \"circle\"");
-  }
-}
-
 /// Checks the settings of the driver "zaber", and that no other driver has settings that it
 /// ignores.
 void check_zaber(const FixturePlan& fixture, Findings& findings) {
@@ -295,58 +237,6 @@ void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
   }
 }
 
-void check_characteristic(const FeaturePlan& feature, std::size_t index,
-                          const std::string& feature_where, Findings& findings) {
-  const std::string where = item_pointer(feature_where + "/characteristics", index);
-  const record::CharacteristicTask& c = feature.characteristics[index];
-  check_mask(c, where, findings);
-  if (const auto twin = earlier_with_same_id(feature.characteristics, index)) {
-    findings.meaning(
-        Code::kMeaning, where + "/id",
-        fmt::format("the id {} names characteristic {} of this feature already; choose "
-                    "another",
-                    in_quotes(c.id), *twin + 1));
-  }
-  if (c.form == record::Form::kCylindricity && feature.type == record::Shape::kCircle) {
-    findings.meaning(Code::kMeaning, where + "/form",
-                     "a circle has no cylindricity; ask for \"roundness\", or make the feature a "
-                     "\"cylinder\" with at least 2 layers");
-  }
-  if (c.form == record::Form::kRoundness && feature.type == record::Shape::kCylinder) {
-    if (findings.is_given(feature_where + "/source")) {
-      findings.meaning(
-          Code::kMeaning, where + "/form",
-          "the points of a file have no layers, so a cylinder from a file has no roundness; "
-          "ask for \"cylindricity\", or give each section as a \"circle\"");
-    } else if (feature.sampling.points_per_layer < 4) {
-      findings.meaning(Code::kSampling, where + "/form",
-                       fmt::format("{} points a layer lie on a circle exactly, whatever the part; "
-                                   "roundness needs at least 4",
-                                   feature.sampling.points_per_layer));
-    }
-  }
-  const bool analysis = analysis_kind(feature.type) != nullptr;
-  const bool masked = c.form == record::Form::kHarmonicLimits;
-  if (!analysis && !masked && c.form != record::Form::kCylindricity &&
-      c.form != record::Form::kRoundness) {
-    findings.meaning(
-        Code::kMeaning, where + "/form",
-        fmt::format("a {} has no {}; ask for \"roundness\", \"harmonic-limits\" or, of "
-                    "a cylinder, for \"cylindricity\"",
-                    name_of(feature.type), name_of(c.form)));
-  }
-  if (!analysis && masked) check_dense(feature, c, feature_where, where, findings);
-  const bool has_reference = record::facts_of(c.form).about.has_value();
-  if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
-    findings.meaning(
-        Code::kMeaning, where + "/reference",
-        fmt::format("the tolerance of {} um has no reference; add \"reference\": \"mz\" "
-                    "(minimum zone, the ISO default), \"ls\" (least squares), \"mc\" (minimum "
-                    "circumscribed) or \"mi\" (maximum inscribed), as the drawing says",
-                    plain(*c.tolerance_um)));
-  }
-}
-
 // Checks for keys of a feature that would be ignored.
 void check_without_effect(const FeaturePlan& feature, const std::string& where,
                           Findings& findings) {
@@ -368,6 +258,19 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
       refuse(fmt::format("/pose_search/{}", key), "a circle is measured in its start pose");
     }
   }
+}
+
+/// Whether the machine touches surfaces of that type; reports where it does not.
+bool check_touchable(const Plan& plan, std::size_t index, Findings& findings) {
+  const record::Shape type = plan.features[index].type;
+  const bool touchable = type == record::Shape::kCylinder || type == record::Shape::kCircle;
+  if (!touchable) {
+    findings.meaning(Code::kMeaning, feature_pointer(index) + "/type",
+                     fmt::format("a {} is not touched by the machine; give its points in a "
+                                 "\"source\" file",
+                                 name_of(type)));
+  }
+  return touchable;
 }
 
 }  // namespace
@@ -404,22 +307,19 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
                      fmt::format("the id {} names feature {} already; choose another",
                                  in_quotes(feature.id), *twin + 1));
   }
-  for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
-    const std::string place = item_pointer(where + "/characteristics", k);
-    if (findings.sound(place) && findings.sound(where + "/type")) {
-      check_characteristic(feature, k, where, findings);
-    }
-  }
   check_without_effect(feature, where, findings);
+  check_drawing(plan, index, findings);
 }
 
 void check_plan(const Plan& plan, Findings& findings) {
   check_equipment(plan, findings);
   check_archive(plan, findings);
   check_uncertainty(plan, findings);
+  check_simulated_part(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
     if (is_touched(plan, i, findings)) {
+      if (!check_touchable(plan, i, findings)) continue;
       check_sampling(plan, i, findings);
       check_pose_search(plan, i, findings);
     } else if (analysis_kind(plan.features[i].type) != nullptr) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 
 #include "plans/plan.h"
 #include "plans/schema/findings.h"
@@ -16,8 +18,38 @@ void check_plan(const Plan& plan, Findings& findings);
 /// Checks travel, resolution, temperature limits, and everything that touched features need.
 void check_equipment(const Plan& plan, Findings& findings);
 
-/// Checks ids, characteristics, and keys that have no effect.
+/// Checks ids, keys that have no effect, and check_drawing().
 void check_feature(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Checks what the drawing asks of a feature: its characteristics, datums, letter and windows.
+void check_drawing(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Checks the datums of a characteristic.
+/// @param where  JSON pointer of the characteristic.
+void check_datums(const Plan& plan, std::size_t index, const record::CharacteristicTask& asked,
+                  const std::string& where, Findings& findings);
+
+/// Checks that a plane with a run-out, or that is a datum, says to which side it faces.
+void check_faces(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Checks the windows of a feature, and that they leave enough layers of a touched one.
+void check_windows(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Checks that the sampling carries a characteristic: opposite points, generatrices, a dense
+/// section. Of points of a file only the highest harmonic is checked.
+/// @param resolved  With the defaults of feature and plan.
+void check_sampling_of(const FeaturePlan& feature, const record::Characteristic& resolved,
+                       const std::string& where, Findings& findings);
+
+/// Index of the first earlier entry with the same id.
+template <class Entries>
+[[nodiscard]] std::optional<std::size_t> earlier_with_same_id(const Entries& entries,
+                                                              std::size_t index) {
+  for (std::size_t k = 0; k < index; ++k) {
+    if (!entries[k].id.empty() && entries[k].id == entries[index].id) return k;
+  }
+  return std::nullopt;
+}
 
 /// Checks nominal, layers and points of a touched feature: on the part, outside the clamp,
 /// reachable.
@@ -32,6 +64,10 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 /// Checks parameters and statements of the decision rule, and that the uncertainty provides its
 /// inputs.
 void check_uncertainty(const Plan& plan, Findings& findings);
+
+/// Checks that each surface of the simulated part is a touched feature of the plan, with keys of its
+/// type.
+void check_simulated_part(const Plan& plan, Findings& findings);
 
 /// Whether a feature is touched by the machine: neither read from a file nor an analysis of series.
 [[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analyses/features.h"
 #include "plans/checks/internal/merged_reach.h"
 #include "plans/checks/internal/reach_advice.h"
 #include "plans/path/internal/feature_planner.h"
@@ -67,6 +68,12 @@ core::Result<void> check_room(const Plan& plan) {
   double reach_mm = 0.0;
   for (const FeaturePlan& feature : plan.features) {
     if (feature.source) continue;
+    if (is_touched(feature) && !SurfaceChart(feature).is_round()) {
+      const PartPiece piece = piece_of(feature);
+      const double far_mm = std::max(std::abs(piece.from_mm()), std::abs(piece.to_mm()));
+      reach_mm = std::max(reach_mm, std::hypot(piece.radius_mm(), far_mm));
+      continue;
+    }
     const double height =
         std::max(std::abs(feature.nominal.from_mm), std::abs(feature.nominal.to_mm));
     reach_mm = std::max(reach_mm, std::hypot(0.5 * feature.nominal.diameter_mm, height));

@@ -64,7 +64,7 @@ std::optional<double> longer_stylus(const Plan& plan, const FeaturePlan& feature
 std::optional<double> larger_margin(const Plan& plan, const FeaturePlan& feature) {
   if (feature.type == record::Shape::kCircle) return std::nullopt;
   FeaturePlan other = feature;
-  const double half_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
+  const double half_mm = 0.5 * layered_mm(feature);
   double& margin_mm = other.sampling.margin_mm;
   const double step_mm = std::ceil(half_mm / kMargins);
   margin_mm = step_mm * (std::floor(margin_mm / step_mm) + 1.0);

@@ -57,6 +57,12 @@ double CloudPath::further_mm() const {
   return std::min(kFarthest_mm, lean_mm + thicker_mm);
 }
 
+/// In a bore every wall is close, on a plane the shaft that rises from it.
+bool CloudPath::beside_walls() const {
+  return geometry_.inside ||
+         (geometry_.surface && geometry_.surface->shape() == record::Shape::kPlane);
+}
+
 Way CloudPath::in_machine(const Polyline& path_P, Phase first, Phase middle, Phase last) const {
   Way out;
   for (const Vector3d& corner : path_P) out.corners.emplace_back(placement_.X_WP * corner);
@@ -73,10 +79,10 @@ Way CloudPath::entry(std::size_t target, Entry kind) const {
   const Polyline along = entry_path(g, t);
   Way out;
   if (kind == Entry::kAlongAxis || kind == Entry::kAlongAxisFurther) {
-    // In a bore every wall is close.
-    out = in_machine(along, g.inside ? Phase::kNear : Phase::kTravel, Phase::kNear, Phase::kNear);
+    out = in_machine(along, beside_walls() ? Phase::kNear : Phase::kTravel, Phase::kNear,
+                     Phase::kNear);
   } else {
-    out = in_machine({along[1], along[2]}, Phase::kNear, Phase::kNear, Phase::kNear);
+    out = in_machine({along.begin() + 1, along.end()}, Phase::kNear, Phase::kNear, Phase::kNear);
   }
   // Moves sideways only at park height; then straight down.
   Vector3d above = out.corners.front();
@@ -131,7 +137,7 @@ Way CloudPath::over_the_end(std::size_t from, std::size_t to) const {
 }
 
 Way CloudPath::between(std::size_t from, std::size_t to) const {
-  const Phase middle = geometry_.inside ? Phase::kNear : Phase::kTravel;
+  const Phase middle = beside_walls() ? Phase::kNear : Phase::kTravel;
   const auto around = [&](const PathGeometry& g) {
     return in_machine(path_between(g, targets_[from], targets_[to]), Phase::kNear, middle,
                       Phase::kNear);

@@ -45,6 +45,7 @@ class CloudPath {
  private:
   enum class Entry { kAlongAxis, kAlongAxisFurther, kVertical, kVerticalFurther };
 
+  [[nodiscard]] bool beside_walls() const;
   [[nodiscard]] Way in_machine(const Polyline& path_P, Phase first, Phase middle, Phase last) const;
   [[nodiscard]] Way entry(std::size_t target, Entry kind) const;
   [[nodiscard]] Way touch_way(std::size_t target) const;

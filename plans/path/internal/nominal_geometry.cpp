@@ -1,13 +1,20 @@
 #include "plans/path/internal/nominal_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "cmm/simulated/part_surface.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 
 namespace rondure::plans {
+namespace {
+
+constexpr double kDisc_mm = 1.0;  // thickness of the disc behind a plane
+
+}  // namespace
 
 fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
   return {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)};
@@ -35,16 +42,61 @@ std::string in_degrees(const core::Pose& pose, int decimals) {
                      pose.beta_rad / core::kDegree, decimals);
 }
 
-std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature) {
-  std::vector<SectionPlan> out = plan.part.sections;
+double PartPiece::from_mm() const {
+  return origin_mm.z() + (solid.ball ? -solid.outer_mm : solid.from_mm);
+}
+
+double PartPiece::to_mm() const {
+  return origin_mm.z() + (solid.ball ? solid.outer_mm : solid.to_mm);
+}
+
+double PartPiece::radius_mm() const { return origin_mm.head<2>().norm() + solid.widest_mm(); }
+
+PartPiece piece_of(const FeaturePlan& feature) {
+  const NominalPlan& n = feature.nominal;
+  const double radius_mm = 0.5 * n.diameter_mm;
+  switch (feature.type) {
+    case record::Shape::kPlane: {
+      const double behind_mm = n.faces != record::Faces::kDown ? -kDisc_mm : kDisc_mm;
+      return {Eigen::Vector3d::Zero(),
+              {0.5 * n.from_diameter_mm, 0.5 * n.to_diameter_mm,
+               std::min(n.z_mm, n.z_mm + behind_mm), std::max(n.z_mm, n.z_mm + behind_mm)}};
+    }
+    case record::Shape::kSphere:
+      return {vector3(n.center_mm), {0.0, radius_mm, 0.0, 0.0, true}};
+    case record::Shape::kCone:
+      return {Eigen::Vector3d::Zero(),
+              {0.0, radius_mm, n.from_mm, n.to_mm, false,
+               (n.to_mm - n.from_mm) * std::tan(n.half_angle_deg * core::kDegree)}};
+    default:
+      break;
+  }
+  const bool bore = feature.side == record::Side::kInside;
+  return {Eigen::Vector3d::Zero(),
+          {bore ? radius_mm : 0.0, bore ? radius_mm + cmm::kBlockWall_mm : radius_mm, n.from_mm,
+           n.to_mm}};
+}
+
+std::vector<PartPiece> part_beside(const Plan& plan, const FeaturePlan& feature) {
+  std::vector<PartPiece> out;
+  for (const SectionPlan& s : plan.part.sections) {
+    out.push_back({Eigen::Vector3d::Zero(),
+                   {0.5 * s.bore_diameter_mm, 0.5 * s.diameter_mm, s.from_mm, s.to_mm}});
+  }
+  if (feature.side == record::Side::kInside) return out;
+  const auto along_axis = [](const FeaturePlan& f) {
+    return f.type == record::Shape::kCylinder || f.type == record::Shape::kCircle;
+  };
   const NominalPlan& mine = feature.nominal;
   for (const FeaturePlan& other : plan.features) {
-    const NominalPlan& n = other.nominal;
-    const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
-    if (!is_touched(other) || other.side == record::Side::kInside ||
-        feature.side == record::Side::kInside || !beside)
+    if (&other == &feature || other.id == feature.id || !is_touched(other) ||
+        other.side == record::Side::kInside)
       continue;
-    out.push_back({n.from_mm, n.to_mm, n.diameter_mm, 0.0});
+    const NominalPlan& n = other.nominal;
+    // One cylinder may be two features: what lies beside itself is no neighbour.
+    const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
+    if (along_axis(feature) && along_axis(other) && !beside) continue;
+    out.push_back(piece_of(other));
   }
   return out;
 }
@@ -54,22 +106,30 @@ PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double 
   out.radius_mm = 0.5 * feature.nominal.diameter_mm;
   out.from_mm = feature.nominal.from_mm;
   out.to_mm = feature.nominal.to_mm;
+  out.surface = SurfaceChart(feature);
+  if (!out.surface->is_round()) {
+    const PartPiece own = piece_of(feature);
+    out.radius_mm = own.radius_mm();
+    out.from_mm = own.from_mm();
+    out.to_mm = own.to_mm();
+  }
+  const double lower_end_mm = out.from_mm;
   out.inside = feature.side == record::Side::kInside;
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.approach_mm = plan.machine->approach_mm + location_mm;
   out.clearance_mm = plan.machine->clearance_mm + location_mm;
-  const auto pass_outside = [&](double diameter_mm, double to_mm) {
-    if (to_mm <= feature.nominal.from_mm) return;
+  const auto pass_outside = [&](double radius_mm, double to_mm) {
+    if (to_mm <= lower_end_mm) return;
     out.to_mm = std::max(out.to_mm, to_mm);
-    out.stand_off_mm = std::max(out.stand_off_mm, 0.5 * diameter_mm - out.radius_mm);
+    out.stand_off_mm = std::max(out.stand_off_mm, radius_mm - out.radius_mm);
   };
   const FixturePlan& fixture = *plan.fixture;
   if (fixture.clamp_from_mm < fixture.clamp_to_mm && fixture.ring_diameter_mm > 0.0) {
-    pass_outside(fixture.ring_diameter_mm, fixture.clamp_to_mm);
+    pass_outside(0.5 * fixture.ring_diameter_mm, fixture.clamp_to_mm);
   }
-  for (const SectionPlan& section : part_sections(plan, feature)) {
-    out.from_mm = std::min(out.from_mm, section.from_mm);
-    pass_outside(section.diameter_mm, section.to_mm);
+  for (const PartPiece& piece : part_beside(plan, feature)) {
+    out.from_mm = std::min(out.from_mm, piece.from_mm());
+    pass_outside(piece.radius_mm(), piece.to_mm());
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "fixture/fixture.h"
 #include "fixture/kinematics.h"
+#include "plans/path/obstacle.h"
 #include "plans/path/sampling.h"
 #include "plans/path/travel.h"
 #include "plans/plan.h"
@@ -43,9 +44,23 @@ namespace rondure::plans {
 /// A pose for messages: "(12.3400, 0.0000) deg".
 [[nodiscard]] std::string in_degrees(const core::Pose& pose, int decimals = 4);
 
+/// A piece of the part as a solid, part frame.
+struct PartPiece {
+  Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();
+  Revolved solid;
+
+  [[nodiscard]] double from_mm() const;
+  [[nodiscard]] double to_mm() const;
+  [[nodiscard]] double radius_mm() const;  ///< Greatest distance from the part axis.
+};
+
+/// The solid behind the surface of a feature: a shaft, the block around a bore, the frustum of a
+/// cone, a ball, a thin disc behind a plane.
+[[nodiscard]] PartPiece piece_of(const FeaturePlan& feature);
+
 /// The part beside a feature: the sections of the plan, and the other touched outside surfaces
-/// above or below it (not for a bore, whose block hides them).
-[[nodiscard]] std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature);
+/// (not for a bore, whose block hides them), of cylinders those above or below it.
+[[nodiscard]] std::vector<PartPiece> part_beside(const Plan& plan, const FeaturePlan& feature);
 
 /// The path geometry of a feature. Shoulders, and a ring of known size, above the lower end of a
 /// shaft increase the radius of the path around it. `location_mm` is added to approach and

@@ -199,6 +199,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   if (truth_.empty()) return {};
   // Only a comparison for simulations: if it cannot be evaluated, the run continues.
   std::optional<double> zone_mm;
+  if (!geometry_.surface->is_round()) return {};
   if (feature_.type == record::Shape::kCircle) {
     const auto frame = fit::across(expected_axis());
     std::vector<Eigen::Vector2d> section;

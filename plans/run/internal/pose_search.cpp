@@ -160,11 +160,16 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   return finish(session, feature);
 }
 
-/// Measures one cloud in the start pose: a circle, or the cloud that is later turned in software.
+/// A surface about the part axis: its section shows f, and a few touches locate the part.
+bool is_round(record::Shape shape) {
+  return shape == record::Shape::kCylinder || shape == record::Shape::kCircle;
+}
+
+/// Measures one cloud in the start pose: no search, or a cloud that is later turned in software.
 core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
   const auto cloud = session.measure(start_pose(session, feature));
   if (!cloud) return core::fail(cloud.error());
-  session.show(f_of(*cloud, false));
+  if (is_round(feature.type)) session.show(f_of(*cloud, false));
   return finish(session, feature);
 }
 
@@ -191,8 +196,9 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const Strategy strategy = feature.pose_search.strategy;
   core::Pose pose = start_pose(session, feature);
-  // A part that needs several poses shows too little in one of them to be located.
-  if (session.must_locate() && strategy != Strategy::kMerged) {
+  // A part that needs several poses shows too little in one of them to be located; a plane, cone or
+  // sphere shows no place of the part alone. Their approach is longer instead.
+  if (session.must_locate() && strategy != Strategy::kMerged && is_round(feature.type)) {
     const auto axis = session.locate(pose);
     if (!axis) return core::fail(axis.error());
     const core::Pose level = session.levelling(axis->direction);
@@ -203,8 +209,9 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
     const bool guides = feature.type == record::Shape::kCylinder && strategy == Strategy::kGuided;
     if (guides && within(session.limits(), level)) pose = level;
   }
-  if (feature.type == record::Shape::kCircle) return single(session, feature);
+  if (feature.type != record::Shape::kCylinder) return single(session, feature);
   switch (strategy) {
+    case Strategy::kStartPose:
     case Strategy::kVirtual:
       return single(session, feature);
     case Strategy::kMerged:

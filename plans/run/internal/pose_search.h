@@ -58,8 +58,9 @@ class PoseSession {
 
 /// Runs the pose search of a feature: `guided`, `refined`, `as-published` or `virtual` (DESIGN: the
 /// result is always the minimum zone of the final cloud, never the least f found during the
-/// search). A circle is located, then measured in its start pose. `merged` is measured in each of
-/// its poses without locating: its approach is longer instead.
+/// search). A circle, and the strategy `start-pose`, is located, then measured in its start pose; a
+/// plane, cone or sphere the same without locating. `merged` is measured in each of its poses
+/// without locating. Where the part is not located, the approach is longer instead.
 [[nodiscard]] core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature);
 
 }  // namespace rondure::plans

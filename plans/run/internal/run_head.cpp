@@ -8,6 +8,7 @@
 #include "fit/poses/walk.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
+#include "plans/path/sampling.h"
 #include "plans/schema/internal/setting_list.h"
 #include "record/sha256.h"
 #include "record/tasks/characteristic.h"
@@ -39,8 +40,9 @@ record::ExpansionSettings expansion_of(const Plan& plan) {
   return out;
 }
 
-/// Converts a feature, without the digest of its points file, which is not read here.
-record::Feature feature_of(const FeaturePlan& plan) {
+/// Converts a feature, without the digest and the layers of its points file, which is not read
+/// here.
+record::Feature feature_of(const Plan& whole, const FeaturePlan& plan) {
   record::Feature out;
   out.id = plan.id;
   const AnalysisKind* kind = analysis_kind(plan.type);
@@ -65,15 +67,35 @@ record::Feature feature_of(const FeaturePlan& plan) {
     out.search_steps_deg =
         fit::halved_steps(plan.pose_search.steps_deg, plan.pose_search.min_step_deg);
   }
-  for (const record::CharacteristicTask& c : plan.characteristics) {
-    out.characteristics.push_back(characteristic_of(c));
+  out.characteristics = characteristics_of(whole, plan);
+  return out;
+}
+
+/// What the evaluation needs to know of a surface beside its points.
+record::SurfaceSettings surface_settings(const Plan& plan, const FeaturePlan& feature) {
+  record::SurfaceSettings out;
+  out.letter = feature.letter;
+  if (feature.source) out.clamping = clamping_of(plan, feature);
+  out.faces = feature.nominal.faces;
+  if (feature.type == record::Shape::kCone && feature.nominal.half_angle_deg != 0.0) {
+    out.half_angle_deg = feature.nominal.half_angle_deg;
   }
+  if (is_touched(feature)) {
+    if (const auto targets = sampling_targets(feature)) {
+      out.first_layer_mm = targets->front().z_mm;
+    }
+  }
+  out.exclude = feature.exclude;
   return out;
 }
 
 /// Sampling and temperature correction of a touched feature, as needed by the evaluation.
 std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& feature) {
   std::vector<record::Setting> out;
+  if (analysis_kind(feature.type) == nullptr) {
+    append(record::settings_of_task(surface_settings(plan, feature)), out);
+    std::erase_if(out, [](const record::Setting& s) { return !s.number && s.text.empty(); });
+  }
   if (!is_touched(feature) || !plan.machine) return out;
   if (feature.sampling.method == record::SamplingMethod::kScan) {
     append(record::settings_of_task(record::SamplingSettings{feature.sampling.method}), out);
@@ -151,7 +173,7 @@ record::RunRecord run_head(const Plan& plan, const RunOptions& options, std::uin
   out.artefact = artefact_of(plan);
   out.settings = settings_of(plan);
   for (const FeaturePlan& feature : plan.features) {
-    record::Feature& asked = out.features.emplace_back(feature_of(feature));
+    record::Feature& asked = out.features.emplace_back(feature_of(plan, feature));
     for (record::Setting& setting : settings_of(plan, feature)) {
       asked.settings.push_back(std::move(setting));
     }

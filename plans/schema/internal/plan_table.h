@@ -290,7 +290,8 @@ void describe(Visitor& v, NominalPlan& p) {
             .at_most = 1000.0,
             .code = core::Code::kUnits,
             .hint = "that suggests metres or micrometres, give the diameter in mm",
-            .meaning = "Diameter on the drawing. Needed unless the points come from a file."});
+            .meaning = "Diameter on the drawing, of a cone at from_mm. Needed unless the points "
+                       "come from a file; the limits of a diameter are deviations from it."});
   v.number(
       "from_mm", p.from_mm,
       {.at_least = -kMaxCoordinate_mm,
@@ -298,6 +299,17 @@ void describe(Visitor& v, NominalPlan& p) {
        .meaning =
            "Lower end of the surface, part z. A circle is touched in the middle of its surface."});
   v.number("to_mm", p.to_mm, within(kMaxCoordinate_mm, "Upper end of the surface, part z."));
+  v.number("half_angle_deg", p.half_angle_deg,
+           within(85.0, "Of a cone: half of its angle; > 0: it opens along part z."));
+  v.number("z_mm", p.z_mm, within(kMaxCoordinate_mm, "Of a plane: its place, part z."));
+  v.text("faces", p.faces,
+         {.meaning = "Of a plane: the side to which it faces, out of the material; up is along "
+                     "part z. Needed where it is touched, is a datum or has a run-out."});
+  const auto edge = [](std::string_view meaning) { return range(0.0, 1000.0, meaning); };
+  v.number("from_diameter_mm", p.from_diameter_mm, edge("Of a plane: its inner edge."));
+  v.number("to_diameter_mm", p.to_diameter_mm, edge("Of a plane: its outer edge."));
+  v.numbers("center_mm", p.center_mm,
+            within(kMaxCoordinate_mm, "Of a sphere: its centre, part frame."));
 }
 
 template <class Visitor>
@@ -393,8 +405,9 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("file", p.file,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z; for a spindle, of "
-                     "readings (docs/spindle.md). Relative to the plan."});
+          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z, beside them "
+                     "layer (whole numbers from 0, the lowest) and feature (a name); for a "
+                     "spindle, of readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -405,6 +418,12 @@ void describe(Visitor& v, SourcePlan& p) {
   v.list("columns", p.columns,
          {.meaning = "Columns that the file of a spindle names otherwise; with this list columns "
                      "that nobody asks for are passed over."});
+  v.text("feature", p.feature,
+         {.meaning = "Takes only the rows whose column feature says this. All features of a file "
+                     "were measured in one clamping."});
+  v.text("clamping", p.clamping,
+         {.meaning = "Name of the clamping in which the points were measured, in one coordinate "
+                     "system. A datum in another file needs the same name in both."});
 }
 
 template <class Visitor>
@@ -420,6 +439,9 @@ void describe(Visitor& v, FeaturePlan& p) {
                      "crank pins in follow grinding, and what of their error follows the axes; "
                      "rotary_axes: calibration of the fixture with balls that it carries."});
   v.text("side", p.side, {.meaning = "outside: a shaft; inside: a bore."});
+  v.text("letter", p.letter,
+         {.meaning = "Datum letter on the drawing, e.g. A, unique in the plan; up to 3 letters. "
+                     "Left out: the id names the feature where it is a datum."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
@@ -430,6 +452,12 @@ void describe(Visitor& v, FeaturePlan& p) {
            {.meaning = "Balls, stations and poses of the type rotary_axes."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
+  v.list("exclude", p.exclude,
+         {.meaning = "Windows that are left out of the surface: a keyway, an oil hole."});
+  v.object("defaults", p.defaults,
+           {.meaning = "For the characteristics of this feature that do not give these keys."});
+  v.object("decision_rule", p.decision_rule,
+           {.meaning = "Rule of this feature, as a whole in place of that of the plan."});
   v.list("characteristics", p.characteristics,
          {.meaning = "What the drawing asks for, and what else is to be reported."});
 }
@@ -467,6 +495,9 @@ void describe(Visitor& v, Plan& p) {
                        "files and series only where this object stands."});
   v.list("features", p.features,
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
+  v.object("defaults", p.defaults,
+           {.meaning = "For the characteristics of all features that do not give these keys, and "
+                       "whose feature does not."});
   v.object("decision_rule", p.decision_rule,
            {.meaning = "How a value and its tolerance make a verdict."});
   v.object("uncertainty", p.uncertainty,

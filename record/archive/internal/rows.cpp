@@ -1,5 +1,6 @@
 #include "record/archive/internal/rows.h"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string_view>
@@ -38,13 +39,34 @@ std::optional<std::int64_t> insert_head(soci::session& sql, const ArchiveHead& h
   return id;
 }
 
-constexpr std::string_view kInsertResult =
-    "insert into rondure_result values (:run, :number, :time_s, :part_key, :characteristic_key, "
-    ":feature, :characteristic, :symbol, :reference, :filter, :sampling, :value, :upper_limit, "
-    ":unit, :verdict, :certificate)";
+constexpr int kWithLowerLimits = 2;  ///< Version of the tables.
 
-void insert_results(soci::session& sql, const ArchiveRun& run, std::int64_t id,
-                    std::int64_t time_s) {
+/// Gives tables of version 1 the column of lower limits, inside the transaction of the run that
+/// needs it.
+void make_lower_limits(soci::session& sql, const Dialect& dialect) {
+  if (!dialect.lock.empty()) {
+    int ignored = 0;
+    sql << std::string(dialect.lock), into(ignored);
+  }
+  if (archive_version(sql) >= kWithLowerLimits) return;
+  sql << "alter table rondure_result add column lower_limit double precision";
+  sql << fmt::format("update rondure_archive set version = {}", kWithLowerLimits);
+}
+
+/// Columns are named: tables of version 1 may get another one at any time. {}: the lower limit.
+constexpr std::string_view kInsertResult =
+    "insert into rondure_result (run, number, time_s, part_key, characteristic_key, feature, "
+    "characteristic, symbol, reference, filter, sampling, value, upper_limit, unit, verdict, "
+    "certificate{}) values (:run, :number, :time_s, :part_key, :characteristic_key, :feature, "
+    ":characteristic, :symbol, :reference, :filter, :sampling, :value, :upper_limit, :unit, "
+    ":verdict, :certificate{})";
+
+void insert_results(soci::session& sql, const Dialect& dialect, const ArchiveRun& run,
+                    std::int64_t id, std::int64_t time_s) {
+  const bool has_lower =
+      std::any_of(run.results.begin(), run.results.end(),
+                  [](const ArchiveResult& result) { return result.lower_limit.has_value(); });
+  if (has_lower && archive_version(sql) < kWithLowerLimits) make_lower_limits(sql, dialect);
   const std::int64_t part_key = key_of(run.head.part_id);
   std::int64_t characteristic_key = 0;
   int number = 0;
@@ -53,11 +75,16 @@ void insert_results(soci::session& sql, const ArchiveRun& run, std::int64_t id,
   double limit = 0.0;
   soci::indicator value_given = soci::i_ok;
   soci::indicator limit_given = soci::i_ok;
-  soci::statement insert =
-      (sql.prepare << std::string(kInsertResult), use(id), use(number), use(time_s), use(part_key),
-       use(characteristic_key), use(r.feature), use(r.characteristic), use(r.symbol),
-       use(r.reference), use(r.filter), use(r.sampling), use(value, value_given),
-       use(limit, limit_given), use(r.unit), use(r.verdict), use(r.certificate));
+  double lower = 0.0;
+  soci::indicator lower_given = soci::i_ok;
+  auto prepared = sql.prepare << fmt::format(kInsertResult, has_lower ? ", lower_limit" : "",
+                                             has_lower ? ", :lower_limit" : "");
+  prepared, use(id), use(number), use(time_s), use(part_key), use(characteristic_key),
+      use(r.feature), use(r.characteristic), use(r.symbol), use(r.reference), use(r.filter),
+      use(r.sampling), use(value, value_given), use(limit, limit_given), use(r.unit),
+      use(r.verdict), use(r.certificate);
+  if (has_lower) prepared, use(lower, lower_given);
+  soci::statement insert(prepared);
   for (const ArchiveResult& result : run.results) {
     r = result;
     characteristic_key = key_of(r.characteristic);
@@ -65,19 +92,26 @@ void insert_results(soci::session& sql, const ArchiveRun& run, std::int64_t id,
     value_given = indicator_of(r.value);
     limit = r.upper_limit.value_or(0.0);
     limit_given = indicator_of(r.upper_limit);
+    lower = r.lower_limit.value_or(0.0);
+    lower_given = indicator_of(r.lower_limit);
     insert.execute(true);
     ++number;
   }
 }
 
-/// All columns of a result and of its run, in the order of Row.
+/// All columns of a result and of its run, in the order of Row; {}: the lower limit.
 constexpr std::string_view kSelect =
     "select n.journal_sha256, n.run_id, n.started_utc, n.part_id, n.part_name, n.serial, "
     "n.operator_name, n.machine, n.fixture, n.simulated, n.plan_name, n.plan_revision, "
     "n.plan_sha256, n.version, r.feature, r.characteristic, r.symbol, r.reference, r.filter, "
-    "r.sampling, r.value, r.upper_limit, r.unit, r.verdict, r.certificate, r.time_s, r.run, "
+    "r.sampling, r.value, r.upper_limit, {}, r.unit, r.verdict, r.certificate, r.time_s, r.run, "
     "r.number, cast(r.time_s as text), cast(r.number as text) from rondure_result r join "
     "rondure_run n on n.id = r.run";
+
+std::string select_text(soci::session& sql) {
+  const bool lower = archive_version(sql) >= kWithLowerLimits;
+  return fmt::format(kSelect, lower ? "r.lower_limit" : "cast(null as double precision)");
+}
 
 /// The variables that a fetch writes to.
 struct Row {
@@ -85,8 +119,10 @@ struct Row {
   int simulated = 0;
   double value = 0.0;
   double limit = 0.0;
+  double lower = 0.0;
   soci::indicator value_given = soci::i_null;
   soci::indicator limit_given = soci::i_null;
+  soci::indicator lower_given = soci::i_null;
   std::string time_text;
   std::string number_text;
 
@@ -105,6 +141,7 @@ struct Row {
     }
     select.exchange(into(value, value_given));
     select.exchange(into(limit, limit_given));
+    select.exchange(into(lower, lower_given));
     for (std::string* text : {&r.unit, &r.verdict, &r.certificate}) select.exchange(into(*text));
     select.exchange(into(out.time_s));
     select.exchange(into(out.run));
@@ -124,7 +161,8 @@ struct Row {
     out.head.simulated = simulated != 0;
     out.result.value = value_given == soci::i_ok ? std::optional(value) : std::nullopt;
     out.result.upper_limit = limit_given == soci::i_ok ? std::optional(limit) : std::nullopt;
-    for (const auto& number : {out.result.value, out.result.upper_limit}) {
+    out.result.lower_limit = lower_given == soci::i_ok ? std::optional(lower) : std::nullopt;
+    for (const auto& number : {out.result.value, out.result.upper_limit, out.result.lower_limit}) {
       if (number && !core::is_measurable(*number)) {
         throw std::runtime_error(
             fmt::format("result {} of run {} has a value or limit beyond {:g} {}: its row was "
@@ -205,15 +243,23 @@ class Conditions {
 
 }  // namespace
 
-bool insert_run(soci::session& sql, const ArchiveRun& run, std::int64_t time_s) {
+int archive_version(soci::session& sql) {
+  int version = -1;
+  sql << "select version from rondure_archive", into(version);
+  return version;
+}
+
+bool insert_run(soci::session& sql, const Dialect& dialect, const ArchiveRun& run,
+                std::int64_t time_s) {
   const auto id = insert_head(sql, run.head, time_s);
   if (!id) return false;
-  insert_results(sql, run, *id, time_s);
+  insert_results(sql, dialect, run, *id, time_s);
   return true;
 }
 
 std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilter& filter,
                                           std::size_t count, const ArchivedResult* before) {
+  const std::string columns = select_text(sql);
   Conditions conditions(filter, before);
   Row row;
   soci::statement select(sql);
@@ -221,7 +267,7 @@ std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilte
   const std::string where = conditions.bind(select);
   select.alloc();
   select.prepare(fmt::format("{}{} order by r.time_s desc, r.run desc, r.number desc limit {}",
-                             kSelect, where, count));
+                             columns, where, count));
   select.define_and_bind();
   std::vector<ArchivedResult> out;
   for (bool more = select.execute(true); more; more = select.fetch()) {
@@ -232,12 +278,13 @@ std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilte
 }
 
 std::optional<ArchiveRun> select_run(soci::session& sql, const std::string& journal_sha256) {
+  const std::string columns = select_text(sql);
   Row row;
   soci::statement select(sql);
   row.bind(select);
   select.exchange(use(journal_sha256, "journal"));
   select.alloc();
-  select.prepare(fmt::format("{} where n.journal_sha256 = :journal order by r.number", kSelect));
+  select.prepare(fmt::format("{} where n.journal_sha256 = :journal order by r.number", columns));
   select.define_and_bind();
   std::optional<ArchiveRun> run;
   for (bool more = select.execute(true); more; more = select.fetch()) {

@@ -52,6 +52,7 @@ constexpr std::string_view kResult = R"(create table rondure_result (
   unit text not null,
   verdict text not null,
   certificate text not null,
+  lower_limit double precision,
   primary key (run, number)
 ))";
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
+#include "record/archive/internal/rows.h"
 #include "record/archive/internal/server_url.h"
 #include "record/files.h"
 #include "record/internal/database.h"
@@ -166,9 +167,8 @@ core::Result<void> check_tables(ArchiveSession& session, Archive::Access access)
     }
     if (auto made = write_in_one(session, [&] { make_tables(session); }); !made) return made;
   }
-  int version = -1;
-  session.sql << "select version from rondure_archive", soci::into(version);
-  if (version == kArchiveVersion) return {};
+  const int version = archive_version(session.sql);
+  if (version >= 1 && version <= kArchiveVersion) return {};
   return not_ours(session.place,
                   fmt::format("is an archive of version {}, this program knows version {}; use the "
                               "program that made it, or another archive",

@@ -148,24 +148,29 @@ void read_search_steps(soci::session& sql, RunRecord& record) {
   }
 }
 
-void read_characteristics(soci::session& sql, RunRecord& record) {
+void read_characteristics(soci::session& sql, RunRecord& record, std::int64_t version) {
   Characteristic row;
   int feature = 0;
   std::string form;
   std::string reference;
   Measured tolerance_mm;
-  soci::statement rows =
-      (sql.prepare << "select feature, name, form, reference, tolerance_mm, drawing_zone "
-                      "from characteristic order by id",
-       into(feature), into(row.id), into(form), into(reference),
-       into(tolerance_mm.value, tolerance_mm.given), into(row.drawing_zone));
+  Measured lower_mm;
+  const std::string query = fmt::format(
+      "select feature, name, form, reference, tolerance_mm, drawing_zone, {} from characteristic "
+      "order by id",
+      version < kFirstIndicationVersion ? "null" : "lower_mm");
+  soci::statement rows = (sql.prepare << query, into(feature), into(row.id), into(form),
+                          into(reference), into(tolerance_mm.value, tolerance_mm.given),
+                          into(row.drawing_zone), into(lower_mm.value, lower_mm.given));
   rows.execute();
   while (rows.fetch()) {
     Feature& owner = feature_at(record, feature, "characteristic");
     row.form = named<Form>("characteristic.form", form);
     row.reference = named<Reference>("characteristic.reference", reference);
     row.tolerance_mm = tolerance_mm.get();
+    row.lower_mm = lower_mm.get();
     require_number("characteristic.tolerance_mm", row.tolerance_mm.value_or(0.0));
+    require_number("characteristic.lower_mm", row.lower_mm.value_or(0.0));
     owner.characteristics.push_back(row);
   }
 }
@@ -330,7 +335,7 @@ ReadJournal read_tables(soci::session& sql) {
   read_artefact(sql, journal.record);
   read_features(sql, journal.record);
   read_search_steps(sql, journal.record);
-  read_characteristics(sql, journal.record);
+  read_characteristics(sql, journal.record, journal.version);
   read_poses(sql, journal.record);
   read_touches(sql, journal.record, journal.version);
   read_decisions(sql, journal.record, journal.version);

@@ -45,11 +45,14 @@ void insert_characteristic(soci::session& sql, int feature, const Characteristic
   const std::string reference(name_of(c.reference));
   Measured tolerance_mm;
   tolerance_mm.take(c.tolerance_mm, "tolerance_mm of " + c.id);
-  sql << "insert into characteristic (feature, name, form, reference, tolerance_mm, drawing_zone) "
-         "values (:feature, :name, :form, :reference, :tolerance, :zone)",
+  Measured lower_mm;
+  lower_mm.take(c.lower_mm, "lower_mm of " + c.id);
+  sql << "insert into characteristic (feature, name, form, reference, tolerance_mm, drawing_zone, "
+         "lower_mm) values (:feature, :name, :form, :reference, :tolerance, :zone, :lower)",
       use(feature), use(c.id), use(form), use(reference),
-      use(tolerance_mm.value, tolerance_mm.given), use(c.drawing_zone);
-  insert_harmonic_limits(sql, c.harmonic_limits);
+      use(tolerance_mm.value, tolerance_mm.given), use(c.drawing_zone),
+      use(lower_mm.value, lower_mm.given);
+  insert_keys_of_characteristic(sql, c);
 }
 
 void insert_feature(soci::session& sql, int id, const Feature& f) {

@@ -32,6 +32,8 @@ const std::vector<Table>& known_tables() {
   static const std::string kTouch =
       "purpose text, pose integer, layer integer, point integer, repeat integer, tip_x_mm any, "
       "tip_y_mm any, tip_z_mm any, approach_x any, approach_y any, approach_z any";
+  static const std::string kCharacteristic =
+      "feature integer, name text, form text, reference text, tolerance_mm any?, drawing_zone text";
   static const std::vector<Table> kTables = {
       table("header",
             "run_id text, version text, processor text, started_utc text, plan_file text, "
@@ -49,9 +51,10 @@ const std::vector<Table>& known_tables() {
             "points_per_layer integer, strategy text, points_file text, points_sha256 text, "
             "tip_radius_mm any?"),
       table("search_step", "feature integer, step_deg any"),
-      table("characteristic",
-            "feature integer, name text, form text, reference text, tolerance_mm any?, "
-            "drawing_zone text"),
+      table("characteristic", kCharacteristic, 1, kFirstIndicationVersion - 1),
+      table("characteristic", kCharacteristic + ", lower_mm any?", kFirstIndicationVersion),
+      table("characteristic_setting", "characteristic integer, name text, number any?, text text",
+            kFirstIndicationVersion),
       table("pose",
             "feature integer, commanded_alpha_rad any, commanded_beta_rad any, "
             "reached_alpha_rad any, reached_beta_rad any, final_cloud integer, time_s any"),

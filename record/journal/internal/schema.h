@@ -13,15 +13,18 @@ namespace rondure::record {
 /// "Rond" in SQLite's header: this database is a journal of Rondure.
 inline constexpr std::int64_t kApplicationId = 0x526f6e64;
 /// Version of the tables below.
-inline constexpr std::int64_t kSchemaVersion = 6;
+inline constexpr std::int64_t kSchemaVersion = 7;
 /// The first version with settings of features, and with settings of the whole run.
 inline constexpr std::int64_t kFirstSettingVersion = 3;
 inline constexpr std::int64_t kFirstRunSettingVersion = 4;
 /// The first version in which a touch may have no temperature.
 inline constexpr std::int64_t kFirstUnmeasuredVersion = 5;
-/// The first version whose decisions are codes with arguments. A run of the previous version, which
-/// has no other difference, is resumed in that version.
+/// The first version whose decisions are codes with arguments.
 inline constexpr std::int64_t kFirstMessageVersion = 6;
+/// The first version with lower limits and settings of characteristics.
+inline constexpr std::int64_t kFirstIndicationVersion = 7;
+/// Runs of this version and later ones are resumed, each in its own version: what is written after
+/// the first touch differs in the decisions alone.
 inline constexpr std::int64_t kOldestResumedVersion = 5;
 /// The first version with a chain.
 inline constexpr std::int64_t kFirstChainedVersion = 2;

@@ -14,6 +14,7 @@
 #include "record/journal/internal/canonical.h"
 #include "record/journal/internal/schema.h"
 #include "record/journal/internal/values.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::record {
 namespace {
@@ -131,6 +132,39 @@ void read_harmonic_limits(soci::session& sql, RunRecord& record) {
     }
     require_number("harmonic_limit.amplitude_mm", row.amplitude_mm);
     found->second->harmonic_limits.push_back(row);
+  }
+}
+
+/// Reads what drawings indicate; of an earlier version it stays at its defaults, the meaning that
+/// its characteristics had.
+void read_indications(soci::session& sql, RunRecord& record) {
+  std::map<std::int64_t, std::vector<Setting>> settings;
+  const auto owners = characteristics_by_id(sql, record);
+  std::int64_t owner = 0;
+  Setting row;
+  Measured number;
+  soci::statement rows =
+      (sql.prepare << "select characteristic, name, number, text from characteristic_setting order "
+                      "by id",
+       into(owner), into(row.name), into(number.value, number.given), into(row.text));
+  rows.execute();
+  while (rows.fetch()) {
+    if (!owners.contains(owner)) {
+      throw Contradiction(fmt::format(
+          "table characteristic_setting names characteristic {}, which is missing", owner));
+    }
+    row.number = number.get();
+    require_number("characteristic_setting.number", row.number.value_or(0.0));
+    settings[owner].push_back(row);
+  }
+  for (const auto& [id, own] : settings) {
+    Characteristic& characteristic = *owners.at(id);
+    const auto indication = task_of<Indication>(own);
+    if (!indication) {
+      throw Contradiction(fmt::format("characteristic {}: {}", quoted_text(characteristic.id),
+                                      indication.error().what));
+    }
+    characteristic.indication = *indication;
   }
 }
 
@@ -254,9 +288,16 @@ void insert_settings(soci::session& sql, int feature, std::span<const Setting> s
   }
 }
 
-void insert_harmonic_limits(soci::session& sql, std::span<const HarmonicLimit> limits) {
+void insert_keys_of_characteristic(soci::session& sql, const Characteristic& c) {
   const std::int64_t characteristic = last_row(sql);
-  for (const HarmonicLimit& limit : limits) {
+  for (const Setting& setting : settings_of_task(c.indication)) {
+    Measured number;
+    number.take(setting.number, setting.name);
+    sql << "insert into characteristic_setting (characteristic, name, number, text) values "
+           "(:owner, :name, :number, :text)",
+        use(characteristic), use(setting.name), use(number.value, number.given), use(setting.text);
+  }
+  for (const HarmonicLimit& limit : c.harmonic_limits) {
     sql << "insert into harmonic_limit (characteristic, first_order, last_order, amplitude_mm) "
            "values (:owner, :first, :last, :amplitude)",
         use(characteristic), use(limit.first), use(limit.last), use(limit.amplitude_mm);
@@ -277,6 +318,7 @@ void read_series_tables(soci::session& sql, RunRecord& record, std::int64_t vers
   if (version < kFirstSettingVersion) return;
   read_settings(sql, record, version);
   read_harmonic_limits(sql, record);
+  if (version >= kFirstIndicationVersion) read_indications(sql, record);
   read_series(sql, record);
   read_truth_values(sql, record);
 }

@@ -22,8 +22,8 @@ inline constexpr int kWholeRun = -1;
 
 /// Writes the settings of a feature, or of the whole run.
 void insert_settings(soci::session& sql, int feature, std::span<const Setting> settings);
-/// Writes the mask of the characteristic that was inserted last.
-void insert_harmonic_limits(soci::session& sql, std::span<const HarmonicLimit> limits);
+/// Writes the indication and the mask of the characteristic whose row was inserted last.
+void insert_keys_of_characteristic(soci::session& sql, const Characteristic& characteristic);
 
 /// Writes series and numbers of hidden truth, and links their rows.
 void insert_series(soci::session& sql, Chain& chain, std::span<const Series> series,

@@ -2,11 +2,13 @@
 
 #include <optional>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
+#include "evaluation/results/finding.h"
 
 namespace rondure::evaluation {
 struct RotaryResult;
@@ -20,6 +22,12 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline double in_um(double length_mm) { return length_mm * 1000.0; }
 [[nodiscard]] inline double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
 
+[[nodiscard]] inline Json vector_json(const Eigen::Vector3d& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+[[nodiscard]] inline Json vector_json(const Eigen::Vector2d& v) {
+  return Json::array({v.x(), v.y()});
+}
 [[nodiscard]] inline Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
@@ -33,6 +41,9 @@ using Json = nlohmann::ordered_json;
   return error ? error_json(*error) : Json(nullptr);
 }
 [[nodiscard]] Json characteristic_json(const evaluation::CharacteristicResult& result);
+/// How a value came about.
+/// @param unit  Of the value: of all its lengths but places.
+[[nodiscard]] Json finding_json(const evaluation::Finding& finding, core::LengthUnit unit);
 /// JSON of a feature whose shape is an analysis.
 [[nodiscard]] Json analysis_json(const evaluation::FeatureResult& feature);
 [[nodiscard]] Json rotary_json(const evaluation::RotaryResult& facts);

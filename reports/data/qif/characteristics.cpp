@@ -1,9 +1,14 @@
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
 
@@ -15,20 +20,63 @@ using core::decimal;
 using record::Form;
 using record::Reference;
 
-/// The family of elements for a characteristic. Form characteristics of QIF must have a tolerance;
-/// reported-only values, and those that QIF has no word for, are user-defined lengths.
-enum class Family { kCylindricity, kCircularity, kUserDefined };
+/// The family of elements for a characteristic. Geometric characteristics of QIF must have a
+/// tolerance; reported-only values, and those that QIF has no word for, are user-defined lengths.
+enum class Family {
+  kUserDefined,
+  kCylindricity,
+  kCircularity,
+  kDiameter,
+  kStraightness,
+  kFlatness,
+  kCoaxiality,
+  kConcentricity,
+  kParallelism,
+  kPerpendicularity,
+  kAngularity,
+  kCircularRunout,
+  kTotalRunout
+};
 
 Family family_of(const record::Characteristic& asked) {
-  if (!asked.tolerance_mm) return Family::kUserDefined;
-  if (asked.form == Form::kCylindricity) return Family::kCylindricity;
-  return asked.form == Form::kRoundness ? Family::kCircularity : Family::kUserDefined;
+  using Indication = record::Indication;
+  if (evaluation::unit_of(asked) == core::LengthUnit::kMm) return Family::kDiameter;
+  if (!asked.tolerance_mm || asked.lower_mm) return Family::kUserDefined;
+  if (asked.indication.parameter != Indication::Parameter::kTotal) return Family::kUserDefined;
+  switch (asked.form) {
+    case Form::kCylindricity:
+      return Family::kCylindricity;
+    case Form::kRoundness:
+      return Family::kCircularity;
+    case Form::kStraightness:
+      return Family::kStraightness;
+    case Form::kFlatness:
+      return Family::kFlatness;
+    case Form::kCoaxiality:
+      return Family::kCoaxiality;
+    case Form::kConcentricity:
+      return Family::kConcentricity;
+    case Form::kParallelism:
+      return Family::kParallelism;
+    case Form::kPerpendicularity:
+      return Family::kPerpendicularity;
+    case Form::kAngularity:
+      return Family::kAngularity;
+    case Form::kRunOut:  // that of a wheel has no datum, which QIF's has
+      return asked.indication.datum.empty() ? Family::kUserDefined : Family::kCircularRunout;
+    case Form::kTotalRunOut:
+      return Family::kTotalRunout;
+    default:
+      return Family::kUserDefined;
+  }
 }
 
 /// "CylindricityCharacteristicItem", ...
 std::string element(Family family, const char* kind) {
-  constexpr std::array<const char*, 3> kNames = {"Cylindricity", "Circularity",
-                                                 "UserDefinedLinear"};
+  constexpr std::array<const char*, 13> kNames = {
+      "UserDefinedLinear", "Cylindricity",   "Circularity",   "Diameter",    "Straightness",
+      "Flatness",          "Coaxiality",     "Concentricity", "Parallelism", "Perpendicularity",
+      "Angularity",        "CircularRunout", "TotalRunout"};
   return fmt::format("{}Characteristic{}", kNames[static_cast<std::size_t>(family)], kind);
 }
 
@@ -52,6 +100,118 @@ struct PlacedResult {
   int item = 0;
 };
 
+/// The limits of a length.
+void add_length_limits(pugi::xml_node node, const record::Characteristic& asked) {
+  if (!asked.toleranced()) {
+    add(node, "NonTolerance", "MEASURED");
+    return;
+  }
+  const pugi::xml_node tolerance = add(node, "Tolerance");
+  if (asked.tolerance_mm) add(tolerance, "MaxValue", decimal(*asked.tolerance_mm));
+  if (asked.lower_mm) add(tolerance, "MinValue", decimal(*asked.lower_mm));
+  add(tolerance, "DefinedAsLimit", "true");
+}
+
+/// Size operator and section of a diameter.
+void add_size(pugi::xml_node node, const record::Indication& indication) {
+  using Indication = record::Indication;
+  const bool envelope = indication.requirement == Indication::Requirement::kEnvelope;
+  if (envelope) add(node, "EnvelopeRequirement", "true");
+  const pugi::xml_node modifiers = add(node, "DimensionModifiers");
+  if (!envelope) add(modifiers, "DeterminationModifier", record::name_of(indication.size));
+  if (indication.section != Indication::Section::kAll) {
+    add(modifiers, "SectionModifier", record::name_of(indication.section));
+  }
+  if (!modifiers.first_child()) node.remove_child(modifiers);
+}
+
+/// Definition of a datum feature, once for each label.
+int datum_definition(QifDraft& draft, const std::string& label, std::size_t feature) {
+  const auto known = draft.datums.find(label);
+  if (known != draft.datums.end()) return known->second.definition;
+  pugi::xml_node node = add_numbered(draft, draft.lists.datum_definitions, "DatumDefinition");
+  add(node, "DatumLabel", label);
+  return draft.datums.emplace(label, QifDatum{id_of(node), feature}).first->second.definition;
+}
+
+void add_simple_datum(pugi::xml_node parent, int definition) {
+  const pugi::xml_node datum = add(parent, "SimpleDatum");
+  add(datum, "DatumDefinitionId", definition);
+  add(datum, "MaterialModifier", "NONE");
+  add(datum, "ReferencedComponent", "ACTUAL");
+}
+
+/// The datum system of a characteristic; none before its datums are found.
+std::optional<int> datum_frame(QifDraft& draft, const evaluation::CharacteristicResult& result) {
+  if (!result.finding || result.finding->datums.empty()) return {};
+  std::string system;
+  for (const evaluation::DatumResult& datum : result.finding->datums) {
+    system += (system.empty() ? "" : ", ") + datum.name;
+  }
+  const auto known = draft.frames.find(system);
+  if (known != draft.frames.end()) return known->second;
+  constexpr std::array<const char*, 3> kPrecedence = {"PRIMARY", "SECONDARY", "TERTIARY"};
+  pugi::xml_node frame = add_numbered(draft, draft.lists.datum_frames, "DatumReferenceFrame");
+  const pugi::xml_node datums = add_list(frame, "Datums");
+  for (std::size_t i = 0; i < result.finding->datums.size() && i < kPrecedence.size(); ++i) {
+    const evaluation::DatumResult& datum = result.finding->datums[i];
+    std::vector<int> definitions;
+    for (const std::size_t feature : datum.features) {
+      definitions.push_back(datum_definition(draft, fmt::format("F{}", feature + 1), feature));
+    }
+    const pugi::xml_node one = add(datums, "Datum");
+    if (definitions.size() == 1) {
+      add_simple_datum(one, definitions.front());
+    } else {
+      const pugi::xml_node compound = add_list(one, "CompoundDatum");
+      for (std::size_t k = 0; k < definitions.size(); ++k) {
+        const pugi::xml_node part = add(compound, "Datum");
+        add_simple_datum(part, definitions[k]);
+        add(part, "SequenceNumber", static_cast<int>(k + 1));
+      }
+    }
+    add(add(one, "Precedence"), "PrecedenceEnum", kPrecedence[i]);
+  }
+  add(frame, "Name", system);
+  return draft.frames.emplace(system, id_of(frame)).first->second;
+}
+
+/// Whether the zone of a location or orientation is a cylinder.
+bool is_diametral(const PlacedResult& placed) {
+  const auto& finding = placed.result.finding;
+  return placed.family == Family::kCoaxiality || placed.family == Family::kConcentricity ||
+         (finding && !finding->judged.empty() &&
+          finding->judged.front().symbol.find("\u00d8") != std::string::npos);
+}
+
+/// Datum system and shape of the zone, in the order of the schema.
+void add_zone_definition(QifDraft& draft, const PlacedResult& placed, pugi::xml_node node) {
+  if (const auto frame = datum_frame(draft, placed.result)) {
+    add(node, "DatumReferenceFrameId", *frame);
+  }
+  const bool diametral = is_diametral(placed);
+  switch (placed.family) {
+    case Family::kStraightness: {
+      const bool line =
+          placed.result.characteristic.indication.of == record::Indication::Of::kMedianLine;
+      add(add(node, "ZoneShape"), line ? "DiametricalZone" : "NonDiametricalZone");
+      break;
+    }
+    case Family::kCoaxiality:
+    case Family::kConcentricity:
+      add(add(node, "ZoneShape"), "DiametricalZone");
+      break;
+    case Family::kParallelism:
+    case Family::kPerpendicularity:
+    case Family::kAngularity:
+      add(node, "MaterialCondition", "NONE");
+      add(add(node, "ZoneShape"), diametral ? "DiametricalZone" : "PlanarZone");
+      break;
+    default:
+      break;
+  }
+}
+
 void add_definition(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   pugi::xml_node node = add_numbered(draft, draft.lists.characteristic_definitions,
@@ -59,16 +219,14 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
   const int definition = id_of(node);
   add(node, "Name", asked.id);
   if (placed.family == Family::kUserDefined) {
-    if (asked.tolerance_mm) {
-      const pugi::xml_node tolerance = add(node, "Tolerance");
-      add(tolerance, "MaxValue", decimal(*asked.tolerance_mm));
-      add(tolerance, "DefinedAsLimit", "true");
-    } else {
-      add(node, "NonTolerance", "MEASURED");
-    }
+    add_length_limits(node, asked);
     add(node, "WhatToMeasure", symbol_words(asked));
+  } else if (placed.family == Family::kDiameter) {
+    add_size(node, asked.indication);
+    add_length_limits(node, asked);
   } else {
     add(node, "ToleranceValue", decimal(*asked.tolerance_mm));
+    add_zone_definition(draft, placed, node);
   }
 
   node =
@@ -77,6 +235,9 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
   add(node, "CharacteristicDefinitionId", definition);
   if (placed.places.whole) {
     add_references(node, "FeatureNominalIds", {placed.places.whole->nominal});
+  }
+  if (placed.family == Family::kAngularity && asked.indication.angle_deg) {
+    add(node, "Angle", decimal(*asked.indication.angle_deg));
   }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -6,6 +7,8 @@
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/measured_cloud.h"
 #include "evaluation/results/section.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 #include "reports/data/qif/internal/parts.h"
 
 namespace rondure::reports {
@@ -15,12 +18,12 @@ using core::decimal;
 
 using record::Reference;
 
-/// A cylinder or circle fitted to the points by one reference; radii of the surface where the tip
-/// is known.
+/// A cylinder, circle or plane fitted to the points by one reference; radii of the surface where
+/// the tip is known.
 struct Associated {
   Reference reference = Reference::kLeastSquares;
-  fit::Axis axis;  ///< For a circle: its centre and the normal of its plane.
-  double radius_mm = 0.0;
+  fit::Axis axis;          ///< For a circle or plane: a point of it and its normal.
+  double radius_mm = 0.0;  ///< Of a plane none.
   double deviation_mm = 0.0;
 };
 
@@ -41,6 +44,19 @@ std::vector<Associated> cylinders_of(const evaluation::FeatureResult& feature) {
   };
   add_one(Reference::kMinimumCircumscribed, feature.mc_cylinder);
   add_one(Reference::kMaximumInscribed, feature.mi_cylinder);
+  return out;
+}
+
+std::vector<Associated> planes_of(const evaluation::FeatureResult& feature) {
+  std::vector<Associated> out;
+  if (const auto& ls = feature.ls_plane) {
+    out.push_back(
+        {Reference::kLeastSquares, {ls->plane.point_mm, ls->plane.normal}, 0.0, ls->deviation_mm});
+  }
+  if (const auto& mz = feature.mz_plane) {
+    out.push_back(
+        {Reference::kMinimumZone, {mz->outer.point_mm, mz->outer.normal}, 0.0, mz->width_mm});
+  }
   return out;
 }
 
@@ -68,33 +84,52 @@ std::vector<Associated> circles_of(const evaluation::FeatureResult& feature,
   return out;
 }
 
-/// Location and normal of a circle, or the axis of a cylinder.
-void add_place(pugi::xml_node node, bool circle, const std::string& point,
-               const std::string& direction) {
-  const pugi::xml_node place = circle ? node : add(node, "Axis");
-  add(place, circle ? "Location" : "AxisPoint", point);
-  add(place, circle ? "Normal" : "Direction", direction);
+/// "CircleFeatureItem", ...
+std::string feature_element(record::Shape shape, std::string_view kind) {
+  const char* name = shape == record::Shape::kCircle   ? "Circle"
+                     : shape == record::Shape::kPlane  ? "Plane"
+                     : shape == record::Shape::kCone   ? "Cone"
+                     : shape == record::Shape::kSphere ? "Sphere"
+                                                       : "Cylinder";
+  return fmt::format("{}Feature{}", name, kind);
 }
 
-/// Definition, nominal and item of a cylinder, or of a circle at a height above the origin.
-QifShape add_shape(QifDraft& draft, const record::Feature& asked, bool circle, double height_mm,
-                   const std::string& name) {
+/// Location and normal of a circle or plane, centre of a sphere, or the axis of a cylinder or cone.
+void add_place(pugi::xml_node node, record::Shape shape, const std::string& point,
+               const std::string& direction) {
+  const bool axis = shape == record::Shape::kCylinder || shape == record::Shape::kCone;
+  const pugi::xml_node place = axis ? add(node, "Axis") : node;
+  add(place, axis ? "AxisPoint" : "Location", point);
+  if (shape == record::Shape::kSphere) return;
+  add(place, axis ? "Direction" : "Normal", direction);
+}
+
+/// Definition, nominal and item of a surface, or of a circle, at a height above the origin.
+QifShape add_shape(QifDraft& draft, const record::Feature& asked, record::Shape kind,
+                   double height_mm, const std::string& name) {
   QifShape shape;
-  shape.circle = circle;
-  const auto add_node = [&](pugi::xml_node list, std::string_view kind) {
-    return add_numbered(draft, list,
-                        fmt::format("{}Feature{}", circle ? "Circle" : "Cylinder", kind));
+  shape.shape = kind;
+  const auto surface = record::task_of<record::SurfaceSettings>(asked.settings);
+  const auto add_node = [&](pugi::xml_node list, std::string_view part) {
+    return add_numbered(draft, list, feature_element(kind, part));
   };
   pugi::xml_node node = add_node(draft.lists.feature_definitions, "Definition");
   const int definition = id_of(node);
-  add(node, "InternalExternal", asked.side == record::Side::kOutside ? "EXTERNAL" : "INTERNAL");
-  add(node, "Diameter", decimal(asked.nominal_diameter_mm));
+  if (kind != record::Shape::kPlane) {
+    add(node, "InternalExternal", asked.side == record::Side::kOutside ? "EXTERNAL" : "INTERNAL");
+    add(node, "Diameter", decimal(asked.nominal_diameter_mm));
+  }
+  if (kind == record::Shape::kCone) {
+    const std::optional<double> half = surface ? surface->half_angle_deg : std::nullopt;
+    add(node, "HalfAngle", decimal(std::abs(half.value_or(0.0))));
+  }
 
   node = add_node(draft.lists.feature_nominals, "Nominal");
   shape.nominal = id_of(node);
   add_attributes(node, {{"frame", "part: axis along z"}});
   add(node, "FeatureDefinitionId", definition);
-  add_place(node, circle, text_of({0.0, 0.0, height_mm}), "0 0 1");
+  const bool down = surface && surface->faces == record::Faces::kDown;
+  add_place(node, kind, text_of({0.0, 0.0, height_mm}), down ? "0 0 -1" : "0 0 1");
 
   node = add_node(draft.lists.feature_items, "Item");
   shape.item = id_of(node);
@@ -123,21 +158,20 @@ void add_point_list(pugi::xml_node parent, const PointRange& points) {
 
 void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
                      const PointRange& points) {
-  const pugi::xml_node node =
-      add_numbered(draft, draft.lists.measured_features,
-                   shape.circle ? "CircleFeatureMeasurement" : "CylinderFeatureMeasurement");
+  const pugi::xml_node node = add_numbered(draft, draft.lists.measured_features,
+                                           feature_element(shape.shape, "Measurement"));
   shape.measured[static_cast<std::size_t>(found.reference)] = id_of(node);
-  add_attributes(
-      node, {{"frame", draft.frame},
-             {"reference",
-              evaluation::reference_of(found.reference, shape.circle ? record::Shape::kCircle
-                                                                     : record::Shape::kCylinder)}});
+  add_attributes(node,
+                 {{"frame", draft.frame},
+                  {"reference", shape.shape == record::Shape::kPlane
+                                    ? std::string(record::name_of(found.reference))
+                                    : evaluation::reference_of(found.reference, shape.shape)}});
   add(node, "FeatureItemId", shape.item);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   add_point_list(node, points);
   add_algorithm(node, found.reference);
-  add_place(node, shape.circle, text_of(found.axis.point_mm), text_of(found.axis.direction));
-  add(node, "Diameter", decimal(2.0 * found.radius_mm));
+  add_place(node, shape.shape, text_of(found.axis.point_mm), text_of(found.axis.direction));
+  if (shape.shape != record::Shape::kPlane) add(node, "Diameter", decimal(2.0 * found.radius_mm));
   add(node, "Form", decimal(found.deviation_mm));
 }
 
@@ -219,7 +253,7 @@ QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& fea
   draft.frame = feature.merged ? "body, of several poses" : "machine, final pose";
   const bool circle = asked.shape == record::Shape::kCircle;
   const std::optional<int> set = add_points(draft, feature);
-  out.whole = add_shape(draft, asked, circle, 0.0, asked.id);
+  out.whole = add_shape(draft, asked, asked.shape, 0.0, asked.id);
   if (circle) {
     if (feature.layers.empty()) return out;
     for (const Associated& found : circles_of(feature, feature.layers.front())) {
@@ -227,11 +261,15 @@ QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& fea
     }
     return out;
   }
+  for (const Associated& found : planes_of(feature)) {
+    add_measurement(draft, *out.whole, found, {set, {}});
+  }
+  if (asked.shape != record::Shape::kCylinder) return out;
   for (const Associated& found : cylinders_of(feature)) {
     add_measurement(draft, *out.whole, found, {set, {}});
   }
   for (const evaluation::LayerResult& layer : feature.layers) {
-    QifShape section = add_shape(draft, asked, true, layer.height_mm,
+    QifShape section = add_shape(draft, asked, record::Shape::kCircle, layer.height_mm,
                                  fmt::format("{}, section {}", asked.id, layer.layer + 1));
     for (const Associated& found : circles_of(feature, layer)) {
       add_measurement(draft, section, found, point_range(set, layer.rows));

@@ -1,6 +1,8 @@
 #include "reports/data/qif/report.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -157,6 +159,8 @@ std::string write_qif(const record::RunRecord& record, const evaluation::Evaluat
   QifDraft draft;
   pugi::xml_node root = add_root(draft, record.header);
   const int formal_standard = add_definitions(draft, root, record.header);
+  draft.lists.datum_definitions = add_list(root, "DatumDefinitions");
+  draft.lists.datum_frames = add_list(root, "DatumReferenceFrames");
   add_resources(draft, root, record.header);
   add_part(draft, root, record.header);
   const pugi::xml_node all_results = add_lists(draft, root, formal_standard);
@@ -170,8 +174,18 @@ std::string write_qif(const record::RunRecord& record, const evaluation::Evaluat
   draft.lists.measured_characteristics = add_list(characteristics, "CharacteristicMeasurements");
   add(add(results, "InspectionStatus"), "InspectionStatusEnum",
       status_of(evaluation.verdict).of_part);
+  std::vector<std::optional<int>> nominals;
   for (const evaluation::FeatureResult& feature : evaluation.features) {
-    add_qif_characteristics(draft, add_qif_feature(draft, feature), feature);
+    const QifFeature places = add_qif_feature(draft, feature);
+    add_qif_characteristics(draft, places, feature);
+    nominals.push_back(places.whole ? std::optional(places.whole->nominal) : std::nullopt);
+  }
+  // A datum may be a feature after the first that refers to it.
+  for (const auto& [label, datum] : draft.datums) {
+    if (datum.feature >= nominals.size() || !nominals[datum.feature]) continue;
+    const pugi::xml_node node = draft.lists.datum_definitions.find_child_by_attribute(
+        "id", std::to_string(datum.definition).c_str());
+    add_references(node, "FeatureNominalIds", {*nominals[datum.feature]});
   }
   if (!draft.lists.measured_characteristics.first_child()) {  // these two must not be empty
     results.remove_child(characteristics);

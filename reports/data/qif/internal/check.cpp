@@ -40,7 +40,7 @@ std::vector<double> numbers_in(std::string_view text) {
 
 /// Required end of the name of a reference's target; empty: not a reference.
 std::string_view stem_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kStems = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kStems = {
       {{"FeatureDefinitionId", "FeatureDefinition"},
        {"FeatureNominalId", "FeatureNominal"},
        {"FeatureItemId", "FeatureItem"},
@@ -48,6 +48,8 @@ std::string_view stem_of(std::string_view name) {
        {"CharacteristicDefinitionId", "CharacteristicDefinition"},
        {"CharacteristicNominalId", "CharacteristicNominal"},
        {"CharacteristicItemId", "CharacteristicItem"},
+       {"DatumDefinitionId", "DatumDefinition"},
+       {"DatumReferenceFrameId", "DatumReferenceFrame"},
        {"PointSetId", "PointSet"},
        {"SoftwareId", "Software"},
        {"InspectionProgramExecutionSoftware", "Software"},

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,6 +45,8 @@ class QifIds {
 
 /// The lists of a document, created in the order of the schema and filled in any order.
 struct QifLists {
+  pugi::xml_node datum_definitions = {};
+  pugi::xml_node datum_frames = {};
   pugi::xml_node feature_definitions = {};
   pugi::xml_node feature_nominals = {};
   pugi::xml_node feature_items = {};
@@ -55,22 +58,30 @@ struct QifLists {
   pugi::xml_node measured_characteristics = {};
 };
 
+/// A datum feature of the document.
+struct QifDatum {
+  int definition = 0;
+  std::size_t feature = 0;  ///< Of the evaluation.
+};
+
 /// A document under construction.
 struct QifDraft {
   pugi::xml_document document = {};
   QifIds ids = {};
   QifLists lists = {};
   int software = 0;
-  std::optional<int> device = {};  ///< None where the points came from a file.
-  std::string frame = {};          ///< Frame of the points of the current feature.
+  std::optional<int> device = {};               ///< None where the points came from a file.
+  std::string frame = {};                       ///< Frame of the points of the current feature.
+  std::map<std::string, QifDatum> datums = {};  ///< By label.
+  std::map<std::string, int> frames = {};       ///< Datum reference frames, by "A-B, C".
 };
 
 /// References in the order of record::Reference.
 inline constexpr std::size_t kReferences = 4;
 
-/// A cylinder or circle of the document, and the fits to its points.
+/// A surface or circle of the document, and the fits to its points.
 struct QifShape {
-  bool circle = false;
+  record::Shape shape = record::Shape::kCylinder;
   int nominal = 0;
   int item = 0;
   std::array<std::optional<int>, kReferences> measured = {};

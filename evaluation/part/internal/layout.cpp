@@ -1,0 +1,484 @@
+#include "evaluation/part/internal/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/phrase.h"
+#include "core/statistics.h"
+#include "core/units.h"
+#include "evaluation/part/internal/sections.h"
+#include "evaluation/part/internal/windows.h"
+#include "evaluation/part/outliers.h"
+#include "evaluation/results/measured_cloud.h"
+#include "fit/geometry/points.h"
+#include "fit/least_squares/cone.h"
+#include "fit/least_squares/sphere.h"
+#include "record/tasks/settings.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using record::Shape;
+using record::SurfaceSettings;
+using record::WindowTask;
+using SurfacePoints = std::vector<Eigen::Vector3d>;
+
+constexpr double kNewSectionMm = 0.5;
+constexpr double kThickestMm = 0.5;
+constexpr double kGuardMm = 0.5;
+/// An axis that leans more (60 deg) has no angle about part z.
+constexpr double kLeastUpright = 0.5;
+/// The windows move the axis, and the axis the angles; two or three rounds settle.
+constexpr int kMostRounds = 8;
+
+core::Error said(core::Code code, core::Phrase what) { return error_of(code, std::move(what)); }
+
+bool is_touched(const record::Feature& feature) {
+  return feature.strategy != record::Strategy::kPointsFile;
+}
+
+/// Whether the sections of a shape are square to its axis.
+bool is_turned(Shape shape) {
+  return shape == Shape::kCylinder || shape == Shape::kCircle || shape == Shape::kCone;
+}
+
+bool has_layers(const FeatureResult& feature) {
+  const auto& cloud = feature.cloud;
+  return feature.feature.layers > 0 || feature.feature.shape == Shape::kCircle ||
+         std::any_of(cloud.begin(), cloud.end(),
+                     [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
+}
+
+SurfacePoints chosen_points(const SurfacePoints& tips, const std::vector<bool>& chosen) {
+  SurfacePoints out;
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    if (chosen[i]) out.push_back(tips[i]);
+  }
+  return out;
+}
+
+/// Builds the layout of one surface, step by step.
+class LayoutBuilder {
+ public:
+  LayoutBuilder(const FeatureResult& feature, SurfaceSettings settings)
+      : feature_(feature),
+        settings_(std::move(settings)),
+        tips_(tips_of(feature.cloud)),
+        to_part_(part_from_cloud(feature)),
+        guard_mm_(kGuardMm + feature.tip_radius_mm.value_or(0.0)) {
+    out_.kept.assign(tips_.size(), true);
+  }
+
+  core::Result<SurfaceLayout> build() {
+    for (const WindowTask& window : settings_.exclude) {
+      if (auto checked = check_window(window); !checked) return core::fail(checked.error());
+    }
+    if (auto done = find_axis(); !done) return core::fail(done.error());
+    find_sections();
+    if (auto done = leave_out_found(); !done) return core::fail(done.error());
+    for (std::size_t row = 0; row < tips_.size(); ++row) {
+      if (!out_.kept[row]) out_.windows.push_back({row, window_of_[row]});
+    }
+    if (auto done = take_windows_from_sections(); !done) return core::fail(done.error());
+    if (auto done = check_thickness(); !done) return core::fail(done.error());
+    if (auto done = find_outliers(); !done) return core::fail(done.error());
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] Shape shape() const { return feature_.feature.shape; }
+
+  /// Start direction of the fit; of a plane the side to which it faces.
+  [[nodiscard]] std::optional<Eigen::Vector3d> near() const {
+    if (feature_.ls_cylinder) return feature_.ls_cylinder->axis.direction;
+    if (shape() != Shape::kPlane || !settings_.faces) return std::nullopt;
+    const double up = *settings_.faces == record::Faces::kUp ? 1.0 : -1.0;
+    return to_part_.transpose() * Eigen::Vector3d(0.0, 0.0, up);
+  }
+
+  core::Result<fit::Axis> axis_of_kept() const {
+    const bool all = std::find(out_.kept.begin(), out_.kept.end(), false) == out_.kept.end();
+    if (all && feature_.ls_cylinder) return feature_.ls_cylinder->axis;
+    const auto fit = fitted(feature_, chosen_points(tips_, out_.kept), near(), Deviations::kSkip);
+    if (!fit) return core::fail(fit.error());
+    return fit->axis;
+  }
+
+  /// Places of all points about an axis.
+  void place(const fit::Axis& axis) {
+    fit::Axis in_part{to_part_ * axis.point_mm, to_part_ * axis.direction};
+    if (!is_turned(shape())) in_part.direction = Eigen::Vector3d::UnitZ();
+    if (shape() == Shape::kPlane) in_part.point_mm = to_part_ * fit::mean_point(tips_);
+    const Eigen::Vector3d& w = in_part.direction;
+    if (std::abs(w.z()) < kLeastUpright) {
+      leans_ = said(core::Code::kMeaning,
+                    core::phrase("the axis leans {:.1f} deg from part z, about which windows and "
+                                 "portions are stated; turn the data so that the axis is near z",
+                                 std::acos(std::abs(w.z())) / core::kDegree));
+      out_.no_heights = leans_;
+    }
+    places_.clear();
+    for (const Eigen::Vector3d& tip : tips_) {
+      const Eigen::Vector3d q = to_part_ * tip;
+      const double up = leans_ ? 0.0 : (q.z() - in_part.point_mm.z()) / w.z();
+      const Eigen::Vector3d v = q - in_part.point_mm - up * w;
+      const double radius =
+          is_turned(shape()) ? fit::distance_mm(in_part, q) : std::hypot(v.x(), v.y());
+      places_.push_back({std::atan2(v.y(), v.x()),
+                         shape() == Shape::kPlane ? radius : q.z() + first_layer_mm_, radius});
+    }
+  }
+
+  /// Shift from machine z to part z, by the nominal height of the lowest layer.
+  void find_heights() {
+    if (!is_touched(feature_.feature) || shape() == Shape::kPlane) return;
+    if (!settings_.first_layer_mm) {
+      out_.no_heights =
+          said(core::Code::kMeaning,
+               core::phrase("the nominal height of the lowest layer is not recorded, so that "
+                            "windows and portions along part z have no place"));
+      return;
+    }
+    int lowest = feature_.cloud.front().layer;
+    for (const CloudPoint& point : feature_.cloud) lowest = std::min(lowest, point.layer);
+    std::vector<double> heights;
+    for (const CloudPoint& point : feature_.cloud) {
+      if (point.layer == lowest) heights.push_back((to_part_ * point.tip_mm).z());
+    }
+    first_layer_mm_ = *settings_.first_layer_mm - core::mean(heights);
+  }
+
+  [[nodiscard]] bool is_inside(const WindowTask& window, std::size_t row) const {
+    return is_in(window, places_[row], guard_mm_);
+  }
+
+  /// The axis of the points outside the windows, and the places about it.
+  core::Result<void> find_axis() {
+    find_heights();
+    for (int round = 0; round < kMostRounds; ++round) {
+      const auto axis = axis_of_kept();
+      if (!axis) return core::fail(axis.error());
+      out_.axis = *axis;
+      place(*axis);
+      std::vector<bool> kept(tips_.size(), true);
+      window_of_.assign(tips_.size(), {});
+      for (const WindowTask& window : settings_.exclude) {
+        if (leans_) return core::fail(*leans_);
+        if (out_.no_heights && (window.from_mm || window.to_mm)) {
+          return core::fail(*out_.no_heights);
+        }
+        if (window.found_beyond_um) continue;
+        for (std::size_t row = 0; row < tips_.size(); ++row) {
+          if (!kept[row] || !is_inside(window, row)) continue;
+          kept[row] = false;
+          window_of_[row] = window.name;
+        }
+      }
+      if (kept == out_.kept) break;
+      out_.kept = std::move(kept);
+      if (auto left = check_layers_left(); !left) return left;
+    }
+    return {};
+  }
+
+  /// An axis needs two layers.
+  core::Result<void> check_layers_left() {
+    if (shape() != Shape::kCylinder || !has_layers(feature_)) return {};
+    std::map<int, bool> layers;
+    for (std::size_t row = 0; row < tips_.size(); ++row) {
+      bool& any = layers[feature_.cloud[row].layer];
+      any = any || out_.kept[row];
+    }
+    const auto left =
+        std::count_if(layers.begin(), layers.end(), [](const auto& layer) { return layer.second; });
+    if (left >= 2) return {};
+    return core::fail(said(core::Code::kRank,
+                           core::phrase("the windows leave {} of {} layers; 2 are needed: make "
+                                        "them smaller, or plan more layers",
+                                        left, layers.size())));
+  }
+
+  /// By layer and pass, or by gaps between heights.
+  void find_sections() {
+    std::vector<SectionRows>& sections = out_.sections;
+    const auto& cloud = feature_.cloud;
+    if (has_layers(feature_)) {
+      std::map<std::pair<int, std::optional<int>>, std::size_t> known;
+      for (std::size_t row = 0; row < cloud.size(); ++row)
+        known[{cloud[row].layer, cloud[row].pass}];
+      for (auto& [place, index] : known) {
+        index = sections.size();
+        sections.push_back({place.first, place.second, 0.0, {}, false});
+      }
+      for (std::size_t row = 0; row < cloud.size(); ++row) {
+        sections[known.at({cloud[row].layer, cloud[row].pass})].rows.push_back(row);
+      }
+    } else if (is_turned(shape())) {
+      std::vector<std::size_t> order(cloud.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      const auto height = [&](std::size_t row) {
+        return (tips_[row] - out_.axis.point_mm).dot(out_.axis.direction);
+      };
+      std::stable_sort(order.begin(), order.end(),
+                       [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i == 0 || height(order[i]) - height(order[i - 1]) > kNewSectionMm) {
+          sections.push_back({.layer = static_cast<int>(sections.size()), .rows = {}});
+        }
+        sections.back().rows.push_back(order[i]);
+      }
+    }
+    for (const PartPlace& place : places_) out_.part_z_mm.push_back(place.z_mm);
+    for (SectionRows& section : sections) {
+      std::sort(section.rows.begin(), section.rows.end());
+      double sum = 0.0;
+      for (const std::size_t row : section.rows) sum += places_[row].z_mm;
+      section.part_z_mm = sum / static_cast<double>(section.rows.size());
+      // A touched layer stands at its planned height, whatever each touch says.
+      for (const std::size_t row : section.rows) out_.part_z_mm[row] = section.part_z_mm;
+    }
+  }
+
+  /// The windows in which only points off the profile are left out.
+  core::Result<void> leave_out_found() {
+    std::vector<bool> kept = out_.kept;
+    for (const WindowTask& window : settings_.exclude) {
+      if (!window.found_beyond_um) continue;
+      if (out_.sections.empty() || !is_turned(shape())) {
+        return core::fail(
+            said(core::Code::kMeaning,
+                 core::phrase("window {}: found_beyond_um needs sections of a cylinder, a circle "
+                              "or a cone; state the window itself",
+                              window.name)));
+      }
+      for (const SectionRows& section : out_.sections) {
+        if (auto done = leave_out_found(window, section, kept); !done) return done;
+      }
+    }
+    out_.kept = std::move(kept);
+    const auto axis = axis_of_kept();
+    if (!axis) return core::fail(axis.error());
+    out_.axis = *axis;
+    return {};
+  }
+
+  core::Result<void> leave_out_found(const WindowTask& window, const SectionRows& section,
+                                     std::vector<bool>& kept) {
+    std::vector<std::size_t> rows;
+    std::vector<bool> inside;
+    std::vector<double> angle;
+    std::vector<double> r;
+    for (const std::size_t row : section.rows) {
+      if (!out_.kept[row]) continue;
+      rows.push_back(row);
+      inside.push_back(is_inside(window, row));
+      angle.push_back(places_[row].angle_rad);
+      r.push_back(places_[row].radius_mm);
+    }
+    if (std::find(inside.begin(), inside.end(), true) == inside.end()) return {};
+    const auto off = off_profile(angle, r, inside, *window.found_beyond_um * core::kMicrometre);
+    if (!off) return core::fail(off.error());
+    const auto found = std::count(off->begin(), off->end(), true);
+    constexpr long kMostShare = 5;  // one in five
+    if (kMostShare * found > static_cast<long>(rows.size())) {
+      return core::fail(said(
+          core::Code::kOutliers,
+          core::phrase("window {}: {} of {} points of layer {} lie beyond {:g} um, more than 20 "
+                       "%: that is form; state the window itself, without found_beyond_um",
+                       window.name, found, rows.size(), section.layer + 1,
+                       *window.found_beyond_um)));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(*off)[i]) continue;
+      kept[rows[i]] = false;
+      window_of_[rows[i]] = window.name;
+    }
+    return {};
+  }
+
+  core::Result<void> take_windows_from_sections() {
+    for (SectionRows& section : out_.sections) {
+      std::vector<std::size_t> rows;
+      for (const std::size_t row : section.rows) {
+        if (out_.kept[row]) rows.push_back(row);
+      }
+      section.gap = !rows.empty() && rows.size() < section.rows.size();
+      if (rows.empty()) {
+        out_.warnings.push_back(
+            said(core::Code::kSparse,
+                 core::phrase("the windows take all points of layer {}: there is one section less",
+                              section.layer + 1)));
+      }
+      section.rows = std::move(rows);
+      section.dense = is_turned(shape()) &&
+                      carries_lowest_cutoff(points_of(section.rows), out_.axis, section.gap);
+    }
+    return check_layers_left();
+  }
+
+  [[nodiscard]] SurfacePoints points_of(const std::vector<std::size_t>& rows) const {
+    SurfacePoints out;
+    for (const std::size_t row : rows) out.push_back(tips_[row]);
+    return out;
+  }
+
+  core::Result<void> check_thickness() const {
+    if (!is_turned(shape())) return {};
+    for (const SectionRows& section : out_.sections) {
+      if (section.rows.empty()) continue;
+      std::vector<double> heights;
+      for (const std::size_t row : section.rows) {
+        heights.push_back((tips_[row] - out_.axis.point_mm).dot(out_.axis.direction));
+      }
+      const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+      if (*high - *low <= kThickestMm) continue;
+      return core::fail(said(
+          core::Code::kSampling,
+          core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
+                       "{:g} mm along the axis; give the file a column layer",
+                       section.layer + 1, *high - *low, kThickestMm)));
+    }
+    return {};
+  }
+
+  core::Result<void> find_outliers() {
+    const auto fit =
+        fitted(feature_, chosen_points(tips_, out_.kept), near(), Deviations::kCompute);
+    if (!fit) return core::fail(fit.error());
+    const std::vector<bool> beyond = beyond_five_scales(fit->off_mm);
+    if (const auto count = count_of_outliers(beyond); !count) {
+      out_.too_many = count.error();
+      return {};
+    }
+    const double middle = core::median(fit->off_mm);
+    std::vector<std::pair<double, std::size_t>> far;
+    std::size_t i = 0;
+    for (std::size_t row = 0; row < tips_.size(); ++row) {
+      if (!out_.kept[row]) continue;
+      if (beyond[i]) far.emplace_back(fit->off_mm[i] - middle, row);
+      ++i;
+    }
+    std::stable_sort(far.begin(), far.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.first) > std::abs(b.first);
+    });
+    for (const auto& [off, row] : far) {
+      out_.outlying.push_back(row);
+      out_.off_mm.push_back(off);
+    }
+    return {};
+  }
+
+  const FeatureResult& feature_;
+  SurfaceSettings settings_;
+  SurfacePoints tips_;
+  Eigen::Matrix3d to_part_;
+  double guard_mm_;
+  double first_layer_mm_ = 0.0;  ///< Added to machine z.
+  std::vector<PartPlace> places_;
+  std::optional<core::Error> leans_;
+  std::vector<std::string> window_of_;  ///< By row; empty outside.
+  SurfaceLayout out_;
+};
+
+}  // namespace
+
+Eigen::Matrix3d part_from_cloud(const FeatureResult& feature) {
+  // A cloud of several poses is in the frame of the body already.
+  if (!is_touched(feature.feature) || feature.merged) return Eigen::Matrix3d::Identity();
+  const PoseValue* found = nullptr;
+  for (const PoseValue& value : feature.poses) {
+    if (value.physical && (found == nullptr || !found->final_pose)) found = &value;
+  }
+  if (found == nullptr) return Eigen::Matrix3d::Identity();
+  return rotation(found->pose).transpose();
+}
+
+core::Result<FittedSurface> fitted(const FeatureResult& feature,
+                                   std::span<const Eigen::Vector3d> points_mm,
+                                   const std::optional<Eigen::Vector3d>& near,
+                                   Deviations deviations) {
+  FittedSurface out;
+  const auto fill = [&](const auto& off) {
+    if (deviations == Deviations::kSkip) return;
+    out.off_mm.reserve(points_mm.size());
+    for (const Eigen::Vector3d& p : points_mm) out.off_mm.push_back(off(p));
+  };
+  const auto from_axis = [&](const Eigen::Vector3d& p) { return fit::distance_mm(out.axis, p); };
+  switch (feature.feature.shape) {
+    case Shape::kCylinder: {
+      const auto cylinder = fit::ls_cylinder(points_mm, near);
+      if (!cylinder) return core::fail(cylinder.error());
+      out.axis = cylinder->axis;
+      fill(from_axis);
+      return out;
+    }
+    case Shape::kCircle: {
+      const fit::Axis& up = feature.section_axis;
+      const auto frame = fit::across(up.direction);
+      std::vector<Eigen::Vector2d> plane;
+      for (const Eigen::Vector3d& p : points_mm) {
+        plane.emplace_back(frame.transpose() * (p - up.point_mm));
+      }
+      const auto circle = fit::ls_circle(plane);
+      if (!circle) return core::fail(circle.error());
+      out.axis = {up.point_mm + frame * circle->center_mm, up.direction};
+      fill(from_axis);
+      return out;
+    }
+    case Shape::kPlane: {
+      const auto plane = fit::ls_plane(points_mm, near);
+      if (!plane) return core::fail(plane.error());
+      out.axis = {plane->plane.point_mm, plane->plane.normal};
+      fill([&](const Eigen::Vector3d& p) { return fit::height_mm(plane->plane, p); });
+      return out;
+    }
+    case Shape::kSphere: {
+      const auto sphere = fit::ls_sphere(points_mm);
+      if (!sphere) return core::fail(sphere.error());
+      out.axis = {sphere->center_mm, part_from_cloud(feature).transpose().col(2)};
+      fill([&](const Eigen::Vector3d& p) { return (p - sphere->center_mm).norm(); });
+      return out;
+    }
+    case Shape::kCone: {
+      const auto cone = fit::ls_cone(points_mm, near);
+      if (!cone) return core::fail(cone.error());
+      out.axis = cone->cone.axis;
+      fill([&](const Eigen::Vector3d& p) { return cone->cone.deviation_mm(p); });
+      return out;
+    }
+    case Shape::kSpindle:
+    case Shape::kWheel:
+    case Shape::kContour:
+    case Shape::kRotaryAxes:
+      break;
+  }
+  return core::fail(
+      said(core::Code::kMeaning, core::phrase("characteristics of a {} are not computed; make the "
+                                              "feature a cylinder, a circle, a plane or a sphere",
+                                              std::string(name_of(feature.feature.shape)))));
+}
+
+SurfaceLayout layout_of(const FeatureResult& feature) {
+  SurfaceLayout out;
+  const auto settings = record::task_of<SurfaceSettings>(feature.feature.settings);
+  if (feature.failure) {
+    out.failure = feature.failure;
+  } else if (feature.cloud.empty()) {
+    out.failure = said(core::Code::kNoPoints, core::phrase("the feature has no points"));
+  } else if (!settings) {
+    out.failure = settings.error();
+  } else {
+    auto built = LayoutBuilder(feature, *settings).build();
+    if (built) return *std::move(built);
+    out.failure = built.error();
+  }
+  return out;
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/phrase.h"
+#include "core/units.h"
+#include "evaluation/part/internal/asked_sections.h"
+#include "evaluation/part/internal/datum.h"
+#include "evaluation/part/internal/families.h"
+#include "evaluation/results/internal/deviation.h"
+#include "fit/datums/datum.h"
+#include "fit/geometry/column_extremes.h"
+#include "fit/geometry/points.h"
+#include "record/tasks/form_facts.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using Direction = record::Indication::Direction;
+using record::Form;
+using record::Shape;
+
+/// Fewest points whose run-out means anything.
+constexpr std::size_t kFewestOnTurn = 3;
+/// Greatest distance of a point from the circle on a face to which it is said to belong [mm].
+constexpr double kOnCircle = 0.1;
+
+/// Run-out of a surface about an axis: what is measured of a point, and in which circles.
+struct Turned {
+  const PreparedSurface& surface;
+  fit::Axis axis;  ///< Out of the face, for an axial one.
+  bool axial = false;
+  double share = 1.0;           ///< Of the change of the distance, normal to the surface.
+  std::vector<double> measure;  ///< Distance or height of each point [mm].
+  std::vector<double> radius;   ///< Distance of each point [mm].
+};
+
+struct Circle {
+  int layer = 0;
+  double position_mm = 0.0;  ///< Height, or radius on a face.
+  std::vector<std::size_t> points;
+};
+
+core::Result<void> check_turned(const PreparedSurface& surface,
+                                const record::Characteristic& asked) {
+  const Shape shape = surface.of->feature.shape;
+  const Direction direction = asked.indication.direction;
+  const bool total = asked.form == Form::kTotalRunOut;
+  const auto refuse = [](core::Phrase said) { return core::fail(core::Code::kMeaning, said); };
+  if (direction == Direction::kConical && total) {
+    return refuse(core::phrase("total run-out is radial or axial; of a cone ask for run-out"));
+  }
+  if (direction == Direction::kConical && shape != Shape::kCone) {
+    return refuse(core::phrase("conical run-out is that of a cone; of a {} ask for \"{}\"",
+                               record::name_of(shape),
+                               shape == Shape::kPlane ? "axial" : "radial"));
+  }
+  if (direction == Direction::kAxial && shape != Shape::kPlane) {
+    return refuse(core::phrase("axial run-out is that of a face; of a {} ask for \"{}\"",
+                               record::name_of(shape),
+                               shape == Shape::kCone ? "conical" : "radial"));
+  }
+  const bool round =
+      shape == Shape::kCylinder || shape == Shape::kCircle || (shape == Shape::kCone && !total);
+  if (direction == Direction::kRadial && !round) {
+    return refuse(core::phrase("radial run-out is that of a cylinder; of a {} ask for \"{}\"",
+                               record::name_of(shape),
+                               shape == Shape::kPlane ? "axial" : "conical"));
+  }
+  return {};
+}
+
+/// Conical: normal to the surface, by the nominal half angle.
+core::Result<double> share_of(const PreparedSurface& surface, const record::Indication& asked) {
+  if (asked.direction != Direction::kConical) return 1.0;
+  const auto settings = record::task_of<record::SurfaceSettings>(surface.of->feature.settings);
+  if (!settings) return core::fail(settings.error());
+  if (!settings->half_angle_deg) {
+    return core::fail(core::Code::kMissingKey,
+                      core::phrase("conical run-out needs the nominal half angle of {}: give "
+                                   "nominal.half_angle_deg",
+                                   surface.of->feature.id));
+  }
+  return std::cos(*settings->half_angle_deg * core::kDegree);
+}
+
+core::Result<Turned> turned_about(const PreparedSurface& surface, const record::Indication& asked,
+                                  const fit::Axis& datum) {
+  if (auto checked = fit::check_points(surface.points_mm); !checked) {
+    return core::fail(checked.error());
+  }
+  const auto share = share_of(surface, asked);
+  if (!share) return core::fail(share.error());
+  Turned out{surface, datum, asked.direction == Direction::kAxial, *share, {}, {}};
+  if (out.axis.direction.dot(surface.axis.direction) < 0.0) {
+    out.axis.direction = -out.axis.direction;
+  }
+  for (const Eigen::Vector3d& p : surface.points_mm) {
+    out.radius.push_back(fit::distance_mm(out.axis, p));
+    const double height = (p - surface.points_mm.front()).dot(out.axis.direction);
+    out.measure.push_back(out.axial ? height : out.share * out.radius.back());
+  }
+  return out;
+}
+
+fit::Extremes measured_range(const Turned& turned, const std::vector<std::size_t>& points) {
+  return fit::extremes_of(points, [&](std::size_t i) { return turned.measure[i]; });
+}
+
+tl::unexpected<core::Error> no_circle(double radius_mm) {
+  return core::fail(core::Code::kSampling,
+                    core::phrase("a face needs circles about the datum axis: layers are circles "
+                                 "of the plane; no turn of points within {:g} mm of radius {:.3f} "
+                                 "mm",
+                                 kOnCircle, radius_mm));
+}
+
+/// Whether points lie all round the axis: a few on one side show nothing of a turn.
+bool surround(const Turned& turned, const std::vector<std::size_t>& points) {
+  const auto frame = fit::across(turned.axis.direction);
+  std::vector<Eigen::Vector2d> flat;
+  for (const std::size_t i : points) {
+    flat.emplace_back(frame.transpose() * (turned.surface.points_mm[i] - turned.axis.point_mm));
+  }
+  return flat.size() >= kFewestOnTurn &&
+         fit::largest_gap_rad(flat, Eigen::Vector2d::Zero()) < 0.5 * core::kTwoPi;
+}
+
+/// The one circle of a stated radius.
+core::Result<std::vector<Circle>> stated_circle(const Turned& turned, double radius_mm) {
+  Circle out{0, radius_mm, {}};
+  for (std::size_t i = 0; i < turned.radius.size(); ++i) {
+    if (std::abs(turned.radius[i] - radius_mm) <= kOnCircle) out.points.push_back(i);
+  }
+  if (!surround(turned, out.points)) return no_circle(radius_mm);
+  return std::vector{std::move(out)};
+}
+
+/// The planned circles of a face; each must be one about the datum axis.
+core::Result<std::vector<Circle>> circles_of(const Turned& turned, const Sections& sections) {
+  std::vector<Circle> out;
+  for (const SurfaceSection& section : sections) {
+    Circle circle{section.layer, 0.0, section.points};
+    double mean = 0.0;
+    for (const std::size_t i : circle.points) {
+      mean += turned.radius[i] / static_cast<double>(circle.points.size());
+    }
+    circle.position_mm = mean;
+    const auto off = [&](std::size_t i) { return std::abs(turned.radius[i] - mean) > kOnCircle; };
+    if (std::ranges::any_of(circle.points, off) || !surround(turned, circle.points)) {
+      return no_circle(mean);
+    }
+    out.push_back(std::move(circle));
+  }
+  return out;
+}
+
+/// The sections of a cylinder or cone: all of them, never one.
+core::Result<std::vector<Circle>> turned_sections(const Turned& turned, const Sections& sections) {
+  std::vector<Circle> out;
+  for (const SurfaceSection& section : sections) {
+    if (section.points.size() < kFewestOnTurn) {
+      return core::fail(core::Code::kSampling,
+                        core::phrase("layer {} of {} has {} points, run-out needs at least {}: "
+                                     "touch more",
+                                     section.layer + 1, turned.surface.of->feature.id,
+                                     section.points.size(), kFewestOnTurn));
+    }
+    out.push_back({section.layer, section.height_mm, section.points});
+  }
+  return out;
+}
+
+core::Result<std::vector<Circle>> turned_circles(const Turned& turned,
+                                                 const record::Indication& asked) {
+  if (turned.axial && asked.radius_mm) return stated_circle(turned, *asked.radius_mm);
+  const auto sections = asked_sections(turned.surface, record::Indication{});
+  if (!sections) {
+    return core::fail(sections.error().code, core::phrase("{}: {}", turned.surface.of->feature.id,
+                                                          sections.error().said()));
+  }
+  return turned.axial ? circles_of(turned, *sections) : turned_sections(turned, *sections);
+}
+
+/// What no point and no window names of a turn can only add to the run-out.
+void note_unseen_turn(const PreparedSurface& surface, const record::Characteristic& asked,
+                      Finding& out) {
+  const auto& limit = asked.tolerance_mm;
+  if (limit && out.judged.front().value_mm > *limit) return;
+  double unseen = surface.sections.empty() ? unseen_in(surface) : 0.0;
+  for (const SurfaceSection& section : surface.sections) {
+    if (!section.points.empty()) unseen = std::max(unseen, unseen_in(surface, section));
+  }
+  if (unseen > 0.0) out.no_verdict = unseen_words(unseen);
+}
+
+/// The rows at both ends of the measure among some points, the greatest first.
+void add_turned_rows(const Turned& turned, const std::vector<std::size_t>& points,
+                     Finding& finding) {
+  const auto [least, greatest] =
+      std::ranges::minmax_element(points, {}, [&](std::size_t i) { return turned.measure[i]; });
+  finding.rows = {turned.surface.rows[*greatest], turned.surface.rows[*least]};
+}
+
+}  // namespace
+
+core::Result<Finding> find_run_out(const PreparedSurface& surface,
+                                   const record::Characteristic& asked,
+                                   std::span<const DatumResult> datums) {
+  if (datums.empty()) {
+    return core::fail(core::Code::kMissingKey, core::phrase("{} needs a datum, e.g. [\"A-B\"]",
+                                                            record::name_of(asked.form)));
+  }
+  if (auto checked = check_turned(surface, asked); !checked) return core::fail(checked.error());
+  const auto datum = datum_axis_of(datums, asked);
+  if (!datum) return core::fail(datum.error());
+  const auto about = turned_about(surface, asked.indication, datum->place);
+  if (!about) return core::fail(about.error());
+  Finding out = found_about(surface, datums, *datum);
+  const std::string symbol(record::facts_of(asked.form).symbol);
+  if (asked.form == Form::kTotalRunOut) {
+    std::vector<std::size_t> all(surface.points_mm.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    add_turned_rows(*about, all, out);
+    out.judged.push_back({symbol, measured_range(*about, all).width(), limits_of(asked)});
+    note_unseen_turn(surface, asked, out);
+    return out;
+  }
+  const auto found = turned_circles(*about, asked.indication);
+  if (!found) return core::fail(found.error());
+  for (const Circle& circle : *found) {
+    out.local.push_back({about->axial ? LocalValue::Place::kRadius : LocalValue::Place::kLayer,
+                         circle.layer, circle.position_mm,
+                         measured_range(*about, circle.points).width()});
+    if (out.local.back().value_mm > out.local[out.worst].value_mm) out.worst = out.local.size() - 1;
+  }
+  add_turned_rows(*about, (*found)[out.worst].points, out);
+  out.judged.push_back({symbol, out.local[out.worst].value_mm, limits_of(asked)});
+  note_unseen_turn(surface, asked, out);
+  return out;
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,148 @@
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "plans/analyses/analysis.h"
+#include "plans/analyses/features.h"
+#include "plans/run/internal/run_head.h"
+#include "record/tasks/form_facts.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
+#include "tests/plans/files.h"
+
+namespace rondure::plans {
+namespace {
+
+using record::Form;
+using record::Indication;
+using record::Shape;
+using testing::bytes_of;
+using testing::lines_of;
+
+std::filesystem::path shaft_folder() { return testing::source_dir() / "tests/data/shaft_drawing"; }
+
+/// The plan at the end of docs/drawing.md.
+std::string documented_plan() {
+  const std::string page = bytes_of(testing::source_dir() / "docs/drawing.md");
+  const std::string fence = "```json\n";
+  const std::size_t at = page.find(fence) + fence.size();
+  return page.substr(at, page.find("```", at) - at);
+}
+
+/// A touched cylinder; `keys` and `characteristics` are spliced in.
+PlanOrProblems touched(const std::string& characteristics, const std::string& keys = "") {
+  return parse_plan(
+      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
+      "machine": {}, "fixture": {},
+      "probe": {}, "simulation": {}, "features": [{"id": "A", "type": "cylinder",
+      "nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 40},)" +
+          keys + R"("characteristics": [)" + characteristics + "]}]}",
+      "", "plan.json");
+}
+
+TEST(PlanDrawing, TheShaftOfTheDocumentIsAPlan) {
+  const auto plan = parse_plan(documented_plan(), shaft_folder(), "plan.json");
+  ASSERT_TRUE(plan) << lines_of(plan);
+  const record::RunRecord head = run_head(*plan, {}, 0);
+  std::size_t call_outs = 0;
+  for (const record::Feature& feature : head.features) call_outs += feature.characteristics.size();
+  EXPECT_EQ(call_outs, 14U);
+  const record::Feature& a = head.features.front();
+  const record::Characteristic& envelope = a.characteristics.front();
+  EXPECT_EQ(envelope.indication.requirement, Indication::Requirement::kEnvelope);
+  EXPECT_DOUBLE_EQ(envelope.lower_mm.value(), 29.987);
+  EXPECT_EQ(envelope.tolerance_mm, 30.0);
+  EXPECT_EQ(a.characteristics[3].indication.filter, Indication::Filter::kGaussian);
+  EXPECT_EQ(a.characteristics[4].indication.filter, Indication::Filter::kNone);
+  const auto surface = record::task_of<record::SurfaceSettings>(a.settings);
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->letter, "A");
+  EXPECT_EQ(surface->clamping, "shaft.csv") << "one file is one clamping";
+  ASSERT_EQ(surface->exclude.size(), 1U);
+  EXPECT_EQ(surface->exclude.front().to_deg, 95.0);
+  EXPECT_FALSE(surface->exclude.front().guard_mm) << "absent is not 0";
+}
+
+TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
+  const std::string page = bytes_of(testing::source_dir() / "docs/drawing.md");
+  for (const record::FormFacts& facts : record::kFormFacts) {
+    const bool of_surface =
+        facts.shapes.contains(Shape::kCylinder) || facts.shapes.contains(Shape::kPlane);
+    if (of_surface) EXPECT_THAT(page, ::testing::HasSubstr(std::string(name_of(facts.form))));
+  }
+}
+
+TEST(PlanDrawing, TouchedCylindersMayHaveEachFormThatNeedsNoDatum) {
+  const std::string sampling = R"("sampling": {"layers": 4, "points_per_layer": 8, "stagger": 0},)";
+  const auto plan = touched(
+      R"({"id": "1", "form": "diameter", "size": "GN", "lower_um": -13, "upper_um": 0},
+         {"id": "2", "form": "diameter", "requirement": "envelope", "lower_um": -13,
+          "upper_um": 0},
+         {"id": "3", "form": "straightness", "reference": "ls", "tolerance_um": 2},
+         {"id": "4", "form": "straightness", "of": "median-line", "tolerance_um": 2},
+         {"id": "5", "form": "taper"}, {"id": "6", "form": "generatrix-parallelism"},
+         {"id": "7", "form": "cylindricity", "parameter": "rms", "tolerance_um": 2},
+         {"id": "8", "form": "diameter", "rank": "SR", "tolerance_um": 5})",
+      sampling);
+  ASSERT_TRUE(plan) << lines_of(plan);
+  const record::RunRecord head = run_head(*plan, {}, 0);
+  const record::Feature& feature = head.features.front();
+  EXPECT_EQ(feature.characteristics[6].reference, record::Reference::kLeastSquares);
+  EXPECT_DOUBLE_EQ(feature.characteristics[7].tolerance_mm.value(), 0.005);
+  const auto surface = record::task_of<record::SurfaceSettings>(feature.settings);
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->first_layer_mm, -35.0);
+}
+
+TEST(PlanDrawing, ADatumMayBeTouched) {
+  const auto plan = parse_plan(
+      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
+          "machine": {}, "fixture": {}, "probe": {},
+          "simulation": {}, "features": [
+          {"id": "low-end", "type": "cylinder",
+           "nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 0}},
+          {"id": "B", "type": "cylinder", "nominal": {"diameter_mm": 50, "from_mm": 10, "to_mm": 40},
+           "characteristics": [{"id": "1", "form": "coaxiality", "datum": ["low-end"]}]}]})",
+      "", "plan.json");
+  EXPECT_TRUE(plan) << lines_of(plan) << "an id may hold a hyphen";
+}
+
+TEST(PlanDrawing, ARuleOfACharacteristicIsCheckedAsThatOfThePlan) {
+  const auto plan = touched(R"({"id": "1", "form": "cylindricity", "reference": "mz",
+      "tolerance_um": 4, "decision_rule": {"rule": "n-to-1", "guard_factor": 2}})");
+  ASSERT_FALSE(plan);
+  std::vector<std::string> places;
+  for (const core::Error& problem : plan.error()) places.push_back(problem.where);
+  const std::string rule = "/features/0/characteristics/0/decision_rule/";
+  EXPECT_THAT(places, ::testing::IsSupersetOf(
+                          {rule + "zones", rule + "guard_factor", std::string("/uncertainty")}));
+}
+
+TEST(PlanDrawing, APriorIsNotOfSizes) {
+  const std::string rule =
+      R"("decision_rule": {"prior": {"mean_um": 3, "standard_deviation_um": 1}},)";
+  const auto plan =
+      touched(R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4})", rule);
+  ASSERT_FALSE(plan);
+  EXPECT_THAT(plan.error().front().what, ::testing::HasSubstr("the prior describes form"));
+  EXPECT_TRUE(touched(
+      R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4, "decision_rule": {}})",
+      rule));
+}
+
+TEST(FormFacts, AgreeWithTheAnalyses) {
+  for (const auto& shape : words_of(Shape{})) {
+    const AnalysisKind* const kind = analysis_kind(shape.value);
+    if (kind == nullptr) continue;
+    for (const record::FormFacts& facts : record::kFormFacts) {
+      const bool listed =
+          std::find(kind->forms.begin(), kind->forms.end(), facts.form) != kind->forms.end();
+      EXPECT_EQ(facts.shapes.contains(shape.value), listed)
+          << shape.text << " " << name_of(facts.form);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondure::plans
