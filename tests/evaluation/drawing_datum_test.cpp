@@ -904,6 +904,26 @@ TEST(DrawingDatums, OfAnotherClampingAreRefused) {
   EXPECT_TRUE(coaxiality_of(moved_between).has_value());
 }
 
+TEST(DrawingDatums, AreTakenToTheTemperatureOfTheFeature) {
+  DrawnPart part = stepped_shaft();
+  const auto asked = about(Form::kTotalRunOut, {"A-B"});
+  ThermalCorrection warm;
+  warm.part_expansion_1_K = 1.15e-5;
+  warm.part_degC = 24.0;
+  ThermalCorrection cool = warm;
+  cool.part_degC = 20.0;
+  part.features[2].thermal = cool;
+  EXPECT_EQ(why_refused(part, asked).what,
+            "datum A-B: C is corrected to 20 degC and A is as measured: plan the same for both");
+  part.features[0].thermal = warm;
+  part.features[1].thermal = warm;
+  DrawnPart scaled = stepped_shaft();
+  for (const std::size_t i : {0U, 1U}) {
+    for (CloudPoint& point : scaled.features[i].cloud) point.tip_mm *= 1.0 + 4.0 * 1.15e-5;
+  }
+  EXPECT_NEAR(part.value(asked), scaled.value(asked), 1e-12);
+}
+
 TEST(DrawingDatums, OfAnotherFileNeedTheSameClampingName) {
   const auto files = [](const std::string& first, const std::string& second) {
     auto out = two_clouds({}, {});
