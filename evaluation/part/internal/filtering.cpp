@@ -105,7 +105,8 @@ void warn_of_aliasing(const fit::AngularProfile& measured, const std::vector<dou
   for (const double r : filtered_mm) sum += (r - mean) * (r - mean);
   const double rms = std::sqrt(sum / static_cast<double>(filtered_mm.size()));
   constexpr double kMostShare = 0.1;
-  if (tail <= kMostShare * rms) return;
+  constexpr double kLeastTailMm = 1e-6;  // the last digit of the sentence
+  if (tail <= std::max(kMostShare * rms, kLeastTailMm)) return;
   warnings.push_back(error_of(
       core::Code::kUndersampled,
       core::phrase("layer {}: content near the sampling limit, {:.3f} um rms above {:.0f} UPR, "

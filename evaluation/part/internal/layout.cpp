@@ -17,6 +17,7 @@
 #include "evaluation/part/outliers.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/cone.h"
 #include "fit/least_squares/sphere.h"
 #include "record/tasks/settings.h"
 
@@ -116,16 +117,16 @@ class LayoutBuilder {
     if (shape() == Shape::kPlane) in_part.point_mm = to_part_ * fit::mean_point(tips_);
     const Eigen::Vector3d& w = in_part.direction;
     if (std::abs(w.z()) < kLeastUpright) {
-      out_.no_heights = said(
-          core::Code::kMeaning,
-          core::phrase("the axis leans {:.1f} deg from part z, about which windows and portions "
-                       "are stated; turn the data so that the axis is near z",
-                       std::acos(std::abs(w.z())) / core::kDegree));
+      leans_ = said(core::Code::kMeaning,
+                    core::phrase("the axis leans {:.1f} deg from part z, about which windows and "
+                                 "portions are stated; turn the data so that the axis is near z",
+                                 std::acos(std::abs(w.z())) / core::kDegree));
+      out_.no_heights = leans_;
     }
     places_.clear();
     for (const Eigen::Vector3d& tip : tips_) {
       const Eigen::Vector3d q = to_part_ * tip;
-      const double up = out_.no_heights ? 0.0 : (q.z() - in_part.point_mm.z()) / w.z();
+      const double up = leans_ ? 0.0 : (q.z() - in_part.point_mm.z()) / w.z();
       const Eigen::Vector3d v = q - in_part.point_mm - up * w;
       const double radius =
           is_turned(shape()) ? fit::distance_mm(in_part, q) : std::hypot(v.x(), v.y());
@@ -168,7 +169,10 @@ class LayoutBuilder {
       std::vector<bool> kept(tips_.size(), true);
       window_of_.assign(tips_.size(), {});
       for (const WindowTask& window : settings_.exclude) {
-        if (out_.no_heights) return core::fail(*out_.no_heights);
+        if (leans_) return core::fail(*leans_);
+        if (out_.no_heights && (window.from_mm || window.to_mm)) {
+          return core::fail(*out_.no_heights);
+        }
         if (window.found_beyond_um) continue;
         for (std::size_t row = 0; row < tips_.size(); ++row) {
           if (!kept[row] || !is_inside(window, row)) continue;
@@ -377,6 +381,7 @@ class LayoutBuilder {
   double guard_mm_;
   double first_layer_mm_ = 0.0;  ///< Added to machine z.
   std::vector<PartPlace> places_;
+  std::optional<core::Error> leans_;
   std::vector<std::string> window_of_;  ///< By row; empty outside.
   SurfaceLayout out_;
 };
@@ -440,7 +445,13 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
       fill([&](const Eigen::Vector3d& p) { return (p - sphere->center_mm).norm(); });
       return out;
     }
-    case Shape::kCone:
+    case Shape::kCone: {
+      const auto cone = fit::ls_cone(points_mm, near);
+      if (!cone) return core::fail(cone.error());
+      out.axis = cone->cone.axis;
+      fill([&](const Eigen::Vector3d& p) { return cone->cone.deviation_mm(p); });
+      return out;
+    }
     case Shape::kSpindle:
     case Shape::kWheel:
     case Shape::kContour:
