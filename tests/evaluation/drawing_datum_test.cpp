@@ -466,6 +466,15 @@ TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
             "total run-out is radial or axial; of a cone ask for run-out");
 }
 
+TEST(DrawingRunOut, OfAConeIsAboutTheDatumOfThePart) {
+  DrawnPart part;
+  part.cylinder("Z", round_journal(10.0, {-40.0, -20.0}, 8));
+  part.add("K", Shape::kCone, test::w7()).feature.settings = {
+      test::number_setting("half_angle_deg", 10.0)};
+  EXPECT_NEAR(part.value(along(about(Form::kRunOut, {"Z"}), Direction::kConical)), 0.026521961212,
+              1e-10);
+}
+
 /// The virtual shaft of the specification, section 10, without noise.
 DrawnPart virtual_shaft(int count) {
   DrawnPart out;
