@@ -466,6 +466,15 @@ TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
             "total run-out is radial or axial; of a cone ask for run-out");
 }
 
+TEST(DrawingRunOut, OfAConeIsAboutTheDatumOfThePart) {
+  DrawnPart part;
+  part.cylinder("Z", round_journal(10.0, {-40.0, -20.0}, 8));
+  part.add("K", Shape::kCone, test::w7()).feature.settings = {
+      test::number_setting("half_angle_deg", 10.0)};
+  EXPECT_NEAR(part.value(along(about(Form::kRunOut, {"Z"}), Direction::kConical)), 0.026521961212,
+              1e-10);
+}
+
 /// The virtual shaft of the specification, section 10, without noise.
 DrawnPart virtual_shaft(int count) {
   DrawnPart out;
@@ -902,6 +911,26 @@ TEST(DrawingDatums, OfAnotherClampingAreRefused) {
   EXPECT_FALSE(coaxiality_of(moved_between).has_value());
   moved_between.decisions.back().message.arguments[0] = 0.0;  // before both
   EXPECT_TRUE(coaxiality_of(moved_between).has_value());
+}
+
+TEST(DrawingDatums, AreTakenToTheTemperatureOfTheFeature) {
+  DrawnPart part = stepped_shaft();
+  const auto asked = about(Form::kTotalRunOut, {"A-B"});
+  ThermalCorrection warm;
+  warm.part_expansion_1_K = 1.15e-5;
+  warm.part_degC = 24.0;
+  ThermalCorrection cool = warm;
+  cool.part_degC = 20.0;
+  part.features[2].thermal = cool;
+  EXPECT_EQ(why_refused(part, asked).what,
+            "datum A-B: C is corrected to 20 degC and A is as measured: plan the same for both");
+  part.features[0].thermal = warm;
+  part.features[1].thermal = warm;
+  DrawnPart scaled = stepped_shaft();
+  for (const std::size_t i : {0U, 1U}) {
+    for (CloudPoint& point : scaled.features[i].cloud) point.tip_mm *= 1.0 + 4.0 * 1.15e-5;
+  }
+  EXPECT_NEAR(part.value(asked), scaled.value(asked), 1e-12);
 }
 
 TEST(DrawingDatums, OfAnotherFileNeedTheSameClampingName) {
