@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
 #include "evaluation/part/internal/clamping.h"
+#include "evaluation/results/finding.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/least_squares/sphere.h"
 #include "fit/poses/walk.h"
@@ -318,6 +320,26 @@ void evaluate_sphere(FeatureResult& result) {
   result.mz_sphere = *std::move(mz);
 }
 
+/// @pre A circle has an expected direction.
+void fit_surface(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
+  switch (result.feature.shape) {
+    case record::Shape::kCylinder:
+      evaluate_cylinder(direction, result);
+      break;
+    case record::Shape::kPlane:
+      evaluate_plane(direction, result);
+      break;
+    case record::Shape::kCone:
+      evaluate_cone(direction, result);
+      break;
+    case record::Shape::kSphere:
+      evaluate_sphere(result);
+      break;
+    default:
+      evaluate_circle(*direction, result);
+  }
+}
+
 /// Evaluates the repeats of the final cloud: scatter of a touch, and of the zone of a single cloud.
 void evaluate_repeats(const std::vector<const Touch*>& touches,
                       const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
@@ -439,22 +461,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
   }
   const auto direction = expected_axis(record, result.feature, *last);
-  switch (result.feature.shape) {
-    case record::Shape::kCylinder:
-      evaluate_cylinder(direction, result);
-      break;
-    case record::Shape::kPlane:
-      evaluate_plane(direction, result);
-      break;
-    case record::Shape::kCone:
-      evaluate_cone(direction, result);
-      break;
-    case record::Shape::kSphere:
-      evaluate_sphere(result);
-      break;
-    default:
-      evaluate_circle(*direction, result);
-  }
+  fit_surface(direction, result);
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
   if (result.mz_cylinder && touched) {
@@ -479,6 +486,40 @@ FeatureResult without_values(const Defect& defect) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> windowed_rows(const FeatureResult& feature) {
+  std::set<std::size_t> rows;
+  for (const CharacteristicResult& result : feature.characteristics) {
+    if (!result.finding) continue;
+    for (const LeftOut& left : result.finding->left_out) {
+      if (!left.window.empty()) rows.insert(left.row);
+    }
+  }
+  return {rows.begin(), rows.end()};
+}
+
+std::optional<FeatureResult> outside_windows(const RunRecord& record, int index,
+                                             const FeatureResult& feature) {
+  const auto windowed = windowed_rows(feature);
+  const auto last = std::ranges::find_if(record.poses, [&](const record::PoseVisit& visit) {
+    return visit.feature == index && is_final(record, visit);
+  });
+  if (windowed.empty() || feature.failure || feature.merged || last == record.poses.end())
+    return std::nullopt;
+  FeatureResult out = feature;
+  out.cloud.clear();
+  for (std::size_t i = 0; i < feature.cloud.size(); ++i) {
+    if (std::ranges::binary_search(windowed, i)) continue;
+    out.cloud.push_back(feature.cloud[i]);
+    out.cloud.back().outer_contact = false;
+    out.cloud.back().inner_contact = false;
+  }
+  if (out.cloud.empty()) return std::nullopt;
+  out.layers.clear();
+  fit_surface(expected_axis(record, feature.feature, *last), out);
+  if (out.failure) return std::nullopt;
+  return out;
+}
 
 CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
   const std::optional<RunRecord> at_20 = compensated(measured);

@@ -72,6 +72,8 @@ void warn_exact_fit(FeatureResult& result) {
 /// cylinder that has one.
 void warn_absent(FeatureResult& result) {
   using record::Reference;
+  const record::Shape shape = result.feature.shape;
+  if (shape != record::Shape::kCylinder && shape != record::Shape::kCircle) return;
   for (const Reference reference :
        {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
     const auto found = one_sided_of(result, reference);

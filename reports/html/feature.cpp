@@ -5,6 +5,7 @@
 
 #include "core/numbers.h"
 #include "evaluation/analysis_result.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
@@ -92,6 +93,71 @@ std::string axis_entry(const evaluation::FeatureResult& feature) {
   const Eigen::Vector2d& center = feature.layers.front().mz->center_mm;
   return entry(tr("Centre of the zone"),
                fmt::format("({}, {}) mm", fixed(center.x(), 6), fixed(center.y(), 6)), "wide-key");
+}
+
+/// A zone of a plane, a cone or a sphere, as far as a map of its deviations needs it.
+std::optional<evaluation::Zone> form_zone(const evaluation::FeatureResult& feature) {
+  evaluation::Zone zone;
+  if (feature.mz_plane) {
+    zone.deviation_mm = feature.mz_plane->width_mm;
+    zone.outer = feature.mz_plane->top;
+    zone.inner = feature.mz_plane->bottom;
+    zone.certificate = feature.mz_plane->certificate;
+  } else if (feature.mz_cone) {
+    zone.deviation_mm = feature.mz_cone->width_mm;
+    zone.outer = feature.mz_cone->outer;
+    zone.inner = feature.mz_cone->inner;
+    zone.certificate = feature.mz_cone->certificate;
+  } else if (feature.mz_sphere) {
+    zone.deviation_mm = feature.mz_sphere->width_mm();
+    zone.outer = feature.mz_sphere->outer;
+    zone.inner = feature.mz_sphere->inner;
+    zone.certificate = feature.mz_sphere->certificate;
+  } else {
+    return {};
+  }
+  return zone;
+}
+
+std::string vector_words(const Eigen::Vector3d& v, int decimals) {
+  return fmt::format("({}, {}, {})", fixed(v.x(), decimals), fixed(v.y(), decimals),
+                     fixed(v.z(), decimals));
+}
+
+/// Form, certificate and place of a plane, a cone or a sphere.
+std::string form_entries(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
+  const bool plane = feature.mz_plane.has_value();
+  std::string html =
+      entry(plane ? tr("Minimum zone FLTt (MZPL)") : tr("Form deviation, minimum zone"),
+            with_note(um(zone.deviation_mm) + " µm", trf("as read; {} outer and {} inner contacts",
+                                                         zone.outer.size(), zone.inner.size())));
+  const auto least_squares = [&](double deviation_mm, double rms_mm) {
+    html += entry(plane ? tr("Least squares (LSPL)") : tr("Form deviation, least squares"),
+                  with_note(um(deviation_mm) + " µm", trf("as read; rms {} µm", um(rms_mm))));
+  };
+  std::string place;
+  if (feature.ls_plane) {
+    least_squares(feature.ls_plane->deviation_mm, feature.ls_plane->rms_mm);
+    place = trf("through {} mm, normal {}", vector_words(feature.ls_plane->plane.point_mm, 6),
+                vector_words(feature.ls_plane->plane.normal, 8));
+  } else if (feature.ls_cone) {
+    const fit::Cone& cone = feature.ls_cone->cone;
+    least_squares(feature.ls_cone->deviation_mm, feature.ls_cone->rms_mm);
+    html += entry(tr("Full angle of the cone"), core::deg(std::abs(cone.full_angle_rad), 5) + "°");
+    place = trf("through {} mm, direction {}", vector_words(cone.axis.point_mm, 6),
+                vector_words(cone.axis.direction, 8));
+  } else if (feature.ls_sphere) {
+    const double radius_mm = feature.ls_sphere->radius_mm + evaluation::surface_offset_mm(feature);
+    least_squares(feature.ls_sphere->deviation_mm, feature.ls_sphere->rms_mm);
+    html += entry(tr("Radius of the least-squares sphere"),
+                  with_note(fixed(radius_mm, 4) + " mm",
+                            feature.tip_radius_mm ? tr("of the surface")
+                                                  : tr("of the points as given; the tip radius is "
+                                                       "unknown")));
+    place = vector_words(feature.ls_sphere->center_mm, 6) + " mm";
+  }
+  html += certificate_entry(zone);
+  return html + entry(tr("Place of the least-squares feature (machine frame)"), place, "wide-key");
 }
 
 std::string pose_entries(const evaluation::FeatureResult& feature) {
@@ -197,7 +263,9 @@ std::string truth_text(const record::RunRecord& record, std::size_t index) {
 std::string key_numbers(const evaluation::FeatureResult& feature,
                         const std::optional<evaluation::Zone>& zone) {
   std::string html = R"(<dl class="keys">)";
+  const auto form = form_zone(feature);
   if (zone) html += zone_entries(feature, *zone);
+  if (form) html += form_entries(feature, *form);
   html += pose_entries(feature) + data_entries(feature);
   if (zone) html += certificate_entry(*zone) + axis_entry(feature);
   return html + "</dl>";
@@ -251,28 +319,43 @@ std::string messages(const evaluation::FeatureResult& feature) {
 }
 
 std::string feature_section(const record::RunRecord& record, std::size_t index,
-                            const evaluation::FeatureResult& feature) {
-  if (record::is_analysis(feature.feature.shape)) return analysis_section(record, index, feature);
+                            const evaluation::FeatureResult& all) {
+  if (record::is_analysis(all.feature.shape)) return analysis_section(record, index, all);
+  const auto outside = evaluation::outside_windows(record, static_cast<int>(index), all);
+  const evaluation::FeatureResult& feature = outside ? *outside : all;
   const auto zone = zone_of(feature);
   const record::Feature& asked = feature.feature;
   std::string nominal;
   if (asked.nominal_diameter_mm > 0.0) {
     nominal = trf(", nominal diameter {:.10g} mm", asked.nominal_diameter_mm);
   }
+  const std::string origin = asked.strategy == record::Strategy::kPointsFile
+                                 ? tr("points from a file")
+                                 : trf("pose search: {}", tr(record::name_of(asked.strategy)));
   std::string html = fmt::format(
       R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
-      trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
-          tr(record::name_of(asked.shape)), nominal,
-          asked.strategy == record::Strategy::kPointsFile
-              ? tr("points from a file")
-              : trf("pose search: {}", tr(record::name_of(asked.strategy)))));
+      asked.shape == record::Shape::kPlane
+          ? trf("{}; {}.", capitalised(tr(record::name_of(asked.shape))), origin)
+          : trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
+                tr(record::name_of(asked.shape)), nominal, origin));
   html += messages(feature);
+  if (outside) {
+    html += note(trf("{} of {} points lie in windows and take no part in what follows.",
+                     all.cloud.size() - feature.cloud.size(), all.cloud.size()));
+  }
   html += key_numbers(feature, zone);
-  html += truth_box(truth_text(evaluation::truth_of(record, index), zone, asked.shape));
+  const std::string truth = truth_text(evaluation::truth_of(record, index), zone, asked.shape);
+  html += truth_box(truth.empty() ? truth_text(record, index) : truth);
   html += uncertainty_section(feature);
   if (zone)
-    html +=
-        polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
+    html += polar_plots(feature, *zone, &all) + deviation_map(feature, *zone) +
+            solid_view(feature, *zone);
+  if (feature.mz_plane) {
+    html += face_map(feature);
+  } else if (const auto form = form_zone(feature)) {
+    html += deviation_map(feature, *form);
+  }
+  html += findings_section(feature, record);
   html += harmonics_section(feature);
   if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
   if (feature.poses.empty()) return html + "</section>";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/units.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/html/plots.h"
 #include "reports/words/language.h"
@@ -53,6 +54,21 @@ std::string_view symbol_lines(record::Form form) {
     case record::Form::kRoundness:
     case record::Form::kRoundnessRms:
       return R"(<circle cx="10" cy="10" r="7"/>)";
+    case record::Form::kStraightness:
+      return R"(<path d="M3 10h14"/>)";
+    case record::Form::kFlatness:
+      return R"(<path d="M2 14.5L6.5 5.5H18L13.5 14.5z"/>)";
+    case record::Form::kCoaxiality:
+    case record::Form::kConcentricity:
+      return R"(<circle cx="10" cy="10" r="7.2"/><circle cx="10" cy="10" r="3.4"/>)";
+    case record::Form::kParallelism:
+      return R"(<path d="M4.5 17L10 3M10.5 17L16 3"/>)";
+    case record::Form::kPerpendicularity:
+      return R"(<path d="M10 3v13.5M2.5 16.5h15"/>)";
+    case record::Form::kAngularity:
+      return R"(<path d="M17.5 16.5H2.5L15.5 4"/>)";
+    case record::Form::kTotalRunOut:
+      return R"(<path d="M2 17L10 4M5 5.8L10 4L10.3 9.3M9.5 17L17.5 4M12.5 5.8L17.5 4L17.8 9.3M2 17h7.5"/>)";
     case record::Form::kRunOut:
       return R"(<path d="M4 17L15 4M9.5 5L15 4L14 9.5"/>)";
     case record::Form::kContourDeviation:
@@ -107,6 +123,70 @@ std::string tolerance_bar(const evaluation::CharacteristicResult& result, double
     svg.line(x.at(known->high_mm), 9.5, x.at(known->high_mm), 16.5, "interval");
   }
   svg.line(x.at(tolerance_mm), 3.0, x.at(tolerance_mm), 23.0, "limit");
+  return svg.str();
+}
+
+std::string limits_bar(const evaluation::CharacteristicResult& result,
+                       const std::vector<evaluation::JudgedValue>& judged) {
+  constexpr double kWidth = 150.0;
+  const evaluation::UncertaintyStatement* known = result.value->statement();
+  double low_mm = judged.front().value_mm;
+  double high_mm = low_mm;
+  evaluation::Limits limits;
+  const auto reach = [&](const std::optional<double>& length_mm) {
+    if (!length_mm) return;
+    low_mm = std::min(low_mm, *length_mm);
+    high_mm = std::max(high_mm, *length_mm);
+  };
+  for (const evaluation::JudgedValue& value : judged) {
+    reach(value.value_mm);
+    reach(value.limits.lower_mm);
+    reach(value.limits.upper_mm);
+    if (value.limits.lower_mm) limits.lower_mm = value.limits.lower_mm;
+    if (value.limits.upper_mm) limits.upper_mm = value.limits.upper_mm;
+  }
+  if (known != nullptr) {
+    reach(known->low_mm);
+    reach(known->high_mm);
+  }
+  const double room_mm = std::max(0.2 * (high_mm - low_mm), 0.5 * core::kMicrometre);
+  const Scale x{low_mm - room_mm, high_mm + room_mm, 1.0, kWidth - 1.0};
+  std::string label = in_words(result.value->value_text()).value_or("");
+  for (const evaluation::JudgedValue& value : judged) {
+    if (judged.size() > 1)
+      label += fmt::format("; {} {}", value.symbol, result.value->in_digits(value.value_mm));
+  }
+  Svg svg(kWidth, 26.0, "bar", label);
+  const double from = limits.lower_mm ? x.at(*limits.lower_mm) : x.from;
+  const double to = limits.upper_mm ? x.at(*limits.upper_mm) : x.to;
+  svg.rect(from, 8.0, to - from, 10.0, "allowed");
+  if (result.outcome) {
+    const evaluation::Limits& accepted = result.outcome->acceptance;
+    const evaluation::Limits& rejected = result.outcome->rejection;
+    const auto band = [&](const std::optional<double>& one, const std::optional<double>& other) {
+      if (!one || !other || *one == *other) return;
+      const double left = std::clamp(x.at(std::min(*one, *other)), x.from, x.to);
+      svg.rect(left, 5.0, std::clamp(x.at(std::max(*one, *other)), x.from, x.to) - left, 16.0,
+               "guard");
+    };
+    band(accepted.lower_mm, rejected.lower_mm);
+    band(accepted.upper_mm, rejected.upper_mm);
+  }
+  if (known != nullptr) {
+    svg.line(x.at(known->low_mm), 13.0, x.at(known->high_mm), 13.0, "interval");
+    svg.line(x.at(known->low_mm), 9.5, x.at(known->low_mm), 16.5, "interval");
+    svg.line(x.at(known->high_mm), 9.5, x.at(known->high_mm), 16.5, "interval");
+  }
+  for (const evaluation::JudgedValue& value : judged) {
+    const bool decided = result.verdict == evaluation::Verdict::kConforms ||
+                         result.verdict == evaluation::Verdict::kDoesNotConform;
+    svg.diamond(x.at(value.value_mm), 13.0, 5.5,
+                !decided                            ? "neutral"
+                : value.limits.hold(value.value_mm) ? "good"
+                                                    : "bad");
+  }
+  if (limits.lower_mm) svg.line(from, 3.0, from, 23.0, "limit");
+  if (limits.upper_mm) svg.line(to, 3.0, to, 23.0, "limit");
   return svg.str();
 }
 

@@ -273,8 +273,11 @@ std::string deviation_map(const evaluation::FeatureResult& feature, const evalua
       tr("Unrolled surface"), svg.str(),
       view.cells ? tr("Mean deviation from the middle of the zone, in cells of 3°.")
                  : tr("Deviation of each point from the middle of the zone in µm."),
-      tr("Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the "
-         "inner cylinder of the zone."),
+      feature.feature.shape == record::Shape::kCylinder
+          ? tr("Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares "
+               "the inner cylinder of the zone.")
+          : tr("Orange: outwards; blue: inwards. Triangles touch the outer, squares the inner "
+               "surface of the zone."),
       feature.merged ? tr(" The number above a point is its pose.") : std::string());
 }
 

@@ -6,11 +6,13 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/units.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/results/section.h"
 #include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
+#include "reports/html/sections.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
@@ -82,6 +84,39 @@ std::string profile_path(const evaluation::Section& section, const PolarView& vi
   return d;
 }
 
+/// Shades the sectors of a layer whose points all lie in windows.
+/// @param all       The feature with these points.
+/// @param windowed  Rows of its cloud, ascending.
+void draw_windows(Svg& svg, const evaluation::Section& section,
+                  const evaluation::FeatureResult& all, const std::vector<std::size_t>& windowed) {
+  std::vector<std::pair<double, bool>> points;  // by angle, and whether in a window
+  for (std::size_t row = 0; row < all.cloud.size(); ++row) {
+    if (all.cloud[row].layer == section.layer)
+      points.emplace_back(all.cloud[row].angle_rad, std::ranges::binary_search(windowed, row));
+  }
+  std::sort(points.begin(), points.end());
+  const std::size_t count = points.size();
+  constexpr double kFrom = kSectionMean - 2.0 * kSectionHalfZone;
+  constexpr double kTo = kSectionMean + kSectionHalfZone + 6.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!points[i].second || points[(i + count - 1) % count].second) continue;
+    std::size_t last = i;
+    while (last + 1 < i + count && points[(last + 1) % count].second) ++last;
+    double to = points[last % count].first;
+    if (to < points[i].first) to += core::kTwoPi;
+    const double half_step = 0.5 * core::kTwoPi / static_cast<double>(count);
+    const double begin = points[i].first - half_step;
+    const double end = to + half_step;
+    const PolarView view;
+    svg.path(fmt::format("M{0:.1f} {1:.1f}A{4:.1f} {4:.1f} 0 {5} 0 {2:.1f} {3:.1f}L{6:.1f} {7:.1f}"
+                         "A{10:.1f} {10:.1f} 0 {5} 1 {8:.1f} {9:.1f}z",
+                         view.x(begin, kTo), view.y(begin, kTo), view.x(end, kTo), view.y(end, kTo),
+                         kTo, end - begin > 0.5 * core::kTwoPi ? 1 : 0, view.x(end, kFrom),
+                         view.y(end, kFrom), view.x(begin, kFrom), view.y(begin, kFrom), kFrom),
+             "window");
+  }
+}
+
 void draw_points(Svg& svg, const evaluation::Section& section,
                  const evaluation::FeatureResult& feature, const PolarView& view) {
   const double size = !has_marks(section) ? 0.0 : section.rows.size() <= 60 ? 3.0 : 1.6;
@@ -108,12 +143,14 @@ std::string roundness_of(const evaluation::FeatureResult& feature,
 }
 
 std::string plot(const evaluation::FeatureResult& feature, const evaluation::Section& section,
-                 const PolarView& view, double half_zone_mm) {
+                 const PolarView& view, double half_zone_mm, const evaluation::FeatureResult& all,
+                 const std::vector<std::size_t>& windowed) {
   Svg svg(kSectionSize, kSectionSize, "polar",
           trf("{}: deviations about the minimum-zone axis", title_of(section)));
   draw_polar_axes(svg,
                   {kSectionCentre, kSectionMean + kSectionHalfZone + 6.0, 4.0, 7.0, 127.0, 130.0});
   draw_zone(svg, view, half_zone_mm);
+  if (!windowed.empty() && !section.projected) draw_windows(svg, section, all, windowed);
   const bool sparse = section.rows.size() <= 40;
   if (has_line(section)) svg.path(profile_path(section, view), sparse ? "guide" : "profile");
   draw_points(svg, section, feature, view);
@@ -149,12 +186,15 @@ std::string legend(std::size_t shown, std::size_t all, double magnification, boo
 
 }  // namespace
 
-std::string polar_plots(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
+std::string polar_plots(const evaluation::FeatureResult& feature, const evaluation::Zone& zone,
+                        const evaluation::FeatureResult* all) {
   const std::vector<evaluation::Section> sections = sections_of(feature);
   if (sections.empty()) return {};
   const double half_zone_mm = 0.5 * zone.deviation_mm;
   const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5)};
   const std::size_t shown = std::min(sections.size(), kMostPlots);
+  const std::vector<std::size_t> windowed =
+      all != nullptr ? evaluation::windowed_rows(*all) : std::vector<std::size_t>();
   bool thinned = false;
   bool sparse = false;
   std::string plots;
@@ -162,11 +202,16 @@ std::string polar_plots(const evaluation::FeatureResult& feature, const evaluati
     const std::size_t pick = shown == 1 ? 0 : i * (sections.size() - 1) / (shown - 1);
     thinned |= sections[pick].thinned;
     sparse |= has_line(sections[pick]) && sections[pick].rows.size() <= 40;
-    plots += plot(feature, sections[pick], view, half_zone_mm);
+    plots += plot(feature, sections[pick], view, half_zone_mm, all != nullptr ? *all : feature,
+                  windowed);
   }
   const double magnification = view.px_per_mm * zone.mean_radius_mm / kSectionMean;
-  return fmt::format(R"(<h3>{}</h3>{}<div class="multiples{}">{}</div>)", tr("Sections"),
-                     legend(shown, sections.size(), magnification, thinned, sparse),
+  std::string words = legend(shown, sections.size(), magnification, thinned, sparse);
+  if (!windowed.empty())
+    words +=
+        note(tr("Grey sectors: windows, whose points take no part in the values of the "
+                "drawing."));
+  return fmt::format(R"(<h3>{}</h3>{}<div class="multiples{}">{}</div>)", tr("Sections"), words,
                      shown == 1                 ? " single"
                      : shown == 2 || shown == 4 ? " pairs"
                                                 : "",

@@ -54,12 +54,12 @@ std::string policy() {
       base64_of_sha256(record::sha256_hex(kScript)));
 }
 
-std::string style() {
+std::string style(bool of_drawing) {
   return fmt::format(
-      "<style>{0}@media screen{{:root[data-theme=dark]{{{1}}}}}\n"
+      "<style>{0}{2}@media screen{{:root[data-theme=dark]{{{1}}}}}\n"
       "@media screen and (prefers-color-scheme:dark){{:root:not([data-theme=light]){{{1}}}}}\n"
       "</style>",
-      kStyle, kDarkColours);
+      kStyle, kDarkColours, of_drawing ? kDrawingStyle : std::string_view());
 }
 
 /// Head of the page on a screen: link to the result, contents, switch of the theme.
@@ -101,14 +101,16 @@ std::vector<PagePart> parts_of(const record::RunRecord& record,
 std::string write_html(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
                        Language language, const EarlierResults& earlier) {
   const LanguageScope scope(language);
+  const bool of_drawing = has_findings(evaluation);
   const std::vector<PagePart> parts = parts_of(record, evaluation, earlier);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
       tag_of(language), policy(), escaped(printable(record.header.part_id)),
-      escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(),
-      top_of(parts), head_section(record, tr("cylindricity report")));
+      escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(of_drawing),
+      top_of(parts),
+      head_section(record, of_drawing ? tr("inspection report") : tr("cylindricity report")));
   constexpr std::string_view kTag = "<section";
   for (const PagePart& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));

@@ -39,6 +39,12 @@ namespace rondure::reports {
 [[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
 [[nodiscard]] std::string uncertainty_section(const evaluation::FeatureResult& feature);
+/// Whether something on the page needs kDrawingStyle.
+[[nodiscard]] bool has_findings(const evaluation::Evaluation& evaluation);
+/// How the values of a feature came about: local values, numbers, datums, points left out,
+/// warnings, pictures; empty without findings.
+[[nodiscard]] std::string findings_section(const evaluation::FeatureResult& feature,
+                                           const record::RunRecord& record);
 /// Harmonics of dense sections with the limits of a mask, and those beyond it; empty for sparse
 /// sections.
 [[nodiscard]] std::string harmonics_section(const evaluation::FeatureResult& feature);

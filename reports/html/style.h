@@ -166,6 +166,23 @@ td{padding-top:3px;padding-bottom:3px}footer{margin-top:6px;padding-top:0;border
 }
 )css";
 
+/// What a page with characteristics of a drawing needs beside kStyle.
+inline constexpr std::string_view kDrawingStyle = R"css(
+.frame-box .deviations{display:inline-flex;flex-direction:column;font-size:9.5px;line-height:1.15;margin-left:4px}
+.frame-box{white-space:nowrap}.frame-box.size{vertical-align:-9px}
+.frame-box .modifier{border:1.1px solid var(--ink);border-radius:9px;font-size:10px;line-height:1;padding:2px 4px;
+margin-left:5px;min-width:16px;text-align:center}
+.side-by-side{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:0 28px;align-items:start}
+.side-by-side td{padding:2px 8px 2px 0}.side-by-side th.n,.side-by-side td.n{padding-right:0}
+details{margin:8px 0}summary{cursor:pointer;font-size:13.5px}
+.span{fill:var(--guide)}.span.worst{fill:var(--orange)}
+.span-limit{stroke:var(--ink);stroke-width:1.6;stroke-dasharray:7 4}
+.window{fill:var(--soft);fill-opacity:.22;stroke:none}
+svg.face{max-width:520px}.face .label{paint-order:stroke;stroke:var(--paper);stroke-width:3px}
+@media screen and (max-width:640px){.side-by-side{grid-template-columns:1fr}}
+@media print{details{break-inside:avoid}.side-by-side{gap:0 20px}}
+)css";
+
 /// The colours of the dark theme: every text and every mark has the contrast required by WCAG 2.1
 /// AA (4.5, and 3 for graphics). Print never uses them.
 inline constexpr std::string_view kDarkColours =

@@ -35,13 +35,18 @@ std::string statements(const evaluation::DecisionRule& rule) {
   return html.empty() ? html : "<dl>" + html + "</dl>";
 }
 
+/// @param unit  Of the value; its uncertainty is always in µm.
 std::string statement_entry(const std::string& name, const evaluation::UncertaintyStatement& s,
-                            double coverage_1) {
+                            core::LengthUnit unit, double coverage_1) {
   const int decimals = evaluation::decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
+  const auto value = [&](double mm) {
+    return unit == core::LengthUnit::kUm ? number(mm) : core::length_in(unit, mm, decimals);
+  };
   return entry(name,
-               with_note(fmt::format("{} µm [{}, {}]", number(s.estimate_mm), number(s.low_mm),
-                                     number(s.high_mm)),
+               with_note(fmt::format("{} {} [{}, {}]", value(s.estimate_mm),
+                                     unit == core::LengthUnit::kUm ? "µm" : "mm", value(s.low_mm),
+                                     value(s.high_mm)),
                          trf("corrected value; {:g} % interval, U = {} µm, standard uncertainty {} "
                              "µm; numbers stable to {} µm",
                              100.0 * coverage_1, number(s.expanded_mm()),
@@ -109,11 +114,14 @@ std::string value_part(const evaluation::CharacteristicResult& result) {
                                  trf("{}. Monte Carlo of {} trials (JCGM 101).",
                                      in_sentence(result.value->sentence()), u.trials));
   html += R"(<dl class="keys">)";
-  html += entry(tr("As read, not corrected"), um(u.uncorrected_mm) + " µm");
-  html +=
-      statement_entry(tr("At the sampled points, free of noise"), u.sampled, status.coverage_1());
+  const core::LengthUnit unit = result.value->unit();
+  html += entry(tr("As read, not corrected"),
+                unit == core::LengthUnit::kUm ? um(u.uncorrected_mm) + " µm"
+                                              : result.value->in_digits(u.uncorrected_mm) + " mm");
+  html += statement_entry(tr("At the sampled points, free of noise"), u.sampled, unit,
+                          status.coverage_1());
   if (u.whole) {
-    html += statement_entry(tr("Of the whole surface"), *u.whole, status.coverage_1());
+    html += statement_entry(tr("Of the whole surface"), *u.whole, unit, status.coverage_1());
     html += entry(tr("Form spectrum of it"), in_sentence(u.spectrum_source), "wide-key");
   }
   html += bias_entries(u) + finding_entry(u) + "</dl>";

@@ -5,6 +5,7 @@
 
 #include "core/numbers.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
@@ -23,6 +24,28 @@ std::string css_name(evaluation::Verdict verdict) {
   return name;
 }
 
+/// Whether the limits are not the one upper limit of a deviation.
+bool has_sides(const record::Characteristic& asked) {
+  return asked.lower_mm || evaluation::unit_of(asked) == core::LengthUnit::kMm;
+}
+
+/// A limit, which is the sum of a nominal size and a deviation.
+std::string limit_text(core::LengthUnit unit, double limit_mm) {
+  constexpr double kSteps = 1e6;  // of a nanometre
+  return unit == core::LengthUnit::kUm ? um(limit_mm) + " µm"
+                                       : core::decimal(core::on_grid(limit_mm, kSteps)) + " mm";
+}
+
+/// "&le; 30 mm, &ge; 29.987 mm".
+std::string limits_of(const record::Characteristic& asked, std::string_view between) {
+  const core::LengthUnit unit = evaluation::unit_of(asked);
+  std::string html;
+  if (asked.tolerance_mm) html += "≤ " + limit_text(unit, *asked.tolerance_mm);
+  if (asked.tolerance_mm && asked.lower_mm) html += between;
+  if (asked.lower_mm) html += "≥ " + limit_text(unit, *asked.lower_mm);
+  return html;
+}
+
 /// Reason for the verdict in one line.
 std::string sentence(const evaluation::Evaluation& evaluation) {
   std::size_t toleranced = 0;
@@ -30,7 +53,7 @@ std::string sentence(const evaluation::Evaluation& evaluation) {
   const evaluation::CharacteristicResult* only = nullptr;
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-      if (!result.characteristic.tolerance_mm) continue;
+      if (!result.characteristic.toleranced()) continue;
       ++toleranced;
       only = &result;
       if (result.verdict == evaluation::Verdict::kConforms) ++conforming;
@@ -41,6 +64,13 @@ std::string sentence(const evaluation::Evaluation& evaluation) {
     return conforming == 1
                ? trf("{} of {} toleranced characteristics conforms.", conforming, toleranced)
                : trf("{} of {} toleranced characteristics conform.", conforming, toleranced);
+  }
+  if (has_sides(only->characteristic)) {
+    if (!only->value)
+      return trf("There is no value to hold against {}.",
+                 limits_of(only->characteristic, tr(", ")));
+    return trf("{} {}, limits {}.", tr(evaluation::symbol_of(only->characteristic)),
+               in_sentence(only->value->value_text()), limits_of(only->characteristic, tr(", ")));
   }
   const std::string limit = um(*only->characteristic.tolerance_mm);
   if (!only->value) return trf("There is no value to hold against {} µm.", limit);
@@ -68,32 +98,119 @@ std::string unfinished_banner(const record::RunRecord& record,
   return html + "</ul></div>";
 }
 
-/// Tolerance frame: symbol, limit in mm.
-std::string tolerance_frame(const record::Characteristic& asked) {
-  std::string limit;
-  if (asked.tolerance_mm) limit = fmt::format("<span>{:g}</span>", *asked.tolerance_mm);
+/// "30 0/-0.013 E", as a drawing states a size, with the circled letters of ISO 14405-1.
+std::string size_frame(const record::Feature& feature, const record::Characteristic& asked) {
+  using Indication = record::Indication;
+  std::string size;
+  if (feature.nominal_diameter_mm > 0.0 && evaluation::unit_of(asked) == core::LengthUnit::kMm) {
+    size = fmt::format("Ø{:.10g}", feature.nominal_diameter_mm);
+    const auto deviation = [&](const std::optional<double>& limit_mm) {
+      if (!limit_mm) return std::string("–");
+      const double by_mm = core::on_grid(*limit_mm - feature.nominal_diameter_mm, 1e6);
+      return (by_mm > 0.0 ? "+" : "") + core::decimal(by_mm == 0.0 ? 0.0 : by_mm);
+    };
+    if (asked.toleranced()) {
+      size += fmt::format(R"(<span class="deviations"><span>{}</span><span>{}</span></span>)",
+                          deviation(asked.tolerance_mm), deviation(asked.lower_mm));
+    }
+  } else {
+    size = limits_of(asked, tr(", "));
+  }
+  const Indication& indication = asked.indication;
+  const auto circled = [&](std::string_view letters) {
+    size += fmt::format(R"(<span class="modifier">{}</span>)", letters);
+  };
+  if (indication.requirement == Indication::Requirement::kEnvelope) {
+    circled("E");
+  } else {
+    circled(record::name_of(indication.size));
+    if (indication.rank) circled(record::name_of(*indication.rank));
+    if (indication.section != Indication::Section::kAll)
+      size += fmt::format(" {}", record::name_of(indication.section));
+  }
+  return fmt::format(R"(<span class="frame-box size"><span>{}</span></span>)", size);
+}
+
+/// Whether the tolerance zone is a cylinder.
+bool is_diametral(const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  if (asked.form == record::Form::kStraightness)
+    return asked.indication.of == record::Indication::Of::kMedianLine;
+  if (result.finding) return result.finding->judged.front().symbol.ends_with("\u00d8");
+  return asked.form == record::Form::kCoaxiality || asked.form == record::Form::kConcentricity;
+}
+
+/// Tolerance frame: symbol, limit in mm, datums.
+std::string tolerance_frame(const record::Feature& feature,
+                            const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  if (asked.form == record::Form::kDiameter) return size_frame(feature, asked);
+  std::string cells;
+  if (asked.tolerance_mm) {
+    cells =
+        fmt::format("<span>{}{:g}</span>", is_diametral(result) ? "Ø" : "", *asked.tolerance_mm);
+  }
+  for (const std::string& datum : asked.indication.datum)
+    cells += fmt::format("<span>{}</span>", isolated(datum));
   return fmt::format(R"(<span class="frame-box"><span>{}</span>{}</span>)", form_symbol(asked.form),
-                     limit);
+                     cells);
+}
+
+/// The judged values; of a value without a finding, itself with the limits of its characteristic.
+std::vector<evaluation::JudgedValue> judged_values(const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  std::vector<evaluation::JudgedValue> judged;
+  if (result.finding) judged = result.finding->judged;
+  if (judged.empty()) judged = {{"", 0.0, {asked.lower_mm, asked.tolerance_mm}}};
+  if (judged.size() == 1) judged.front().value_mm = result.value->quoted_mm();
+  return judged;
 }
 
 std::string bar_cell(const evaluation::CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
-  if (!result.value || !limit || !(*limit > 0.0)) return "<td></td>";
+  if (!result.value || !result.characteristic.toleranced()) return "<td></td>";
+  if (has_sides(result.characteristic))
+    return fmt::format("<td>{}</td>", limits_bar(result, judged_values(result)));
+  if (!(*limit > 0.0)) return "<td></td>";
   return fmt::format(
       R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
       trf("{} % of the limit", fixed(100.0 * result.value->quoted_mm() / *limit, 0)));
 }
 
+std::string_view unit_sign(core::LengthUnit unit) {
+  return unit == core::LengthUnit::kUm ? "µm" : "mm";
+}
+
 /// The deciding value; with an interval, the estimate, that interval and the value as read.
 std::string value_cell(const evaluation::StatedValue& value) {
-  std::string html =
-      fmt::format(R"(<span class="value">{}</span> µm)", value.in_digits(value.quoted_mm()));
+  std::string html = fmt::format(R"(<span class="value">{}</span> {})",
+                                 value.in_digits(value.quoted_mm()), unit_sign(value.unit()));
   if (const evaluation::UncertaintyStatement* known = value.statement()) {
     html += fmt::format(R"(<div class="note">[{}, {}]</div><div class="note">{}</div>)",
                         value.in_digits(known->low_mm), value.in_digits(known->high_mm),
                         trf("as read {}", value.in_digits(value.value_mm())));
   }
   return html;
+}
+
+/// Several judged values, each with its symbol; the stated one with its interval.
+std::string values_cell(const evaluation::CharacteristicResult& result) {
+  const evaluation::StatedValue& stated = *result.value;
+  if (!result.finding || result.finding->judged.size() < 2) return value_cell(stated);
+  std::string html;
+  for (const evaluation::JudgedValue& value : result.finding->judged) {
+    html += value.value_mm == stated.value_mm()
+                ? value_cell(stated)
+                : fmt::format(R"(<span class="value">{}</span> {})",
+                              stated.in_digits(value.value_mm), unit_sign(stated.unit()));
+    html += fmt::format(R"(<div class="note">{}</div>)", value.symbol);
+  }
+  return html;
+}
+
+std::string limits_cell(const record::Characteristic& asked) {
+  if (!asked.toleranced()) return tr("none");
+  return has_sides(asked) ? limits_of(asked, "<br/>") : um(*asked.tolerance_mm) + " µm";
 }
 
 /// A probability estimated from trials, with a resolution no finer than one trial.
@@ -132,13 +249,12 @@ std::string row(const evaluation::FeatureResult& feature,
   const record::Characteristic& asked = result.characteristic;
   std::string html =
       fmt::format(R"(<tr><td>{}<span class="id">{}</span><div class="note">{}</div></td>)",
-                  tolerance_frame(asked), isolated(asked.id),
+                  tolerance_frame(feature.feature, result), isolated(asked.id),
                   trf("{} {} · feature {}", tr(evaluation::symbol_of(asked)),
                       evaluation::reference_of(asked), isolated(feature.feature.id)));
   html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Value"),
-                      result.value ? value_cell(*result.value) : tr("none"));
-  html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Limit"),
-                      asked.tolerance_mm ? um(*asked.tolerance_mm) + " µm" : tr("none"));
+                      result.value ? values_cell(result) : tr("none"));
+  html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Limit"), limits_cell(asked));
   html += bar_cell(result);
   html += fmt::format(R"(<td class="verdict-word {}">{}{}</td>)", css_name(result.verdict),
                       verdict_mark(result.verdict, 20), capitalised(tr(name_of(result.verdict))));

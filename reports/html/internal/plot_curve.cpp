@@ -224,4 +224,51 @@ std::string bar_chart(std::string_view title, std::string_view x_title, std::str
   return figure(svg, title, {});
 }
 
+std::string span_chart(std::string_view title, std::string_view x_title, std::string_view y_title,
+                       const std::vector<Span>& spans, const std::vector<double>& limits) {
+  if (spans.empty()) return {};
+  const auto [first, last] = std::ranges::minmax_element(spans, {}, &Span::x);
+  double pitch = last->x - first->x;
+  std::vector<double> places;
+  for (const Span& span : spans) places.push_back(span.x);
+  std::sort(places.begin(), places.end());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (places[i] > places[i - 1]) pitch = std::min(pitch, places[i] - places[i - 1]);
+  }
+  if (!(pitch > 0.0)) pitch = 1.0;
+  double low = limits.empty() ? 0.0 : limits.front();
+  double high = low;
+  for (const double limit : limits) {
+    low = std::min(low, limit);
+    high = std::max(high, limit);
+  }
+  for (const Span& span : spans) {
+    if (span.absent) continue;
+    low = std::min(low, span.low);
+    high = std::max(high, span.high);
+  }
+  ChartAxes axes = axes_over(first->x - 0.7 * pitch, last->x + 0.7 * pitch, low, high);
+  if (low == 0.0) axes.y.low = 0.0;
+  axes.y.high += 0.06 * (high - low);  // room for the mark above the worst bar
+  Svg svg(kChartWidth, kChartHeight, "wide", std::string(title));
+  draw_axes(svg, axes, x_title, y_title);
+  const double width = std::clamp(0.6 * (axes.x.at(pitch) - axes.x.at(0.0)), 1.0, 28.0);
+  for (const Span& span : spans) {
+    const double x = axes.x.at(span.x);
+    if (span.absent) {
+      svg.cross(x, axes.y.at(axes.y.low) - 7.0, 4.0, "no-value");
+      continue;
+    }
+    const double top = axes.y.at(span.high);
+    svg.rect(x - 0.5 * width, top, width, std::max(axes.y.at(span.low) - top, 1.5),
+             span.worst ? "span worst" : "span");
+    if (span.worst) svg.diamond(x, top - 8.0, 4.5, "outer");
+  }
+  for (const double limit : limits) {
+    svg.line(kChartLeft, axes.y.at(limit), kChartWidth - kChartRight, axes.y.at(limit),
+             "span-limit");
+  }
+  return figure(svg, title, {});
+}
+
 }  // namespace rondure::reports

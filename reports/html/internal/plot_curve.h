@@ -47,4 +47,17 @@ struct BarLimit {
                                     std::string_view y_title, const std::vector<Bar>& bars,
                                     const std::vector<BarLimit>& limits = {});
 
+/// A bar between two values at a place.
+struct Span {
+  double x = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+  bool worst = false;   ///< Drawn with a mark above it.
+  bool absent = false;  ///< There is no value: a cross.
+};
+/// Bars over places along an axis, with limits over the whole width.
+[[nodiscard]] std::string span_chart(std::string_view title, std::string_view x_title,
+                                     std::string_view y_title, const std::vector<Span>& spans,
+                                     const std::vector<double>& limits);
+
 }  // namespace rondure::reports

@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
+#include "fit/geometry/axis.h"
+#include "reports/html/internal/plot_curve.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+namespace {
+
+using evaluation::Finding;
+using evaluation::LocalValue;
+
+std::string place_title(LocalValue::Place place) {
+  switch (place) {
+    case LocalValue::Place::kLayer:
+      return tr("height / mm");
+    case LocalValue::Place::kAngle:
+      return tr("angle about the axis / °");
+    case LocalValue::Place::kRadius:
+      return tr("radius / mm");
+  }
+  return {};
+}
+
+/// All sections, generatrices or circles with the limits. Sizes are drawn as departures from the
+/// nominal one: they differ by a few micrometres.
+std::string local_chart(const evaluation::CharacteristicResult& result, double nominal_mm) {
+  const Finding& finding = *result.finding;
+  if (finding.local.size() < 2) return {};
+  const bool size = evaluation::unit_of(result.characteristic) == core::LengthUnit::kMm;
+  const double zero_mm = !size              ? 0.0
+                         : nominal_mm > 0.0 ? nominal_mm
+                                            : finding.local.front().value_mm;
+  const auto um_of = [&](double length_mm) { return (length_mm - zero_mm) / core::kMicrometre; };
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i < finding.local.size(); ++i) {
+    const LocalValue& local = finding.local[i];
+    const double x =
+        local.place == LocalValue::Place::kAngle ? core::degrees(local.position) : local.position;
+    if (local.none) {
+      spans.push_back({.x = x, .absent = true});
+      continue;
+    }
+    const double value = um_of(local.value_mm);
+    const double low = local.least_mm ? um_of(*local.least_mm) : size ? value : 0.0;
+    spans.push_back({x, low, value, i == finding.worst});
+  }
+  std::vector<double> limits;
+  for (const evaluation::JudgedValue& value : finding.judged) {
+    if (value.limits.lower_mm) limits.push_back(um_of(*value.limits.lower_mm));
+    if (value.limits.upper_mm) limits.push_back(um_of(*value.limits.upper_mm));
+  }
+  return scrolling(span_chart(limits.empty()
+                                  ? tr("Local values; the worst is marked.")
+                                  : tr("Local values; the worst is marked. Dashed: the limits."),
+                              place_title(finding.local.front().place),
+                              !size              ? tr("value / µm")
+                              : nominal_mm > 0.0 ? trf("size minus {:.10g} mm / µm", nominal_mm)
+                                                 : tr("size minus that of the first section / µm"),
+                              spans, limits));
+}
+
+/// Deviations along the generatrices. The worst, or the two opposite ones, are drawn in full.
+std::string generatrix_chart(const Finding& finding) {
+  if (finding.lines.empty()) return {};
+  const bool one_of_all = finding.lines.size() == finding.local.size();
+  std::vector<Curve> curves;
+  std::vector<Curve> last;
+  for (std::size_t i = 0; i < finding.lines.size(); ++i) {
+    const evaluation::ProfileLine& line = finding.lines[i];
+    Curve curve{
+        trf("generatrix at {}°", core::deg(line.angle_rad, 1)), "profile", line.position_mm, {}};
+    for (const double deviation_mm : line.deviation_mm)
+      curve.y.push_back(deviation_mm / core::kMicrometre);
+    if (!one_of_all || i == finding.worst) {
+      if (!one_of_all && i > 0) curve.css_class = "zone-inner";
+      last.push_back(std::move(curve));
+    } else {
+      curve.name.clear();
+      curve.css_class = "trail";
+      curves.push_back(std::move(curve));
+    }
+  }
+  curves.insert(curves.end(), last.begin(), last.end());
+  const bool others = curves.size() > last.size();
+  return scrolling(line_chart(
+      others ? tr("Generatrices about their least-squares lines, out of the material; grey: the "
+                  "others.")
+             : tr("Generatrices about their least-squares lines, out of the material."),
+      tr("height / mm"), tr("deviation / µm"), curves));
+}
+
+/// The axis about which the median line is drawn: its datum, or the line through its ends.
+fit::Axis median_axis(const Finding& finding) {
+  if (!finding.datums.empty()) return finding.datums.front().place;
+  const Eigen::Vector3d& first = finding.centers_mm.front();
+  const Eigen::Vector3d span = finding.centers_mm.back() - first;
+  return {first, span.norm() > 0.0 ? Eigen::Vector3d(span.normalized()) : Eigen::Vector3d::UnitZ()};
+}
+
+/// One side view of the median line.
+std::string side_view(const evaluation::CharacteristicResult& result, const fit::Axis& axis,
+                      const Eigen::Vector3d& across, std::string_view seen) {
+  const Finding& finding = *result.finding;
+  Curve line{tr("median line"), "profile", {}, {}};
+  for (const Eigen::Vector3d& center : finding.centers_mm) {
+    line.x.push_back((center - axis.point_mm).dot(axis.direction));
+    line.y.push_back((center - axis.point_mm).dot(across) / core::kMicrometre);
+  }
+  const bool datum = !finding.datums.empty();
+  const auto [low, high] = std::minmax_element(line.x.begin(), line.x.end());
+  const std::vector<double> ends = {*low, *high};
+  std::vector<Curve> curves = {
+      {datum ? trf("datum {}", finding.datums.front().name) : tr("line through the ends"),
+       "mean",
+       ends,
+       {0.0, 0.0}}};
+  const record::Form form = result.characteristic.form;
+  const auto& limit_mm = finding.judged.front().limits.upper_mm;
+  const bool about_datum =
+      datum && (form == record::Form::kCoaxiality || form == record::Form::kConcentricity);
+  if (about_datum && limit_mm) {
+    const double half_um = 0.5 * *limit_mm / core::kMicrometre;
+    curves.push_back({tr("limits of the zone"), "zone-outer", ends, {half_um, half_um}});
+    curves.push_back({"", "zone-outer", ends, {-half_um, -half_um}});
+  }
+  Curve marks = line;
+  marks.name.clear();
+  marks.marks_only = true;
+  curves.push_back(std::move(line));
+  curves.push_back(std::move(marks));
+  return scrolling(line_chart(seen, datum ? tr("height along the datum / mm") : tr("height / mm"),
+                              tr("offset / µm"), curves));
+}
+
+/// The median line seen from two sides, its offsets enlarged.
+std::string median_chart(const evaluation::CharacteristicResult& result) {
+  const Finding& finding = *result.finding;
+  if (finding.centers_mm.size() < 2) return {};
+  if (!finding.datums.empty() && finding.datums.front().plane) return {};
+  const fit::Axis axis = median_axis(finding);
+  const auto across = fit::across(axis.direction);
+  return side_view(result, axis, across.col(0), tr("Side view: offset along x")) +
+         side_view(result, axis, across.col(1), tr("Side view: offset along y"));
+}
+
+}  // namespace
+
+std::string finding_plots(const evaluation::CharacteristicResult& result, double nominal_mm) {
+  if (!result.finding) return {};
+  return local_chart(result, nominal_mm) + generatrix_chart(*result.finding) + median_chart(result);
+}
+
+}  // namespace rondure::reports
