@@ -10,7 +10,7 @@ import {run} from './support/runs.mjs';
 
 const axe = readFileSync(axePath, 'utf8');
 const plans = ['01_spool_simulated', '03_calibrate_fixture', '04_part_in_two_poses', '05_spindle_three_probe',
-               '06_wheel', '07_crank_pin', '08_shaft_scanned'];
+               '06_wheel', '07_crank_pin', '08_shaft_scanned', '15_shaft_points_file'];
 
 /// What axe finds, one line each, of the impacts that are asked for.
 async function findings(page, impacts) {

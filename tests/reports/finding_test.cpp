@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "evaluation/evaluate.h"
 #include "evaluation/factors/study.h"
 #include "reports/data/csv.h"
 #include "reports/data/dmis.h"
@@ -15,9 +16,11 @@
 #include "reports/data/qif/report.h"
 #include "reports/formats/exports.h"
 #include "reports/history/archive_entry.h"
+#include "reports/html/report.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
+#include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
@@ -213,6 +216,68 @@ TEST(FindingCompare, NamesWhatItLeavesOut) {
   const auto study = evaluation::study_factors(journal, filtered);
   ASSERT_FALSE(study);
   EXPECT_THAT(study.error().what, HasSubstr("is not the peak-to-valley value of all points"));
+}
+
+TEST(FindingPage, StatesSizesInMillimetresWithBothLimits) {
+  const std::string page = page_of(drawing_case());
+  EXPECT_THAT(page, AllOf(HasSubstr(">≤ 50 mm<br/>≥ 49.984 mm<"), HasSubstr(">50.001200</span> mm"),
+                          HasSubstr(">49.993100</span> mm<div class=\"note\">d LP SN</div>"),
+                          HasSubstr("<span>0</span><span>-0.016</span>"),
+                          HasSubstr("<span class=\"modifier\">E</span>")));
+}
+
+TEST(FindingPage, FramesNameTheirDatums) {
+  const std::string page = page_of(drawing_case());
+  EXPECT_THAT(page, AllOf(HasSubstr("<span>0.015</span><span><bdi>A-B</bdi></span></span>"),
+                          HasSubstr("aria-label=\"perpendicularity\""),
+                          HasSubstr("about the one-sided datum, 11.300 µm about the equalised")));
+}
+
+TEST(FindingPage, HasEverySectionAndThePointsThatTakeNoPart) {
+  const std::string page = page_of(drawing_case());
+  EXPECT_THAT(page, AllOf(HasSubstr("<b>layer 2 at 15.000 mm</b> ◆ worst"),
+                          HasSubstr("2 points left out in the window <bdi>keyway</bdi>"),
+                          HasSubstr("1 points left out by the outlier rule"),
+                          HasSubstr("2 points are left"), HasSubstr("size minus 50 mm / µm")));
+}
+
+TEST(FindingPage, APlaneHasItsFormAndItsMap) {
+  const std::string page = page_of(drawing_case());
+  EXPECT_THAT(page, AllOf(HasSubstr("Minimum zone FLTt (MZPL)</dt><dd>2.900 µm"),
+                          HasSubstr("Least squares (LSPL)</dt><dd>3.100 µm"),
+                          HasSubstr("Map of the face")));
+}
+
+TEST(FindingPage, SectionsAreDrawnWithoutThePointsInWindows) {
+  Case made = drawing_case();
+  evaluation::FeatureResult& journal = made.evaluation.features.front();
+  constexpr double kDeep = 3.0;
+  for (const std::size_t row : {3U, 4U}) {
+    Eigen::Vector3d& tip = journal.cloud[row].tip_mm;
+    tip.head<2>() -= kDeep * tip.head<2>().normalized();
+  }
+  const auto outside = evaluation::outside_windows(made.record, 0, journal);
+  ASSERT_TRUE(outside);
+  EXPECT_EQ(outside->cloud.size(), journal.cloud.size() - 2);
+  EXPECT_LT(outside->mz_cylinder->width_mm(), 0.1);
+  EXPECT_THAT(page_of(made),
+              AllOf(HasSubstr("2 of 28 points lie in windows"), HasSubstr("class=\"window\"")));
+  EXPECT_FALSE(evaluation::outside_windows(made.record, 1, made.evaluation.features.back()));
+}
+
+TEST(FindingPage, IsBalancedInBothLanguages) {
+  const Case made = drawing_case();
+  for (const Language language : {Language::kEnglish, Language::kChinese}) {
+    const std::string page = write_html(made.record, made.evaluation, language);
+    EXPECT_EQ(testing::first_unbalanced_tag(page), "");
+    EXPECT_FALSE(testing::shows_nan(page));
+  }
+}
+
+TEST(FindingPage, APageWithoutAnyNeedsNoMoreStyle) {
+  EXPECT_THAT(page_of(cylinder_case(4, 7, 3)),
+              AllOf(::testing::Not(HasSubstr(".span-limit")), HasSubstr("cylindricity report")));
+  EXPECT_THAT(page_of(drawing_case()), HasSubstr(".span-limit"));
 }
 
 }  // namespace

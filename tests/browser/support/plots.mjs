@@ -2,7 +2,18 @@
 
 const mostPolarPlots = 12;
 
+/// Drawings of a characteristic of a drawing.
+function ofFinding({local, lines, centers_mm: centers, datums}) {
+  const labels = [];
+  if (local.length > 1) labels.push(/^Local values/);
+  if (lines.length > 0) labels.push(/^Generatrices/);
+  if (centers.length > 1 && datums[0]?.kind !== 'plane') labels.push(/^Side view: .* x$/, /^Side view: .* y$/);
+  return labels;
+}
+
 function ofCloud(feature) {
+  if (feature.shape === 'plane') return [/^Heights over the face/];
+  if (['cone', 'sphere'].includes(feature.shape)) return [/^Deviations on the unrolled surface/];
   const oneSection = feature.shape === 'circle' || feature.layers.length === 1;
   const labels = feature.layers.slice(0, mostPolarPlots).map(() => /deviations about the minimum-zone axis/);
   labels.push(oneSection ? /^Deviation against the angle/ : /^Deviations on the unrolled surface/);
@@ -31,7 +42,10 @@ export function expected(report) {
   for (const feature of report.features) {
     labels.push(...(feature.cloud ? ofCloud(feature) : ofAnalysis[feature.shape](feature)));
     for (const c of feature.characteristics) {
-      if (c.value_um !== null && c.tolerance_um !== null) bars += 1;
+      const value = c.value_um ?? c.value_mm ?? c.finding?.judged[0].value_mm ?? null;
+      const limit = c.tolerance_um ?? c.lower_limit_mm ?? c.upper_limit_mm ?? null;
+      if (value !== null && limit !== null) bars += 1;
+      if (c.finding) labels.push(...ofFinding(c.finding));
       if (c.uncertainty?.budget?.length > 0) labels.push(/^standard uncertainty by each influence/);
     }
   }
