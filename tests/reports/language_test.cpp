@@ -162,6 +162,18 @@ std::multiset<std::string> places_of(std::string_view format) {
   return out;
 }
 
+/// Whether a format counts some of its places and numbers others, which {fmt} refuses.
+bool mixes_places(std::string_view format) {
+  bool counts = false;
+  bool numbers = false;
+  for (std::size_t open = format.find('{'); open != std::string_view::npos;
+       open = format.find('{', open + 1)) {
+    const char next = format[open + 1];
+    (next >= '0' && next <= '9' ? numbers : counts) = true;
+  }
+  return counts && numbers;
+}
+
 bool is_chinese(std::string_view text) {
   return std::any_of(text.begin(), text.end(),
                      [](char c) { return static_cast<unsigned char>(c) >= 0xE3; });
@@ -170,6 +182,7 @@ bool is_chinese(std::string_view text) {
 TEST(LanguageTable, HasTheSameArgumentsOnBothSidesOfAFormat) {
   for (const Translation& line : chinese_texts()) {
     EXPECT_EQ(places_of(line.english), places_of(line.chinese)) << line.english;
+    EXPECT_FALSE(mixes_places(line.chinese)) << line.chinese;
   }
 }
 
