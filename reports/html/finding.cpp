@@ -144,7 +144,7 @@ std::string datum_table(const evaluation::CharacteristicResult& result,
        ++i) {
     const std::string unit = sign_of(result.value->unit());
     html += note(trf("{}: {} about the one-sided datum, {} about the equalised one.",
-                     finding.judged[i].symbol,
+                     escaped(tr(finding.judged[i].symbol)),
                      result.value->in_digits(finding.judged[i].value_mm) + " " + unit,
                      result.value->in_digits(finding.about_equalised_mm[i]) + " " + unit));
   }
@@ -200,7 +200,7 @@ std::string judged_entries(const evaluation::CharacteristicResult& result) {
       limits += (limits.empty() ? "" : tr(", ")) +
                 trf("at most {} {}", limit(value.limits.upper_mm), unit);
     }
-    html += entry(escaped(value.symbol),
+    html += entry(escaped(tr(value.symbol)),
                   with_note(result.value->in_digits(value.value_mm) + " " + unit, limits));
   }
   return html;

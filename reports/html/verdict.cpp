@@ -203,7 +203,7 @@ std::string values_cell(const evaluation::CharacteristicResult& result) {
                 ? value_cell(stated)
                 : fmt::format(R"(<span class="value">{}</span> {})",
                               stated.in_digits(value.value_mm), unit_sign(stated.unit()));
-    html += fmt::format(R"(<div class="note">{}</div>)", value.symbol);
+    html += fmt::format(R"(<div class="note">{}</div>)", escaped(tr(value.symbol)));
   }
   return html;
 }
