@@ -216,6 +216,23 @@ TEST(DatumAxis, DoesNotDependOnPlaceOrderOrRepeatedPoints) {
   EXPECT_NEAR(turned->radii_mm[0], first->radii_mm[0], 1e-9);
 }
 
+TEST(DatumAxis, ThatRocksEndsAtTheLastContactOfItsValley) {
+  // Four points hold the bore to 2e-10 mm; the fifth carries a multiplier of 8e-8 and the axis.
+  const Space bore = {{15.7195, 0.2556, 0.0046},   {-0.4723, 16.4492, 0.0282},
+                      {-16.6654, 0.2556, -0.0071}, {-0.4723, -15.9374, -0.0355},
+                      {15.7597, 0.1576, 48.554},   {-0.4352, 16.3538, 48.5697},
+                      {-16.6314, 0.1576, 48.5653}, {-0.4352, -16.0379, 48.5238}};
+  const auto datum =
+      datum_axis(std::vector<DatumCylinder>{{bore, true}}, DatumAssociation::kOneSided);
+  ASSERT_TRUE(datum.has_value());
+  EXPECT_EQ(datum->ending, ZoneEnding::kConverged);
+  EXPECT_NEAR(datum->radii_mm[0], 16.192441981599988, 1e-12);
+  ASSERT_EQ(datum->contacts.size(), 5U);
+  EXPECT_EQ(datum->contacts[3].index, 5U);
+  EXPECT_NEAR(datum->axis.direction.x(), 0.0006999764421856, 1e-10);
+  EXPECT_NEAR(datum->axis.direction.y(), -0.0019653155705871, 1e-10);
+}
+
 TEST(DatumAxis, RefusesFeaturesThatFixNoAxis) {
   const Space section = test::w3_a()[0];
   const auto of = [](std::vector<DatumCylinder> features) {

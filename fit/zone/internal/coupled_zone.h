@@ -54,7 +54,8 @@ struct CoupledZone {
 /// Every step linearises the measures and solves a quadratic programme with a proximal term; its
 /// reach grows with success. The contacts of a step then start Newton's method on the equations of
 /// the optimum, which ends the search where all points obey the bounds, the multipliers are >= 0
-/// and no direction along the contacts descends.
+/// and no direction along the contacts descends. Steps do not get along a valley that falls by less
+/// than it bends: it is followed to the points that end it.
 ///
 /// Model: kUnknowns; size(); value(row); row(row) -> MeasuredRow; moved(step) -> Model;
 /// strayed(from); scale_mm(). All unknowns are in mm.
@@ -76,8 +77,10 @@ class CoupledDescent {
     for (int i = 0; i < kSteps && reach > kNearest; ++i) {
       const auto step = proximal_step(reach);
       if (!step.solved) break;
-      if (state_.contacts.empty()) state_.contacts = contacts_of(step);
-      if (polish(step)) {
+      CoupledZone<Model> at = state_;
+      at.contacts = contacts_of(step);
+      if (state_.contacts.empty()) state_.contacts = at.contacts;
+      if (polish(at) || polish_valley(at, step.x)) {
         state_.ending = ZoneEnding::kConverged;
         return state_;
       }
@@ -160,11 +163,58 @@ class CoupledDescent {
     return out;
   }
 
-  /// Newton's method on the contacts of a step. Changes the state only if it ends at a minimum.
-  bool polish(const QuadraticStep& step) {
+  /// Where too few contacts hold a place that the value hardly distinguishes from its neighbours,
+  /// as a datum that rocks, the optimum lies where the next points come into contact.
+  /// @param toward  The step that the contacts of `from` carry.
+  bool polish_valley(const CoupledZone<Model>& from, const Eigen::VectorXd& toward) {
+    constexpr double kHardlyFalls = 1e-9;  // mm
+    double fall = 0.0;
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      fall -= bounds_[k].sign() * toward(kPlace + static_cast<Eigen::Index>(k));
+    }
+    if (!(fall <= kHardlyFalls)) return false;
+    for (const double sense : {1.0, -1.0}) {
+      CoupledZone<Model> at = from;
+      while (meet_next(sense * toward, at)) continue;
+      if (at.contacts.size() > from.contacts.size() && polish(std::move(at))) return true;
+    }
+    return false;
+  }
+
+  /// Moves as far in a direction, with all contacts kept, as the next point allows.
+  /// @return Whether there is such a direction and such a point, now a contact.
+  bool meet_next(const Eigen::VectorXd& toward, CoupledZone<Model>& at) const {
+    if (static_cast<Eigen::Index>(at.contacts.size()) >= kPlace + count()) return false;
+    const Eigen::MatrixXd along = kept_moves(at);
+    const Eigen::VectorXd move = along * (along.transpose() * toward);
+    if (!(move.norm() > 1e-6 * toward.norm())) return false;
+    double nearest = std::numeric_limits<double>::infinity();
+    CoupledContact next;
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      const auto bound = static_cast<Eigen::Index>(k);
+      for (std::size_t i = bounds_[k].begin; i < bounds_[k].end; ++i) {
+        const bool held = std::ranges::any_of(
+            at.contacts, [&](const CoupledContact& c) { return c.row == i && c.bound == k; });
+        if (held) continue;
+        const auto [value, gradient] = at.model.slope(i);
+        const double closes =
+            bounds_[k].sign() * (gradient.dot(move.head(kPlace)) - move(kPlace + bound));
+        const double slack = std::max(0.0, bounds_[k].sign() * (at.bounds(bound) - value));
+        if (!(closes > 0.0 && slack < nearest * closes)) continue;
+        nearest = slack / closes;
+        next = {i, k, 0.0};
+      }
+    }
+    if (!std::isfinite(nearest)) return false;
+    at.model = at.model.moved(nearest * move.head(kPlace));
+    at.bounds += nearest * move.tail(count());
+    at.contacts.push_back(next);
+    return true;
+  }
+
+  /// Newton's method on the contacts of a place. Changes the state only if it ends at a minimum.
+  bool polish(CoupledZone<Model> at) {
     constexpr int kRounds = 30;
-    CoupledZone<Model> at = state_;
-    at.contacts = contacts_of(step);
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
       const double size = newton_step(at);
@@ -219,24 +269,32 @@ class CoupledDescent {
     return true;
   }
 
+  /// Moves of place and bounds that keep all contacts to first order, as orthonormal columns.
+  [[nodiscard]] Eigen::MatrixXd kept_moves(const CoupledZone<Model>& at) const {
+    const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
+    const Eigen::Index primal = kPlace + count();
+    Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(primal, contacts);
+    for (Eigen::Index i = 0; i < contacts; ++i) {
+      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
+      normals.col(i).head(kPlace) = -at.model.slope(c.row).second;
+      normals(kPlace + static_cast<Eigen::Index>(c.bound), i) = 1.0;
+    }
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals);
+    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(primal, primal);
+    return all.rightCols(primal - contacts);
+  }
+
   /// Whether the value does not fall in any direction that keeps all contacts.
   [[nodiscard]] bool curves_up(const CoupledZone<Model>& at) const {
     const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
     const Eigen::Index primal = kPlace + count();
-    Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(primal, contacts);
-    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(primal, primal);
-    for (Eigen::Index i = 0; i < contacts; ++i) {
-      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
-      const MeasuredRow row = at.model.row(c.row);
-      normals.col(i).head(kPlace) = -row.gradient;
-      normals(kPlace + static_cast<Eigen::Index>(c.bound), i) = 1.0;
-      curvature.topLeftCorner(kPlace, kPlace) +=
-          c.multiplier * bounds_[c.bound].sign() * row.hessian;
-    }
     if (contacts >= primal) return true;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals);
-    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(primal, primal);
-    const Eigen::MatrixXd along = all.rightCols(primal - contacts);
+    Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(primal, primal);
+    for (const CoupledContact& c : at.contacts) {
+      curvature.topLeftCorner(kPlace, kPlace) +=
+          c.multiplier * bounds_[c.bound].sign() * at.model.row(c.row).hessian;
+    }
+    const Eigen::MatrixXd along = kept_moves(at);
     const Eigen::MatrixXd reduced = along.transpose() * curvature * along;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(reduced);
     return principal.eigenvalues()(0) > 0.0;
