@@ -47,6 +47,16 @@ std::string touches_of(const fs::path& run) {
   return text.substr(text.find('\n') + 1);
 }
 
+/// Whether a drawing asks more than unfiltered peak-to-valley form.
+bool has_finding(const json& report) {
+  for (const json& feature : report.at("features")) {
+    for (const json& characteristic : feature.at("characteristics")) {
+      if (characteristic.contains("finding")) return true;
+    }
+  }
+  return false;
+}
+
 /// Whether the fixture is calibrated: by touches, and with a file for other runs.
 bool calibrates(const json& plan) { return plan.at("features").at(0).at("type") == "rotary_axes"; }
 
@@ -111,6 +121,7 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     // Examples of one part stand in one archive: the later ones show the earlier ones.
     const bool again = !parts.insert(asked.at("part").at("id").get<std::string>()).second;
     if (again) files.insert(files.begin() + 1, "earlier.json");
+    if (has_finding(report)) files.emplace_back("sections.csv");
     if (is_analysis(asked) && !calibrates(asked)) files.emplace_back("series.csv");
     files.emplace_back("touches.csv");
     EXPECT_THAT(names_in(run), ::testing::ElementsAreArray(files));
