@@ -45,7 +45,7 @@ void warn_sampling(FeatureResult& result) {
             result.cloud.size()));
   }
   const double gap = largest_gap(result.cloud);
-  if (gap > kGapLimit) {
+  if (gap > kGapLimit && feature.shape != record::Shape::kPlane) {
     add_warning(
         result, core::Code::kNotFullSection,
         core::phrase(
@@ -72,6 +72,8 @@ void warn_exact_fit(FeatureResult& result) {
 /// cylinder that has one.
 void warn_absent(FeatureResult& result) {
   using record::Reference;
+  const record::Shape shape = result.feature.shape;
+  if (shape != record::Shape::kCylinder && shape != record::Shape::kCircle) return;
   for (const Reference reference :
        {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
     const auto found = one_sided_of(result, reference);
