@@ -12,8 +12,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// log(sum(exp(sharpness * value))) / sharpness, summed over the groups, with its derivatives. The
-/// curvature of the functions themselves is left out: it is small against that of the bound.
+/// Stands for the curvature of the functions themselves, which counts only where the bound has
+/// none: that of a distance of some 20 mm.
+constexpr double kCurvature_1_mm = 0.05;
+
+/// log(sum(exp(sharpness * value))) / sharpness, summed over the groups, with its derivatives.
 struct Bound {
   double value = 0.0;
   VectorXd gradient;
@@ -51,7 +54,7 @@ std::optional<VectorXd> least_greatest(const Groups& groups, VectorXd start) {
     for (int i = 0; i < kSteps; ++i) {
       MatrixXd damped = at.hessian;
       damped.diagonal() *= 1.0 + damping;
-      damped.diagonal().array() += 1e-12 * at.hessian.diagonal().maxCoeff() + 1e-300;
+      damped.diagonal().array() += 1e-15 * at.hessian.diagonal().maxCoeff() + 1e-300;
       const VectorXd step = -damped.ldlt().solve(at.gradient);
       expected_mm = -0.5 * at.gradient.dot(step);
       if (!step.allFinite() || expected_mm < 1e-3 * kSettled_mm) break;
