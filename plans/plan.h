@@ -200,7 +200,7 @@ struct NominalPlan {
   double to_mm = 0.0;                                 ///< Upper end.
   double half_angle_deg = 0.0;                        ///< Of a cone; > 0: it opens along part z.
   double z_mm = 0.0;                                  ///< Of a plane.
-  std::optional<record::Faces> faces;                 ///< Of a plane.
+  std::optional<record::Faces> faces = {};            ///< Of a plane.
   double from_diameter_mm = 0.0;                      ///< Inner edge of a plane.
   double to_diameter_mm = 0.0;                        ///< Outer edge of a plane; 0: not given.
   std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Of a sphere, part frame.
