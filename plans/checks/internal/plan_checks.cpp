@@ -255,6 +255,8 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
     refuse("/pose_search", "the points come from a file");
   } else if (feature.type != record::Shape::kCylinder) {
     for (const std::string_view key : {"strategy", "steps_deg", "min_step_deg", "max_poses"}) {
+      const bool said = feature.pose_search.strategy == record::Strategy::kStartPose;
+      if (said && key == "strategy") continue;
       refuse(fmt::format("/pose_search/{}", key),
              fmt::format("a {} is measured in its start pose", name_of(feature.type)));
     }
