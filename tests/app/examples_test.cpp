@@ -102,7 +102,7 @@ void run_until_a_fault(const fs::path& folder) {
 
 TEST(Examples, RunConformVerifyAndWriteTheirReports) {
   const auto plans = plans_in(example(""));
-  EXPECT_EQ(plans.size(), 15U);
+  EXPECT_EQ(plans.size(), 16U);
   const TemporaryFolder folder;
   std::set<std::string> parts;
   for (const fs::path& plan : plans) {
@@ -189,7 +189,7 @@ std::string approved_lines(const fs::path& plan) {
 
 TEST(BadExamples, AreRefusedWordForWordAndLeaveNothing) {
   const auto plans = plans_in(example("bad"));
-  EXPECT_EQ(plans.size(), 84U);
+  EXPECT_EQ(plans.size(), 91U);
   for (const fs::path& plan : plans) {
     SCOPED_TRACE(plan.filename().string());
     const TemporaryFolder folder;
