@@ -378,7 +378,7 @@ core::Result<FitOutcome> fit_plane(const FitArguments& arguments, Space points,
     if (!form) return core::fail(form.error());
     FitReference out = kLeastSquares(*ls);
     out.peak_mm = form->peak_mm;
-    out.valley_mm = form->valley_mm;
+    out.valley_mm = std::max(0.0, form->valley_mm);  // of a perfect plane it is -0
     return out;
   });
   collector.add("mz", "MZPL", [&] {
