@@ -16,11 +16,11 @@
 #include "plans/spindle_plan.h"
 #include "plans/wheel_plan.h"
 #include "plans/zaber_plan.h"
+#include "record/decision_rule.h"
 #include "record/report_words.h"
 #include "record/run_record.h"
 #include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
-#include "record/tasks/decision_rule.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/spindle.h"
 #include "record/tasks/surface.h"
@@ -200,7 +200,7 @@ struct NominalPlan {
   double to_mm = 0.0;                                 ///< Upper end.
   double half_angle_deg = 0.0;                        ///< Of a cone; > 0: it opens along part z.
   double z_mm = 0.0;                                  ///< Of a plane.
-  std::optional<record::Faces> faces;                 ///< Of a plane.
+  std::optional<record::Faces> faces = {};            ///< Of a plane.
   double from_diameter_mm = 0.0;                      ///< Inner edge of a plane.
   double to_diameter_mm = 0.0;                        ///< Outer edge of a plane; 0: not given.
   std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Of a sphere, part frame.

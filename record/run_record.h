@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "core/pose.h"
-#include "record/tasks/indication.h"
+#include "record/indication.h"
 #include "record/words.h"
 
 namespace rondure::record {

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/text/terminal.h"
+#include "app/text/fit_outcome.h"
 #include "app/verbs/verbs.h"
 #include "core/error.h"
 #include "core/result.h"
@@ -20,174 +22,48 @@
 #include "fit/geometry/contacts.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
+#include "fit/least_squares/cone.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/line.h"
+#include "fit/least_squares/plane.h"
+#include "fit/least_squares/sections.h"
 #include "fit/least_squares/sphere.h"
+#include "fit/profiles/form_parameters.h"
 #include "fit/proof/certificate.h"
 #include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cone.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/min_zone_line.h"
+#include "fit/references/min_zone_plane.h"
 #include "fit/references/min_zone_sphere.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "fit/zone/deviation_range.h"
+#include "fit/sizes/global_sizes.h"
+#include "fit/sizes/local_sizes.h"
 #include "record/csv/points.h"
 
 namespace rondure::app {
 namespace {
 
-/// Centre of a circle (two numbers used) or sphere, or the axis of a cylinder or line.
-struct FitPlace {
-  std::optional<fit::Axis> axis;
-  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  int coordinates = 3;  ///< Coordinates of the centre: 2 for a circle.
-};
-
-/// The result of one reference, for any shape.
-struct FitReference {
-  FitPlace place;
-  std::optional<double> radius_mm;        ///< For least squares, circumscribed, inscribed.
-  std::optional<double> inner_radius_mm;  ///< For the minimum zone.
-  std::optional<double> outer_radius_mm;
-  std::optional<double> diameter_mm;  ///< For the minimum zone of a line.
-  double deviation_mm = 0.0;
-  std::optional<double> rms_mm;  ///< For least squares.
-  std::vector<fit::Contact> outer;
-  std::vector<fit::Contact> inner;
-  std::optional<fit::Certificate> certificate;  ///< For all but least squares.
-  std::optional<fit::DeviationRange> range;     ///< For an inscribed circle that is not unique.
-};
-
-/// Results of `rondure fit` for one set of points.
-struct FitOutcome {
-  struct Entry {
-    std::string name;                   ///< "ls", "mz", "mc", "mi".
-    std::string title;                  ///< "LSCI", "MZCY", ...
-    std::optional<FitReference> found;  ///< Empty if it does not exist for these data.
-  };
-  std::string shape;
-  std::size_t points = 0;
-  std::vector<Entry> references;  ///< Those requested, in the order of the names above.
-  std::vector<core::Error> warnings;
-};
-
-using Json = nlohmann::ordered_json;
-
-Json place_json(const FitPlace& place) {
-  const auto three = [](const Eigen::Vector3d& v) -> Json { return {v.x(), v.y(), v.z()}; };
-  if (place.axis) {
-    return {
-        {"axis",
-         {{"point_mm", three(place.axis->point_mm)}, {"direction", three(place.axis->direction)}}}};
-  }
-  Json center = three(place.center_mm);
-  if (place.coordinates == 2) center.erase(2);
-  return {{"center_mm", center}};
-}
-
-Json rows_json(const std::vector<fit::Contact>& contacts) {
-  Json out = Json::array();
-  for (const fit::Contact& c : contacts) out.push_back(c.index);
-  return out;
-}
-
-Json reference_json(const FitReference& found) {
-  Json out = place_json(found.place);
-  const auto put = [&](const char* key, const std::optional<double>& value) {
-    if (value) out[key] = *value;
-  };
-  put("radius_mm", found.radius_mm);
-  put("inner_radius_mm", found.inner_radius_mm);
-  put("outer_radius_mm", found.outer_radius_mm);
-  put("diameter_mm", found.diameter_mm);
-  out["deviation_mm"] = found.deviation_mm;
-  if (found.range) out["deviation_range_mm"] = {found.range->low_mm, found.range->high_mm};
-  put("rms_mm", found.rms_mm);
-  if (!found.certificate) return out;
-  out["contacts"] = Json::object();
-  if (!found.outer.empty() || found.inner_radius_mm) {
-    out["contacts"]["outer"] = rows_json(found.outer);
-  }
-  if (!found.inner.empty() || found.inner_radius_mm) {
-    out["contacts"]["inner"] = rows_json(found.inner);
-  }
-  out["certificate"] = certificate_json(*found.certificate);
-  return out;
-}
-
-std::string place_line(const FitPlace& place) {
-  if (place.axis) {
-    const Eigen::Vector3d& p = place.axis->point_mm;
-    const Eigen::Vector3d& d = place.axis->direction;
-    return fmt::format(
-        "    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n", p.x(),
-        p.y(), p.z(), d.x(), d.y(), d.z());
-  }
-  const Eigen::Vector3d& c = place.center_mm;
-  if (place.coordinates == 2) return fmt::format("    centre ({:.6f}, {:.6f}) mm\n", c.x(), c.y());
-  return fmt::format("    centre ({:.6f}, {:.6f}, {:.6f}) mm\n", c.x(), c.y(), c.z());
-}
-
-std::string radii_line(const FitReference& found) {
-  if (found.inner_radius_mm) {
-    return fmt::format("    inner radius {:.6f} mm, outer radius {:.6f} mm\n",
-                       *found.inner_radius_mm, *found.outer_radius_mm);
-  }
-  if (found.radius_mm) return fmt::format("    radius {:.6f} mm\n", *found.radius_mm);
-  return {};
-}
-
-std::string proof_lines(const FitReference& found) {
-  if (!found.certificate) return {};
-  std::string out = "    contacts";
-  for (const auto& c : found.outer) out += fmt::format(" +{}", c.index);
-  for (const auto& c : found.inner) out += fmt::format(" -{}", c.index);
-  out += " (+ outer, - inner, rows from 0)\n    " + certificate_text(*found.certificate);
-  return out + "\n";
-}
-
-std::string reference_lines(const FitOutcome::Entry& entry) {
-  if (!entry.found) return fmt::format("  {}  does not exist for these points\n", entry.title);
-  const FitReference& found = *entry.found;
-  std::string out =
-      fmt::format("  {}  deviation {:.4f} um", entry.title, core::micrometres(found.deviation_mm));
-  if (found.range) {
-    out += fmt::format(", not unique: {:.4f} to {:.4f} um", core::micrometres(found.range->low_mm),
-                       core::micrometres(found.range->high_mm));
-  }
-  if (found.rms_mm) out += fmt::format(", rms {:.4f} um", core::micrometres(*found.rms_mm));
-  return out + "\n" + place_line(found.place) + radii_line(found) + proof_lines(found);
-}
-
-nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
-  Json out = {{"shape", outcome.shape}, {"points", outcome.points}};
-  for (const FitOutcome::Entry& entry : outcome.references) {
-    out[entry.name] = entry.found ? reference_json(*entry.found) : Json(nullptr);
-  }
-  out["warnings"] = warnings_json(outcome.warnings);
-  return out;
-}
-
-std::string fit_table(const FitOutcome& outcome) {
-  std::string out = fmt::format("{}, {} points\n", outcome.shape, outcome.points);
-  for (const FitOutcome::Entry& entry : outcome.references) out += reference_lines(entry);
-  return out + warnings_text(outcome.warnings);
-}
-
 using Space = std::span<const Eigen::Vector3d>;
-using Plane = std::span<const Eigen::Vector2d>;
+using Flat = std::span<const Eigen::Vector2d>;
 
 FitPlace place_of(const Eigen::Vector2d& center) {
-  return {std::nullopt, {center.x(), center.y(), 0.0}, 2};
+  return {.axis = {}, .plane = {}, .center_mm = {center.x(), center.y(), 0.0}, .coordinates = 2};
 }
-FitPlace place_of(const Eigen::Vector3d& center) { return {std::nullopt, center, 3}; }
-FitPlace place_of(const fit::Axis& axis) { return {axis, Eigen::Vector3d::Zero(), 3}; }
+FitPlace place_of(const Eigen::Vector3d& center) {
+  return {.axis = {}, .plane = {}, .center_mm = center};
+}
+FitPlace place_of(const fit::Axis& axis) { return {.axis = axis, .plane = {}}; }
+FitPlace place_of(const fit::Plane& plane) { return {.axis = {}, .plane = plane}; }
 
-/// Point at which the fit is given: on its axis, or its centre.
+/// Where a fit lies: its axis, its plane or its centre.
 template <class Fit>
 FitPlace place_of_fit(const Fit& fit) {
   if constexpr (requires { fit.axis; }) {
     return place_of(fit.axis);
+  } else if constexpr (requires { fit.plane; }) {
+    return place_of(fit.plane);
   } else {
     return place_of(fit.center_mm);
   }
@@ -208,6 +84,7 @@ constexpr auto kMinimumZone = [](const auto& zone) {
   out.inner_radius_mm = zone.inner_radius_mm;
   out.outer_radius_mm = zone.outer_radius_mm;
   out.deviation_mm = zone.width_mm();
+  out.two_sided = true;
   out.outer = zone.outer;
   out.inner = zone.inner;
   out.certificate = zone.certificate;
@@ -231,9 +108,9 @@ constexpr auto kInscribed = [](const auto& fit) {
 /// Collects the references of one set of points.
 class Collector {
  public:
-  Collector(const std::string& shape, std::string reference, std::size_t points)
-      : wanted_(std::move(reference)) {
-    out_.shape = shape;
+  Collector(const FitArguments& arguments, std::size_t points) : wanted_(arguments.reference) {
+    out_.shape = arguments.shape;
+    out_.feature = arguments.feature;
     out_.points = points;
   }
 
@@ -254,12 +131,22 @@ class Collector {
       }
     } else if (found.error().code == core::Code::kReferenceAbsent) {
       out_.references.push_back({name, title, std::nullopt});
-      out_.warnings.push_back(found.error());
-    } else if (!failure_) {
-      failure_ = found.error();
+      warn(found.error());
+    } else {
+      refuse(found.error());
     }
   }
-  void warn(core::Code code, std::string what) { out_.warnings.push_back({code, what, {}}); }
+  void warn(core::Code code, std::string what) { warn({code, std::move(what), {}}); }
+  /// Once: a reference and a size may be absent for the same reason.
+  void warn(const core::Error& warning) {
+    const bool known = std::ranges::any_of(
+        out_.warnings, [&](const core::Error& w) { return w.what == warning.what; });
+    if (!known) out_.warnings.push_back(warning);
+  }
+  void refuse(const core::Error& error) {
+    if (!failure_) failure_ = error;
+  }
+  void add(FitSizes sizes) { out_.sizes = std::move(sizes); }
 
   [[nodiscard]] core::Result<FitOutcome> take() {
     if (failure_) return core::fail(*failure_);
@@ -274,7 +161,7 @@ class Collector {
 
 /// Warns about an arc, seen along the axis about the centre: the unseen part can only increase the
 /// deviation.
-void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& collector) {
+void warn_of_arc(Flat points, const Eigen::Vector2d& center_mm, Collector& collector) {
   const double gap_rad = fit::largest_gap_rad(points, center_mm);
   const double step_rad = core::kTwoPi / static_cast<double>(points.size());
   if (gap_rad <= std::max(90.0 * core::kDegree, 1.5 * step_rad) * (1.0 + 1e-6)) return;
@@ -284,7 +171,90 @@ void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& coll
                              gap_rad / core::kDegree));
 }
 
-core::Result<FitOutcome> fit_circle(Plane points, Collector collector) {
+void warn_of_arc(Space points, const fit::Axis& axis, Collector& collector) {
+  std::vector<Eigen::Vector2d> seen;
+  seen.reserve(points.size());
+  const auto across = fit::across(axis.direction);
+  for (const Eigen::Vector3d& p : points) {
+    seen.emplace_back(across.transpose() * (p - axis.point_mm));
+  }
+  warn_of_arc(seen, Eigen::Vector2d::Zero(), collector);
+}
+
+fit::Material material_of(const FitArguments& arguments) {
+  return {arguments.inside, 0.5 * arguments.tip_diameter_mm.value_or(0.0)};
+}
+
+/// Refuses a tip that leaves nothing of the part, as with a radius typed for a diameter.
+void check_tip(const fit::Material& material, double diameter_mm, Collector& collector) {
+  if (diameter_mm > 0.0) return;
+  collector.refuse({core::Code::kMeaning,
+                    fmt::format("with a tip of {:g} mm the diameter comes out as {:.6g} mm: check "
+                                "--tip-diameter-mm; a bore needs --inside",
+                                2.0 * material.tip_radius_mm, diameter_mm),
+                    {}});
+}
+
+/// Adds the requested sizes. One that does not exist for the points is empty, with a warning that
+/// states the reason.
+/// @param global    Returns GG, GN, GX and GC for a material.
+/// @param sections  Returns the sections for two-point sizes.
+template <class Global, class Sections>
+void add_sizes(const FitArguments& arguments, Collector& collector, const Global& global,
+               const Sections& sections) {
+  if (arguments.sizes.empty()) return;
+  const auto wanted = [&](const char* name) {
+    return std::ranges::find(arguments.sizes, name) != arguments.sizes.end();
+  };
+  FitSizes out;
+  out.material = material_of(arguments);
+  const auto found = global(out.material);
+  const core::Result<double> none = found.map([](const auto&) { return 0.0; });
+  if (found) check_tip(out.material, found->gg_mm, collector);
+  const std::array<std::pair<const char*, core::Result<double>>, 4> sizes = {
+      {{"GG", found ? core::Result<double>(found->gg_mm) : none},
+       {"GN", found ? core::Result<double>(found->gn_mm) : none},
+       {"GX", found ? found->gx_mm : none},
+       {"GC", found ? core::Result<double>(found->gc_mm) : none}}};
+  const std::string_view mating = arguments.inside ? "GX" : "GN";
+  for (const auto& [name, size] : sizes) {
+    if (!wanted(name)) continue;
+    out.global.push_back({name, size ? std::optional(*size) : std::nullopt, name != mating});
+    if (!size) collector.warn(size.error());
+  }
+  out.local_wanted = wanted("LP");
+  if (out.local_wanted) {
+    const auto across = sections();
+    const auto pairs = across
+                           ? fit::two_point_sizes(*across, out.material)
+                           : core::Result<std::vector<fit::LocalSize>>(core::fail(across.error()));
+    if (pairs) out.local = fit::rank_sizes(*pairs);
+    if (!pairs) collector.warn(pairs.error());
+  }
+  collector.add(std::move(out));
+}
+
+/// The sections of a cylinder: its layers, or groups of neighbouring heights.
+core::Result<std::vector<fit::Section>> sections_of(const record::PointTable& table,
+                                                    const fit::Axis& axis) {
+  std::vector<std::vector<Eigen::Vector3d>> layers(static_cast<std::size_t>(table.layer_count()));
+  for (std::size_t i = 0; i < table.layers.size(); ++i) {
+    layers[static_cast<std::size_t>(table.layers[i])].push_back(table.points_mm[i]);
+  }
+  if (layers.empty()) {
+    for (const auto& rows : fit::rows_by_height(table.points_mm, axis)) {
+      layers.emplace_back();
+      for (const std::size_t row : rows) layers.back().push_back(table.points_mm[row]);
+    }
+  }
+  return fit::sections_across(layers, axis);
+}
+
+core::Result<FitOutcome> fit_circle(const FitArguments& arguments, const record::PointTable& table,
+                                    Collector collector) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(table.points_mm.size());
+  for (const Eigen::Vector3d& p : table.points_mm) points.emplace_back(p.head<2>());
   const auto ls = fit::ls_circle(points);
   if (ls) warn_of_arc(points, ls->center_mm, collector);
   collector.add("ls", "LSCI", [&] { return ls.map(kLeastSquares); });
@@ -306,29 +276,32 @@ core::Result<FitOutcome> fit_circle(Plane points, Collector collector) {
       return out;
     });
   });
+  add_sizes(
+      arguments, collector, [&](const auto& of) { return fit::global_sizes(points, of); },
+      [&] { return fit::sections_across(std::span(&table.points_mm, 1), {}); });
   return collector.take();
 }
 
-core::Result<FitOutcome> fit_sphere(Space points, Collector collector) {
+core::Result<FitOutcome> fit_sphere(const FitArguments& arguments, Space points,
+                                    Collector collector) {
   collector.add("ls", "LSSP", [&] { return fit::ls_sphere(points).map(kLeastSquares); });
   collector.add("mz", "MZSP", [&] { return fit::min_zone_sphere(points).map(kMinimumZone); });
   collector.add("mc", "MCSP",
                 [&] { return fit::min_circumscribed_sphere(points).map(kCircumscribed); });
   collector.add("mi", "MISP", [&] { return fit::max_inscribed_sphere(points).map(kInscribed); });
+  add_sizes(
+      arguments, collector, [&](const auto& of) { return fit::global_sizes_of_sphere(points, of); },
+      [] { return core::Result<std::vector<fit::Section>>(); });
   return collector.take();
 }
 
-core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
+core::Result<FitOutcome> fit_cylinder(const FitArguments& arguments,
+                                      const record::PointTable& table, Collector collector) {
+  const Space points = table.points_mm;
   const auto ls = fit::ls_cylinder(points);
   if (!ls) return core::fail(ls.error());
   collector.add("ls", "LSCY", [&] { return ls.map(kLeastSquares); });
-  std::vector<Eigen::Vector2d> seen;
-  seen.reserve(points.size());
-  const auto across = fit::across(ls->axis.direction);
-  for (const Eigen::Vector3d& p : points) {
-    seen.emplace_back(across.transpose() * (p - ls->axis.point_mm));
-  }
-  warn_of_arc(seen, Eigen::Vector2d::Zero(), collector);
+  warn_of_arc(points, ls->axis, collector);
   const Eigen::Vector3d near = ls->axis.direction;
   // All directions, or, where that takes too long, those about the least-squares axis.
   const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
@@ -355,6 +328,9 @@ core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
     collector.add("mi", "MICY", [&] { return mi.map(kInscribed); });
     warn_of_other(mi);
   }
+  add_sizes(
+      arguments, collector, [&](const auto& of) { return fit::global_sizes(points, of); },
+      [&] { return sections_of(table, ls->axis); });
   return collector.take();
 }
 
@@ -374,29 +350,106 @@ core::Result<FitOutcome> fit_line(Space points, Collector collector) {
   return collector.take();
 }
 
-/// Fits the requested references of a shape. A reference that does not exist for the points is
-/// empty in the outcome, with a warning that states the reason.
-///
-/// @param shape      "circle" (z is not used), "cylinder", "sphere", "line".
-/// @param reference  "ls", "mz", "mc", "mi" or "all"; a line has "ls" and "mz".
+core::Result<FitOutcome> fit_plane(const FitArguments& arguments, Space points,
+                                   Collector collector) {
+  std::optional<Eigen::Vector3d> outward;
+  if (!arguments.outward.empty()) outward = Eigen::Vector3d(arguments.outward.data());
+  const auto ls = fit::ls_plane(points, outward);
+  if (!ls) return core::fail(ls.error());
+  const Eigen::Vector3d& normal = ls->plane.normal;
+  constexpr double kLeastRise = 0.1;  // 6 deg out of the plane
+  if (outward && !(outward->normalized().dot(normal) > kLeastRise)) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("--outward {:g},{:g},{:g} does not lead out of the plane, whose "
+                    "normal is {:.3f},{:.3f},{:.3f}: give a direction out of the "
+                    "material",
+                    outward->x(), outward->y(), outward->z(), normal.x(), normal.y(), normal.z()));
+  }
+  if (!outward) {
+    collector.warn(core::Code::kMeaning,
+                   fmt::format("the side of the material is not stated: peak, valley and outer "
+                               "plane are those of a face towards {:.3f},{:.3f},{:.3f}; give "
+                               "--outward",
+                               normal.x(), normal.y(), normal.z()));
+  }
+  collector.add("ls", "LSPL", [&]() -> core::Result<FitReference> {
+    const auto form = fit::flatness_parameters(points, ls->plane);
+    if (!form) return core::fail(form.error());
+    FitReference out = kLeastSquares(*ls);
+    out.peak_mm = form->peak_mm;
+    out.valley_mm = std::max(0.0, form->valley_mm);  // of a perfect plane it is -0
+    return out;
+  });
+  collector.add("mz", "MZPL", [&] {
+    return fit::min_zone_plane(points, outward).map([](const auto& zone) {
+      FitReference out;
+      out.place = place_of(zone.outer);
+      out.deviation_mm = zone.width_mm;
+      out.two_sided = true;
+      out.outer = zone.top;
+      out.inner = zone.bottom;
+      out.certificate = zone.certificate;
+      return out;
+    });
+  });
+  return collector.take();
+}
+
+core::Result<FitOutcome> fit_cone(const FitArguments& arguments, Space points,
+                                  Collector collector) {
+  const auto ls = fit::ls_cone(points);
+  if (!ls) return core::fail(ls.error());
+  warn_of_arc(points, ls->cone.axis, collector);
+  const fit::Material material = material_of(arguments);
+  const auto with_cone = [&](FitReference out, fit::Cone cone) {
+    out.place = place_of(cone.axis);
+    out.full_angle_deg = core::degrees(cone.full_angle_rad);
+    cone.offset_mm = material.surface_radius_mm(cone.offset_mm);
+    out.diameter_mm = cone.diameter_mm(0.0);
+    check_tip(material, *out.diameter_mm, collector);
+    return out;
+  };
+  collector.add("ls", "LSCO", [&]() -> core::Result<FitReference> {
+    FitReference out;
+    out.deviation_mm = ls->deviation_mm;
+    out.rms_mm = ls->rms_mm;
+    return with_cone(std::move(out), ls->cone);
+  });
+  collector.add("mz", "MZCO", [&] {
+    return fit::min_zone_cone(points).map([&](const auto& zone) {
+      FitReference out;
+      out.deviation_mm = zone.width_mm;
+      out.two_sided = true;
+      out.outer = zone.outer;
+      out.inner = zone.inner;
+      out.certificate = zone.certificate;
+      return with_cone(std::move(out), zone.cone);
+    });
+  });
+  return collector.take();
+}
+
+/// Fits the requested references and sizes of a shape. A reference or size that does not exist for
+/// the points is empty in the outcome, with a warning that states the reason.
 /// @return The outcome, or why the points cannot be fitted at all.
-core::Result<FitOutcome> fit_shape(const std::string& shape, const std::string& reference,
-                                   Space points_mm) {
-  Collector collector(shape, reference, points_mm.size());
-  if (shape == "cylinder") return fit_cylinder(points_mm, std::move(collector));
-  if (shape == "sphere") return fit_sphere(points_mm, std::move(collector));
-  if (shape == "line") return fit_line(points_mm, std::move(collector));
-  std::vector<Eigen::Vector2d> flat;
-  flat.reserve(points_mm.size());
-  for (const Eigen::Vector3d& p : points_mm) flat.emplace_back(p.head<2>());
-  return fit_circle(flat, std::move(collector));
+core::Result<FitOutcome> fit_shape(const FitArguments& arguments, const record::PointTable& table) {
+  Collector collector(arguments, table.points_mm.size());
+  const Space points = table.points_mm;
+  const std::string& shape = arguments.shape;
+  if (shape == "cylinder") return fit_cylinder(arguments, table, std::move(collector));
+  if (shape == "sphere") return fit_sphere(arguments, points, std::move(collector));
+  if (shape == "line") return fit_line(points, std::move(collector));
+  if (shape == "plane") return fit_plane(arguments, points, std::move(collector));
+  if (shape == "cone") return fit_cone(arguments, points, std::move(collector));
+  return fit_circle(arguments, table, std::move(collector));
 }
 
 core::Result<record::PointTable> load_points(const FitArguments& arguments) {
   const auto bytes = record::read_file(arguments.file);
   if (!bytes) return core::fail(bytes.error());
   const std::string name = std::filesystem::path(arguments.file).filename().string();
-  auto table = record::parse_points_csv(*bytes, name);
+  auto table = record::parse_feature_csv(*bytes, name, arguments.feature);
   if (!table) return table;
   const int needed = arguments.shape == "circle" ? 2 : 3;
   if (table->dimensions != needed) {
@@ -413,7 +466,7 @@ core::Result<record::PointTable> load_points(const FitArguments& arguments) {
 int fit(const FitArguments& arguments) {
   const auto table = load_points(arguments);
   if (!table) return refuse(table.error());
-  const auto outcome = fit_shape(arguments.shape, arguments.reference, table->points_mm);
+  const auto outcome = fit_shape(arguments, *table);
   if (!outcome) {
     const core::Error& error = outcome.error();
     return refuse(error.at(error.where.empty() ? arguments.file : error.where));

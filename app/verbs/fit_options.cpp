@@ -1,5 +1,6 @@
 // The command line of `fit` and its verbs.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -153,33 +154,87 @@ void add_grinding(CLI::App& verb, WheelArguments& arguments) {
       ->check(CLI::NonNegativeNumber);
 }
 
+/// Refuses options that have no meaning for the shape.
+void check_fit(const FitArguments& a) {
+  const std::string& shape = a.shape;
+  if (a.reference == "mc" || a.reference == "mi") {
+    const char* const has = shape == "line"    ? "a line has ls and mz (the least cylinder that "
+                                                 "encloses its points)"
+                            : shape == "plane" ? "a plane has ls and mz (its outer plane is the "
+                                                 "one-sided one)"
+                            : shape == "cone"  ? "a cone has ls and mz"
+                                               : nullptr;
+    if (has != nullptr) throw CLI::ValidationError("--reference", has);
+  }
+  const bool sized = shape == "circle" || shape == "cylinder" || shape == "sphere";
+  if (!a.sizes.empty() && !sized) {
+    throw CLI::ValidationError("--size", shape == "cone"
+                                             ? "a cone has a diameter at each height; one is given "
+                                               "without this option"
+                                             : "a " + shape + " has no size");
+  }
+  if (shape == "sphere" && std::ranges::find(a.sizes, "LP") != a.sizes.end()) {
+    throw CLI::ValidationError("--size", "LP needs sections, a sphere has GG, GN, GX and GC");
+  }
+  const char* const tip = a.tip_diameter_mm ? "--tip-diameter-mm" : "--inside";
+  if ((a.tip_diameter_mm || a.inside) && a.sizes.empty() && shape != "cone") {
+    throw CLI::ValidationError(tip,
+                               "form and place are those of the tip centres; it acts on "
+                               "--size and on the diameter of a cone only");
+  }
+  if (a.tip_diameter_mm && *a.tip_diameter_mm < 0.0) {
+    throw CLI::ValidationError("--tip-diameter-mm", "must not be below 0");
+  }
+  if (!a.outward.empty() && shape != "plane") {
+    throw CLI::ValidationError("--outward", "only a plane has one outward direction");
+  }
+}
+
 }  // namespace
 
 void add_fit(CLI::App& app, FitArguments& arguments) {
-  auto* verb =
-      app.add_subcommand("fit", "Fits a circle, cylinder, sphere or line to a points file");
+  auto* verb = app.add_subcommand(
+      "fit", "Fits a circle, cylinder, cone, sphere, plane or line to a points file");
   verb->add_option("SHAPE", arguments.shape,
-                   "circle (columns x,y); cylinder, sphere, line (columns x,y,z); mm")
-      ->check(CLI::IsMember({"circle", "cylinder", "sphere", "line"}));
-  verb->add_option("FILE", arguments.file, "CSV with a header line; # comments");
+                   "circle (columns x,y); cylinder, cone, sphere, plane, line (columns x,y,z); mm")
+      ->check(CLI::IsMember({"circle", "cylinder", "cone", "sphere", "plane", "line"}));
+  verb->add_option("FILE", arguments.file,
+                   "CSV with a header line, tip centres; # comments. Columns layer (whole numbers "
+                   "from 0) and feature may follow");
+  verb->add_option("--feature", arguments.feature,
+                   "Takes the rows with this name in the column feature")
+      ->type_name("NAME");
   verb->add_option(
           "--reference", arguments.reference,
           "ls least squares, mz minimum zone, mc minimum circumscribed, mi maximum inscribed, "
           "or all (default)")
       ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
+  add_list(*verb, "--size", arguments.sizes,
+           "Sizes of ISO 14405-1 besides, of a circle, cylinder or sphere: GG least squares,\n"
+           "GN minimum circumscribed, GX maximum inscribed, GC minimax, LP two-point (not of\n"
+           "a sphere); as GG,LP",
+           "LIST")
+      ->check(CLI::IsMember({"GG", "GN", "GX", "GC", "LP"}));
+  verb->add_option("--tip-diameter-mm", arguments.tip_diameter_mm,
+                   "Of the ball whose centres the file has: sizes and the diameter of a cone\n"
+                   "are then those of the surface (default: 0)");
+  verb->add_flag("--inside", arguments.inside, "A bore: the tip touches from the inside");
+  add_list(*verb, "--outward", arguments.outward,
+           "Direction out of the material of a plane: for peak, valley and outer plane", "X,Y,Z")
+      ->expected(3);
   verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
-  verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
+  verb->footer(
+      "\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json\n"
+      "         rondure fit cylinder tests/data/shaft_drawing/shaft.csv --feature A \\\n"
+      "           --size GN,LP --tip-diameter-mm 2\n"
+      "         rondure fit plane tests/data/shaft_drawing/shaft.csv --feature D --outward 0,0,1\n"
+      "Shapes, sizes and keys of the JSON: docs/drawing.md");
   verb->require_subcommand(0, 1);
   verb->callback([verb, &arguments] {  // a verb such as roundness needs neither
     if (!verb->get_subcommands().empty()) return;
     if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
     if (arguments.file.empty()) throw CLI::RequiredError("FILE");
-    const bool one_sided = arguments.reference == "mc" || arguments.reference == "mi";
-    if (arguments.shape == "line" && one_sided) {
-      throw CLI::ValidationError("--reference",
-                                 "a line has ls and mz (the least cylinder that "
-                                 "encloses its points)");
-    }
+    check_fit(arguments);
   });
 }
 

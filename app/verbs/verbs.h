@@ -94,9 +94,14 @@ struct SignArguments {
 [[nodiscard]] int sign(const SignArguments& arguments);
 
 struct FitArguments {
-  std::string shape;  ///< "circle", "cylinder", "sphere" or "line".
+  std::string shape;  ///< "circle", "cylinder", "cone", "sphere", "plane" or "line".
   std::string file;
+  std::string feature;  ///< Rows of the file; empty: it has no column `feature`.
   std::string reference = "all";
+  std::vector<std::string> sizes;  ///< "GG", "GN", "GX", "GC", "LP".
+  std::optional<double> tip_diameter_mm;
+  bool inside = false;
+  std::vector<double> outward;  ///< Of a plane, three numbers; empty: not known.
   bool json = false;
 };
 [[nodiscard]] int fit(const FitArguments& arguments);

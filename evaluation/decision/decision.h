@@ -8,8 +8,8 @@
 #include "core/units.h"
 #include "evaluation/decision/verdict.h"
 #include "evaluation/uncertainty/uncertainty.h"
+#include "record/decision_rule.h"
 #include "record/run_record.h"
-#include "record/tasks/decision_rule.h"
 
 namespace rondure::evaluation {
 

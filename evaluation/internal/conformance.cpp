@@ -52,8 +52,9 @@ core::Phrase sampling_words(const FeatureResult& result,
                         result.merged->joint ? core::phrase("with their errors solved for")
                                              : core::phrase("by kinematics"));
   }
-  if (characteristic.form != Form::kCylindricity && result.layers.size() > 1)
-    text = joined(text, core::phrase("worst layer"));
+  const bool by_layer =
+      characteristic.form == Form::kRoundness || characteristic.form == Form::kHarmonicLimits;
+  if (by_layer && result.layers.size() > 1) text = joined(text, core::phrase("worst layer"));
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
     return joined(text, core::phrase("mean of {} touches a point", result.cloud.front().repeats));
   }

@@ -45,7 +45,7 @@ void warn_sampling(FeatureResult& result) {
             result.cloud.size()));
   }
   const double gap = largest_gap(result.cloud);
-  if (gap > kGapLimit) {
+  if (gap > kGapLimit && feature.shape != record::Shape::kPlane) {
     add_warning(
         result, core::Code::kNotFullSection,
         core::phrase(

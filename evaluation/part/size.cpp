@@ -195,27 +195,6 @@ core::Result<Finding> find_global(const PreparedSurface& surface,
   return out;
 }
 
-/// The pairs of touched points, each point of the first half turn with the nearest of the second.
-core::Result<std::vector<fit::LocalSize>> touched_sizes(const fit::Section& section,
-                                                        const fit::Material& material) {
-  const auto all = fit::two_point_sizes(std::span(&section, 1), material);
-  if (!all) return core::fail(all.error());
-  const auto misaligned = [&](const fit::LocalSize& size) {
-    const Eigen::Vector2d a = section.points_mm[size.first] - section.circle.center_mm;
-    const Eigen::Vector2d b = section.points_mm[size.second] - section.circle.center_mm;
-    return std::abs(a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm());
-  };
-  std::vector<fit::LocalSize> out;
-  for (const fit::LocalSize& size : *all) {
-    if (out.empty() || out.back().first != size.first) {
-      out.push_back(size);
-    } else if (misaligned(size) < misaligned(out.back())) {
-      out.back() = size;
-    }
-  }
-  return out;
-}
-
 /// The sizes of a filtered profile: of opposite samples, or of its harmonic series where the
 /// samples are not opposite or not uniform.
 core::Result<std::vector<fit::LocalSize>> profile_sizes(const fit::ResampledProfile& profile,
@@ -275,7 +254,7 @@ core::Result<void> add_local_sizes(const PreparedSurface& surface, const Surface
       out.of_points = false;
       continue;
     }
-    const auto sizes = touched_sizes(flat->front(), surface.material);
+    const auto sizes = fit::two_point_sizes(*flat, surface.material);
     const std::size_t found = sizes ? sizes->size() : 0;
     if (!sizes && sizes.error().code != core::Code::kSampling) {
       return core::fail(in_layer(section, sizes.error()));

@@ -135,8 +135,9 @@ core::Result<Chart> chart_of(const FeatureResult& result, std::span<const Vector
 /// A surface with the model of its form.
 struct ModelledSurface {
   Chart chart;
-  MatrixXd rigid;   ///< rigid_basis() of the chart.
-  MatrixXd shared;  ///< Effect of each mode of the part on place and size: columns of `rigid`.
+  VectorXd read_mm;  ///< Deviations as read.
+  MatrixXd rigid;    ///< rigid_basis() of the chart.
+  MatrixXd shared;   ///< Effect of each mode of the part on place and size: columns of `rigid`.
   std::unique_ptr<ErrorModel> errors;
   std::unique_ptr<FormModel> model;
   std::optional<core::Error> fault;  ///< Why its points cannot be moved.
@@ -322,6 +323,10 @@ void PartTrials::Part::make_models() {
     if (made.fault) continue;
     const Influences& influences = surfaces[s].influences;
     made.rigid = rigid_basis(made.chart.cloud);
+    made.read_mm.resize(made.rigid.rows());
+    for (Index i = 0; i < made.read_mm.size(); ++i) {
+      made.read_mm[i] = made.chart.cloud.points[static_cast<std::size_t>(i)].deviation_mm;
+    }
     made.errors = std::make_unique<ErrorModel>(touched(s, made.chart.cloud.axis.point_mm),
                                                made.rigid, influences);
     if (noise_is_unknown(*made.errors, influences)) {
@@ -519,7 +524,9 @@ void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain&
       chain.mirrored[s].tip_radius_mm = *tip + by;
     }
     if (mirror) {
-      const VectorXd center = made.model->place_mm() + draw.form_mm;
+      const VectorXd change = draw.place_mm + draw.form_mm - made.read_mm;
+      const VectorXd center =
+          made.read_mm + change - made.rigid * (made.rigid.transpose() * change);
       move(s, center, chain.center);
       move(s, 2.0 * center - deviations, chain.mirrored);
     }

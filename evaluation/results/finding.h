@@ -11,7 +11,7 @@
 #include "core/phrase.h"
 #include "evaluation/decision/decision.h"
 #include "fit/geometry/axis.h"
-#include "record/tasks/indication.h"
+#include "record/indication.h"
 
 namespace rondure::evaluation {
 

@@ -1,5 +1,8 @@
 #include "fit/least_squares/sections.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "core/statistics.h"
@@ -8,7 +11,8 @@
 namespace rondure::fit {
 namespace {
 
-constexpr double kThickest = 0.5;  // mm; tilts up to 1 deg of a section of 25 mm stay below
+constexpr double kNewSection = 0.5;  // mm between neighbouring heights
+constexpr double kThickest = 0.5;    // mm; tilts up to 1 deg of a section of 25 mm stay below
 
 core::Result<Section> section_across(SpacePoints layer_mm, const Axis& axis) {
   Section out;
@@ -46,6 +50,22 @@ core::Result<std::vector<Section>> sections_across(Layers layers_mm, const Axis&
     }
     out.push_back(std::move(*section));
   }
+  return out;
+}
+
+std::vector<std::vector<std::size_t>> rows_by_height(SpacePoints points_mm, const Axis& axis) {
+  std::vector<std::size_t> order(points_mm.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto height = [&](std::size_t row) {
+    return (points_mm[row] - axis.point_mm).dot(axis.direction);
+  };
+  std::ranges::stable_sort(order, {}, height);
+  std::vector<std::vector<std::size_t>> out;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || height(order[i]) - height(order[i - 1]) > kNewSection) out.emplace_back();
+    out.back().push_back(order[i]);
+  }
+  for (auto& rows : out) std::ranges::sort(rows);
   return out;
 }
 

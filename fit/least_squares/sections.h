@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 
 namespace rondure::fit {
@@ -31,6 +33,13 @@ struct Section {
 /// Source: methods, drawing section 1.
 [[nodiscard]] core::Result<std::vector<Section>> sections_across(Layers layers_mm,
                                                                  const Axis& axis);
+
+/// Groups the points of a file without layers: a new section begins where neighbouring heights
+/// along the axis differ by more than 0.5 mm.
+/// @return The rows of each section, ascending; the lowest section first.
+/// Source: methods, drawing section 1.
+[[nodiscard]] std::vector<std::vector<std::size_t>> rows_by_height(SpacePoints points_mm,
+                                                                   const Axis& axis);
 
 /// The centres of sections.
 [[nodiscard]] std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections);

@@ -34,19 +34,32 @@ std::vector<PolarPoint> by_angle(const Section& section) {
 
 /// Appends the pairs of a section. The partner of a point lies half a turn ahead of it, so that
 /// points of the first half turn find every pair once.
-void append_pairs(const Section& section, std::size_t number, const Material& material,
+/// @return false if it has none.
+bool append_pairs(const Section& section, std::size_t number, const Material& material,
                   std::vector<LocalSize>& out) {
+  const std::size_t before = out.size();
   const auto points = by_angle(section);
   const double half_turn = 0.5 * core::kTwoPi;
+  const auto misaligned = [&](const PolarPoint& p, const PolarPoint& q) {
+    const Eigen::Vector2d a = section.points_mm[p.row] - section.circle.center_mm;
+    const Eigen::Vector2d b = section.points_mm[q.row] - section.circle.center_mm;
+    return std::abs(a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm());
+  };
   for (const PolarPoint& p : points) {
     auto partner =
         std::ranges::lower_bound(points, p.angle + half_turn - kOpposite, {}, &PolarPoint::angle);
+    auto nearest = points.end();
     for (; partner != points.end() && partner->angle <= p.angle + half_turn + kOpposite;
          ++partner) {
-      out.push_back({p.radius + partner->radius - 2.0 * material.sign() * material.tip_radius_mm,
-                     number, p.row, partner->row});
+      if (nearest == points.end() || misaligned(p, *partner) < misaligned(p, *nearest)) {
+        nearest = partner;
+      }
     }
+    if (nearest == points.end()) continue;
+    out.push_back({p.radius + nearest->radius - 2.0 * material.sign() * material.tip_radius_mm,
+                   number, p.row, nearest->row});
   }
+  return out.size() > before;
 }
 
 }  // namespace
@@ -54,18 +67,19 @@ void append_pairs(const Section& section, std::size_t number, const Material& ma
 core::Result<std::vector<LocalSize>> two_point_sizes(std::span<const Section> sections,
                                                      const Material& material) {
   if (auto checked = check_material(material); !checked) return core::fail(checked.error());
-  std::vector<LocalSize> out;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    most = std::max(most, sections[i].points_mm.size());
-    append_pairs(sections[i], i, material, out);
+  if (sections.empty()) {
+    return core::fail(core::Code::kSampling, "there is no section to take two-point sizes from");
   }
-  if (!out.empty()) return out;
-  return core::fail(core::Code::kSampling,
-                    fmt::format("none of the {} sections, of up to {} points, has two points "
-                                "opposite each other to 0.5 deg: measure an even number of points "
-                                "at equal angles, or a scan",
-                                sections.size(), most));
+  std::vector<LocalSize> out;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (append_pairs(sections[i], i, material, out)) continue;
+    return core::fail(core::Code::kSampling,
+                      fmt::format("section {} of {}, of {} points, has no two points opposite each "
+                                  "other to 0.5 deg: measure an even number of points at equal "
+                                  "angles, or a scan",
+                                  i + 1, sections.size(), sections[i].points_mm.size()));
+  }
+  return out;
 }
 
 core::Result<std::vector<LocalSize>> two_point_sizes(const UniformProfile& profile,

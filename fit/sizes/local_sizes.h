@@ -32,10 +32,11 @@ struct RankSizes {
 };
 
 /// Finds the two-point sizes of touched sections. Two points are opposite if their angles about the
-/// centre of the section circle differ by 180 deg to 0.5 deg; their size is the sum of the radii,
-/// because the chord is short by the misalignment. Nothing is interpolated.
+/// centre of the section circle differ by 180 deg to 0.5 deg, of several partners the nearest;
+/// their size is the sum of the radii, because the chord is short by the misalignment. Nothing is
+/// interpolated.
 /// @param sections  Square to the least-squares axis of the feature, see sections_across().
-/// @return The sizes, section by section; kBadOption (tip radius); kSampling if no section has a
+/// @return The sizes, section by section; kBadOption (tip radius); kSampling if a section has no
 ///         pair, as with an odd number of points at equal angles. O(n log n) and the pairs.
 /// Source: methods, drawing section 2.3.
 [[nodiscard]] core::Result<std::vector<LocalSize>> two_point_sizes(

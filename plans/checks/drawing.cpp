@@ -219,12 +219,13 @@ void check_size(const Asked& asked) {
                  "the size CV is of the volume of a whole cylinder; ask for \"CA\", the size of "
                  "the area of a section");
   }
-  if (i.rank && i.size != Size::kLP) {
+  const bool envelope = i.requirement == Indication::Requirement::kEnvelope;
+  if (i.rank && i.size != Size::kLP && !envelope) {
     asked.refuse("rank", fmt::format("has no effect: {} is one size, ranks are of many; remove "
                                      "it, or ask for size \"LP\"",
                                      name_of(i.size)));
   }
-  if (i.requirement == Indication::Requirement::kEnvelope) {
+  if (envelope) {
     if (shape != Shape::kCylinder) {
       asked.refuse("requirement",
                    "the envelope requirement is that of a cylinder; make the feature one, with "

@@ -164,7 +164,7 @@ void check_layout(const Sampled& s) {
   if (form == Form::kStraightness || form == Form::kTaper || form == Form::kGeneratrixParallelism) {
     return check_generatrices(s);
   }
-  if (form == Form::kRoundness && s.points() < 4) {
+  if (form == Form::kRoundness && s.feature.type == Shape::kCylinder && s.points() < 4) {
     s.refuse("/form", fmt::format("{} points a layer lie on a circle exactly, whatever the part; "
                                   "roundness needs at least 4",
                                   s.points()));

@@ -46,11 +46,6 @@ bool check_nominal_given(const FeaturePlan& feature, const std::string& nominal,
     const bool given = findings.is_given(member_pointer(nominal, needed.key));
     const bool takes =
         std::find(needed.shapes.begin(), needed.shapes.end(), feature.type) != needed.shapes.end();
-    if (given && !takes) {
-      findings.meaning(Code::kMeaning, member_pointer(nominal, needed.key),
-                       fmt::format("has no effect: it is no dimension of a {}; remove it",
-                                   name_of(feature.type)));
-    }
     if (given || !takes || !needed.required) continue;
     complete = false;
     findings.meaning(Code::kMissingKey, member_pointer(nominal, needed.key),

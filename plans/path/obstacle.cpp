@@ -52,6 +52,24 @@ double from_axis(const Corners& c) {
   return left == 4 || right == 4 ? 0.0 : nearest;
 }
 
+/// Whether a plane that is tangent to the grown ball or frustum beside a corner separates it from
+/// the sweep.
+bool tangent_apart(const Revolved& solid, double room_mm, const Corners& c) {
+  const double wall_rad = std::atan2(solid.widens_mm, solid.to_mm - solid.from_mm);
+  return std::any_of(c.begin(), c.end(), [&](const Vector3d& beside) {
+    Vector3d normal = beside.normalized();
+    double off_mm = solid.outer_mm;
+    if (!solid.ball) {
+      const double theta_rad = std::atan2(beside.y(), beside.x());
+      normal = {std::cos(wall_rad) * std::cos(theta_rad), std::cos(wall_rad) * std::sin(theta_rad),
+                -std::sin(wall_rad)};
+      off_mm = std::cos(wall_rad) * solid.outer_mm - std::sin(wall_rad) * solid.from_mm;
+    }
+    return std::all_of(c.begin(), c.end(),
+                       [&](const Vector3d& p) { return normal.dot(p) >= off_mm + room_mm; });
+  });
+}
+
 /// Whether a plane across the axis, or a cylinder about it, certainly separates sweep and solid.
 bool surely_apart(const Revolved& solid, double room_mm, const Corners& c) {
   const double from_mm = solid.ball ? -solid.outer_mm : solid.from_mm;
@@ -60,6 +78,7 @@ bool surely_apart(const Revolved& solid, double room_mm, const Corners& c) {
   if (std::min_element(c.begin(), c.end(), z)->z() >= to_mm + room_mm) return true;
   if (std::max_element(c.begin(), c.end(), z)->z() <= from_mm - room_mm) return true;
   if (from_axis(c) >= solid.widest_mm() + room_mm) return true;
+  if (solid.touched && tangent_apart(solid, room_mm, c)) return true;
   if (solid.inner_mm <= room_mm) return false;
   return std::all_of(c.begin(), c.end(), [&](const Vector3d& p) {
     return p.head<2>().norm() <= solid.inner_mm - room_mm;

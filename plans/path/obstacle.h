@@ -18,6 +18,9 @@ struct Revolved {
   double to_mm = 0.0;
   bool ball = false;
   double widens_mm = 0.0;  ///< Outer radius at the upper end minus that at the lower one.
+  /// A ball or frustum beside which paths are laid exactly at the limit: tangent planes are tried,
+  /// too.
+  bool touched = false;
 
   [[nodiscard]] double widest_mm() const { return outer_mm + std::max(0.0, widens_mm); }
 };

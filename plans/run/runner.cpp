@@ -8,6 +8,7 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/cell/internal/open_cell.h"
+#include "plans/cell/truth.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/resume/internal/plan_changes.h"
@@ -144,6 +145,15 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
   return {};
 }
 
+/// Keeps what the characteristics of a simulated part truly are.
+core::Result<void> keep_true_values(RunContext& context, std::uint64_t seed) {
+  const bool simulated = context.cell != nullptr && context.cell->is_simulated();
+  if (!simulated || context.recorded.knows_true_values()) return {};
+  const record::RunRecord head = run_head(context.plan, context.options, seed);
+  const std::vector<record::TruthValue> values = truths_of(context.plan, head.features);
+  return values.empty() ? core::Result<void>{} : context.journal.add({}, values);
+}
+
 /// References machine and fixture and qualifies the probe.
 core::Result<void> prepare(RunContext& context) {
   // The part is in the ring from the start: every motion must keep clear of it.
@@ -239,6 +249,7 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   auto done = touching ? note_single_steps(context) : core::Result<void>{};
   if (done && touching) done = prepare(context);
   if (done) done = inspect(context, known.targets, known.data);
+  if (done) done = keep_true_values(context, known.seed);
   if (!done) run.failure = done.error();
   const std::string ending = done                                        ? "finished"
                              : run.failure->code == core::Code::kStopped ? "stopped"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "record/tasks/key_spec.h"
+#include "record/key_spec.h"
 
 namespace rondure::plans {
 

@@ -328,16 +328,20 @@ core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_vi
   if (feature.empty() != rows->features.empty()) {
     return feature.empty()
                ? fail(core::Code::kMissingKey,
-                      fmt::format("the file holds the features {}; name one, e.g. \"feature\": {}",
+                      fmt::format("the file holds the features {}; choose one by feature, as {}",
                                   names_in(rows->features), quoted_text(rows->features.front())))
                : fail(core::Code::kMeaning,
                       fmt::format("the file has no column feature, {} is asked for; add the "
-                                  "column, or take the key out",
+                                  "column, or name no feature",
                                   quoted_text(feature)));
   }
   PointTable out{rows->columns.has(2) ? 3 : 2, {}, {}};
-  for (std::size_t i = 0; i < rows->values.size(); ++i) {
-    if (!rows->features.empty() && rows->features[i] != feature) continue;
+  if (rows->features.empty()) {
+    out.points_mm = std::move(rows->values);
+    out.layers = std::move(rows->layers);
+  }
+  for (std::size_t i = 0; i < rows->features.size(); ++i) {
+    if (rows->features[i] != feature) continue;
     out.points_mm.push_back(rows->values[i]);
     if (!rows->layers.empty()) out.layers.push_back(rows->layers[i]);
   }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "record/tasks/key_spec.h"
+#include "record/key_spec.h"
 
 namespace rondure::record {
 

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "record/decision_rule.h"
+#include "record/indication.h"
+#include "record/key_spec.h"
 #include "record/run_record.h"
-#include "record/tasks/decision_rule.h"
-#include "record/tasks/indication.h"
-#include "record/tasks/key_spec.h"
 
 namespace rondure::record {
 
@@ -29,7 +29,7 @@ struct CharacteristicTask {
   std::optional<double> tolerance_um;
   std::string drawing_zone;
   std::vector<HarmonicLimitTask> harmonic_limits = {};  ///< For the form "harmonic-limits".
-  std::optional<double> lower_um = {};  ///< Of a diameter: deviation from nominal.
+  std::optional<double> lower_um = {};                  ///< Of a diameter: deviation from nominal.
   std::optional<double> upper_um = {};
   Indication indication = {};
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "record/tasks/key_spec.h"
+#include "record/key_spec.h"
 
 namespace rondure::record {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/result.h"
+#include "record/key_spec.h"
 #include "record/run_record.h"
-#include "record/tasks/key_spec.h"
 
 // Conversion of a task to the settings of a journal and back. The function describe(visitor, task)
 // of each task lists its keys once; settings_of_task() and task_of() visit them.

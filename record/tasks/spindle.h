@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "record/tasks/key_spec.h"
+#include "record/key_spec.h"
 #include "record/tasks/switch.h"
 
 namespace rondure::record {

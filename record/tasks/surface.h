@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "record/key_spec.h"
 #include "record/run_record.h"
-#include "record/tasks/key_spec.h"
 
 namespace rondure::record {
 

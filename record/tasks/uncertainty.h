@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/result.h"
+#include "record/key_spec.h"
 #include "record/run_record.h"
 #include "record/tasks/axis_errors.h"
-#include "record/tasks/key_spec.h"
 
 namespace rondure::record {
 

@@ -47,6 +47,16 @@ std::string touches_of(const fs::path& run) {
   return text.substr(text.find('\n') + 1);
 }
 
+/// Whether a drawing asks more than unfiltered peak-to-valley form.
+bool has_finding(const json& report) {
+  for (const json& feature : report.at("features")) {
+    for (const json& characteristic : feature.at("characteristics")) {
+      if (characteristic.contains("finding")) return true;
+    }
+  }
+  return false;
+}
+
 /// Whether the fixture is calibrated: by touches, and with a file for other runs.
 bool calibrates(const json& plan) { return plan.at("features").at(0).at("type") == "rotary_axes"; }
 
@@ -92,7 +102,7 @@ void run_until_a_fault(const fs::path& folder) {
 
 TEST(Examples, RunConformVerifyAndWriteTheirReports) {
   const auto plans = plans_in(example(""));
-  EXPECT_EQ(plans.size(), 15U);
+  EXPECT_EQ(plans.size(), 16U);
   const TemporaryFolder folder;
   std::set<std::string> parts;
   for (const fs::path& plan : plans) {
@@ -111,6 +121,7 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     // Examples of one part stand in one archive: the later ones show the earlier ones.
     const bool again = !parts.insert(asked.at("part").at("id").get<std::string>()).second;
     if (again) files.insert(files.begin() + 1, "earlier.json");
+    if (has_finding(report)) files.emplace_back("sections.csv");
     if (is_analysis(asked) && !calibrates(asked)) files.emplace_back("series.csv");
     files.emplace_back("touches.csv");
     EXPECT_THAT(names_in(run), ::testing::ElementsAreArray(files));
@@ -178,7 +189,7 @@ std::string approved_lines(const fs::path& plan) {
 
 TEST(BadExamples, AreRefusedWordForWordAndLeaveNothing) {
   const auto plans = plans_in(example("bad"));
-  EXPECT_EQ(plans.size(), 84U);
+  EXPECT_EQ(plans.size(), 91U);
   for (const fs::path& plan : plans) {
     SCOPED_TRACE(plan.filename().string());
     const TemporaryFolder folder;

@@ -65,6 +65,17 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
       {"cylinder", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n3,3,3\n4,4,4\n5,5,5\n6,6,6\n7,7,7\n", "bad.csv",
        "["},
       {"cylinder", "x,y,z\n" + ring, "bad.csv", "["},
+      {"plane", "x,y,z\n" + ring + "nan,0,0\n", "bad.csv:10", "nan"},
+      {"plane", "x,y,z\n1,2,3\n", "bad.csv", "a plane needs at least 3 different points"},
+      {"plane", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n", "bad.csv", "lie on one straight line"},
+      {"plane", square, "bad.csv:1", "a plane needs the columns x,y,z"},
+      {"plane", "ISO-10303-21;\nHEADER;\n", "bad.csv:1", "ISO-10303-21"},
+      {"cone", "x,y,z\n" + ring + "0,0,inf\n", "bad.csv:10", "inf"},
+      {"cone", "x,y,z\n1,2,3\n", "bad.csv", "a cone needs at least 6 different points"},
+      {"cone", "x,y,z\n" + ring, "bad.csv", "measure at least two sections"},
+      {"cone", "x,y,z,layer\n1,2,3,0\n1,2,3,2\n", "bad.csv", "none of layer 1"},
+      {"sphere", "x,y,z\n1,2,3\n", "bad.csv", "[too-few-points]"},
+      {"sphere", "x,y,z\n" + ring, "bad.csv", "(fit circle)"},
   };
   for (const BadFile& file : files) {
     SCOPED_TRACE(file.shape + ": " + ::testing::PrintToString(file.bytes));

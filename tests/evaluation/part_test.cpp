@@ -4,12 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "evaluation/part/contacts.h"
+#include "evaluation/part/find.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/profiles/generatrix.h"
@@ -610,6 +613,25 @@ TEST(SurfaceOutliers, AreLeftOutAndListedWhereTheRuleSaysSo) {
   EXPECT_EQ(surface->left_out[0].window, "");
   EXPECT_TRUE(surface->warnings.empty());
   EXPECT_EQ(surface->points_mm.size(), 71U);
+}
+
+TEST(SurfaceOutliers, CarryAShareOfTheValue) {
+  const FeatureResult feature = with_a_bad_point(41, 0.2);
+  std::vector<MeasuredSurface> part = surfaces_of({&feature, 1});
+  record::Characteristic asked;
+  asked.form = record::Form::kCylindricity;
+  asked.reference = record::Reference::kLeastSquares;
+  auto found = find(part, 0, asked);
+  ASSERT_TRUE(found) << found.error().what;
+  found->warnings.clear();
+  warn_of_shares(part, 0, asked, *found);
+  const double with_um = found->judged[0].value_mm / core::kMicrometre;
+  part[0] = without_row(part[0], 41);
+  const double without_um = find(part, 0, asked)->judged[0].value_mm / core::kMicrometre;
+  EXPECT_GT(with_um, 5.0 * without_um);
+  ASSERT_EQ(found->warnings.size(), 1U);
+  EXPECT_EQ(found->warnings[0].what,
+            fmt::format("point 41 carries {:.3f} of {:.3f} um", with_um - without_um, with_um));
 }
 
 TEST(SurfaceOutliers, ThatAreMoreThanAQuarterAreForm) {

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -131,18 +133,13 @@ TEST(GlobalSizes, OfShaftAndBoreDifferByFourTipRadii) {
 }
 
 TEST(GlobalSizes, OfAnOpenCapHaveNoInscribedSphere) {
-  const std::vector<Eigen::Vector3d> cap = {
-      {100.0, 50.0, 44.4994},          {114.4988, 50.0, 30.0},
-      {100.0, 64.4991, 30.0},          {85.5003, 50.0, 30.0},
-      {100.0, 35.5015, 30.0},          {107.2497, 57.2497, 40.252624},
-      {92.75045, 57.24955, 40.252412}, {92.7506, 42.7506, 40.2522},
-      {107.24955, 42.75045, 40.252412}};
-  const auto sizes = global_sizes_of_sphere(cap, kBore);
+  const auto sizes = global_sizes_of_sphere(test::w10(), kBore);
   ASSERT_TRUE(sizes.has_value());
   EXPECT_NEAR(sizes->gg_mm, 2.0 * (14.499006959907 + 1.5), kDigits);
   EXPECT_NEAR(sizes->gc_mm, 2.0 * (14.499399912845 - 0.0003 + 1.5), kDigits);
   EXPECT_EQ(sizes->gx_mm.error().code, core::Code::kReferenceAbsent);
-  EXPECT_EQ(global_sizes_of_sphere(cap, {false, -1.0}).error().code, core::Code::kBadOption);
+  EXPECT_EQ(global_sizes_of_sphere(test::w10(), {false, -1.0}).error().code,
+            core::Code::kBadOption);
 }
 
 TEST(GlobalSizes, OfASphereAreThoseOfTheSpheresThatTouchIt) {
@@ -224,6 +221,26 @@ TEST(LocalSizes, NeedOppositePoints) {
   EXPECT_EQ(two_point_sizes(*sections_across(one_out, kUpright), kPlain)->size(), 5U);
   EXPECT_EQ(two_point_sizes(UniformProfile{0.0, std::vector<double>(7, 1.0)}, kPlain).error().code,
             core::Code::kSampling);
+}
+
+TEST(LocalSizes, TakeTheNearestOfSeveralPartners) {
+  const auto sections = sections_across(circle_touched(1440, 0.0), kUpright);
+  const auto sizes = two_point_sizes(*sections, kPlain);
+  ASSERT_TRUE(sizes.has_value());
+  ASSERT_EQ(sizes->size(), 720U);  // at steps of 0.25 deg five points are within 0.5 deg
+  for (const LocalSize& size : *sizes) {
+    EXPECT_EQ(std::max(size.first, size.second) - std::min(size.first, size.second), 720U);
+  }
+}
+
+TEST(LocalSizes, AreUnknownWhereOneSectionHasNoPair) {
+  test::Layers layers = circle_touched(8, 0.0);
+  layers.push_back(circle_touched(7, 0.0).front());
+  for (auto& p : layers.back()) p.z() = 9.0;
+  const auto sizes = two_point_sizes(*sections_across(layers, kUpright), kPlain);
+  ASSERT_FALSE(sizes.has_value());
+  EXPECT_EQ(sizes.error().code, core::Code::kSampling);
+  EXPECT_NE(sizes.error().what.find("section 2 of 2, of 7 points"), std::string::npos);
 }
 
 /// The dense section of the specification.
@@ -327,6 +344,15 @@ TEST(Envelope, IsOpenOnlyWhereItsOwnSideHoldsAndTwoPointSizesAreMissing) {
   ASSERT_TRUE(sizes.has_value());
   EXPECT_EQ(envelope_answer(*sizes, false, 24.9, 25.01), EnvelopeAnswer::kOpen);
   EXPECT_EQ(envelope_answer(*sizes, false, 24.9, 25.0), EnvelopeAnswer::kFails);
+}
+
+TEST(Sections, OfAFileWithoutLayersBeginWhereHeightsAreMoreThanHalfAMillimetreApart) {
+  const std::vector<Eigen::Vector3d> points = {{1.0, 0.0, 5.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.4},
+                                               {0.0, 1.0, 5.4}, {1.0, 1.0, 0.8}, {0.0, 0.0, 1.31}};
+  using Rows = std::vector<std::vector<std::size_t>>;
+  EXPECT_EQ(rows_by_height(points, kUpright), (Rows{{1, 2, 4}, {5}, {0, 3}}));
+  EXPECT_EQ(rows_by_height(points, {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ()}),
+            (Rows{{0, 3}, {5}, {1, 2, 4}}));
 }
 
 TEST(Sections, RefuseALayerThatIsNotSquareToTheAxis) {

@@ -31,7 +31,7 @@ std::string documented_plan() {
 }
 
 /// A touched cylinder; `keys` and `characteristics` are spliced in.
-PlanOrProblems touched(const std::string& characteristics, const std::string& keys = "") {
+PlanOrProblems touched_cylinder(const std::string& characteristics, const std::string& keys = "") {
   return parse_plan(
       R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
       "machine": {}, "fixture": {},
@@ -69,13 +69,14 @@ TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
   for (const record::FormFacts& facts : record::kFormFacts) {
     const bool of_surface =
         facts.shapes.contains(Shape::kCylinder) || facts.shapes.contains(Shape::kPlane);
-    if (of_surface) EXPECT_THAT(page, ::testing::HasSubstr(std::string(name_of(facts.form))));
+    if (!of_surface) continue;
+    EXPECT_THAT(page, ::testing::HasSubstr(std::string(name_of(facts.form))));
   }
 }
 
 TEST(PlanDrawing, TouchedCylindersMayHaveEachFormThatNeedsNoDatum) {
   const std::string sampling = R"("sampling": {"layers": 4, "points_per_layer": 8, "stagger": 0},)";
-  const auto plan = touched(
+  const auto plan = touched_cylinder(
       R"({"id": "1", "form": "diameter", "size": "GN", "lower_um": -13, "upper_um": 0},
          {"id": "2", "form": "diameter", "requirement": "envelope", "lower_um": -13,
           "upper_um": 0},
@@ -109,7 +110,7 @@ TEST(PlanDrawing, ADatumMayBeTouched) {
 }
 
 TEST(PlanDrawing, ARuleOfACharacteristicIsCheckedAsThatOfThePlan) {
-  const auto plan = touched(R"({"id": "1", "form": "cylindricity", "reference": "mz",
+  const auto plan = touched_cylinder(R"({"id": "1", "form": "cylindricity", "reference": "mz",
       "tolerance_um": 4, "decision_rule": {"rule": "n-to-1", "guard_factor": 2}})");
   ASSERT_FALSE(plan);
   std::vector<std::string> places;
@@ -123,10 +124,10 @@ TEST(PlanDrawing, APriorIsNotOfSizes) {
   const std::string rule =
       R"("decision_rule": {"prior": {"mean_um": 3, "standard_deviation_um": 1}},)";
   const auto plan =
-      touched(R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4})", rule);
+      touched_cylinder(R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4})", rule);
   ASSERT_FALSE(plan);
   EXPECT_THAT(plan.error().front().what, ::testing::HasSubstr("the prior describes form"));
-  EXPECT_TRUE(touched(
+  EXPECT_TRUE(touched_cylinder(
       R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4, "decision_rule": {}})",
       rule));
 }

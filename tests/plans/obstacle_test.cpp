@@ -48,6 +48,7 @@ Revolved random_solid(core::KeyedNoise& random) {
   if (!out.ball && random.uniform() < 0.4) {
     out.widens_mm = between(random, -0.95, 1.5) * (out.outer_mm - out.inner_mm);
   }
+  out.touched = random.uniform() < 0.5;
   return out;
 }
 

@@ -29,8 +29,8 @@ inline Plan turned_part() {
     out.pose_search.strategy = record::Strategy::kStartPose;
     out.pose_search.repeats = 1;
   };
-  add("journal B", Shape::kCylinder, {30.0, -40.0, -10.0}, 6.0);
-  add("journal A", Shape::kCylinder, {30.0, 0.0, 30.0}, 6.0);
+  add("journal B", Shape::kCylinder, {30.0, -40.0, -10.0}, 8.0);
+  add("journal A", Shape::kCylinder, {30.0, 0.0, 30.0}, 8.0);
   NominalPlan face;
   face.from_diameter_mm = 30.0;
   face.to_diameter_mm = 60.0;

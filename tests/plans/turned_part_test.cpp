@@ -93,13 +93,21 @@ Vector3d in_part(const Plan& plan, const Vector3d& tip_W_mm) {
 }
 
 TEST(SimulatedPart, IsTouchedOnAllItsSurfacesInOneClamping) {
-  const Plan plan = testing::turned_part();
+  Plan plan = testing::turned_part();
+  record::CharacteristicTask asked;
+  asked.id = "CYLt";
+  asked.form = record::Form::kCylindricity;
+  plan.features[1].characteristics.push_back(asked);
   const record::Scratch scratch;
   const auto done = run_plan(plan, testing::options_for(scratch / "run"));
   ASSERT_TRUE(done) << done.error().what;
   ASSERT_FALSE(done->failure) << done->failure->what;
   const record::RunRecord run = testing::journal_of(scratch / "run");
   ASSERT_EQ(run.ending, "finished");
+  ASSERT_EQ(run.truth_values.size(), 1U);
+  EXPECT_EQ(run.truth_values.front().name, "CYLt_um");
+  EXPECT_GT(run.truth_values.front().value, 2.8) << "the taper between the layers";
+  EXPECT_LT(run.truth_values.front().value, 6.1) << "and both lobes";
   ASSERT_EQ(run.poses.size(), plan.features.size());
   for (const record::PoseVisit& pose : run.poses) {
     EXPECT_EQ(pose.reached, run.poses.front().reached);
@@ -185,7 +193,7 @@ std::string problems(const nlohmann::json& feature, const nlohmann::json& simula
   seat["sampling"] = {{"layers", 2}, {"points_per_layer", 6}, {"margin_mm", 5}};
   seat["pose_search"] = {{"strategy", "start-pose"}};
   seat.merge_patch(feature);
-  if (!simulated.is_null()) plan["simulation"]["features"] = {simulated};
+  if (!simulated.is_null()) plan["simulation"]["features"] = nlohmann::json::array({simulated});
   return testing::lines_of(parse_plan(plan.dump(), {}, "plan"));
 }
 
@@ -209,7 +217,7 @@ TEST(TurnedPlan, SaysWhatAFaceLacksAndDoesNotTake) {
   EXPECT_THAT(problems(with(kFace, {{"nominal", {{"faces", nullptr}}}})),
               HasSubstr("the side of the plane that is free to touch"));
   EXPECT_THAT(problems(with(kFace, {{"nominal", {{"diameter_mm", 50}}}})),
-              HasSubstr("it is no dimension of a plane"));
+              HasSubstr("a plane has no diameter_mm"));
   EXPECT_THAT(problems(with(kFace, {{"nominal", {{"from_diameter_mm", 90}}}})),
               HasSubstr("the inner diameter 90 mm is not below the outer diameter 80 mm"));
   EXPECT_THAT(problems(with(kFace, {{"sampling", {{"margin_mm", 15}}}})),

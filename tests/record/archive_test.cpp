@@ -265,7 +265,7 @@ std::vector<std::string> filling_statements(std::int64_t results) {
                   count, 0, 0),
       fmt::format("insert into rondure_result {}, p(n, k) as ({}), c(n, k) as ({}) "
                   "select i, c.n, 1700000000 + 60 * i, p.k, c.k, 'journal', 'c' || c.n, 'CYLt', "
-                  "'MZCY', 'unfiltered', '4 x 7 points', 0.008, 0.01, 'mm', 'conforms', 'global' "
+                  "'MZCY', 'unfiltered', '4 x 7 points', 0.008, 0.01, 'mm', 'conforms', 'global', null "
                   "from s join p on p.n = i % 20 cross join c",
                   count, parts, characteristics)};
 }

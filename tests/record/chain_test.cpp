@@ -97,7 +97,7 @@ TEST_F(InterruptedRun, IsWhole) {
   const auto read = read_journal(scratch / "run");
   ASSERT_TRUE(read) << read.error().what;
   EXPECT_THAT(read->broken, IsEmpty());
-  EXPECT_EQ(read->version, 6);
+  EXPECT_EQ(read->version, 7);
   EXPECT_EQ(every_bit(read->record), every_bit(run));
 }
 
@@ -258,7 +258,7 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
                   old / "journal.db");
     meddle(old / "journal.db", "delete from seal");
     EXPECT_THAT(refusal(old),
-                HasSubstr("version " + version + ", a run goes on in versions 5 to 6"));
+                HasSubstr("version " + version + ", a run goes on in versions 5 to 7"));
   }
 
   const auto first = reopened(scratch / "run");

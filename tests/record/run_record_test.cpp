@@ -38,11 +38,11 @@ void read_back(std::size_t count) {
 }
 
 TEST(RunRecord, ReadsEachWordBackAndNoOther) {
-  read_back<Shape>(6);
+  read_back<Shape>(9);
   read_back<Side>(2);
-  read_back<Form>(13);
+  read_back<Form>(24);
   read_back<Reference>(4);
-  read_back<Strategy>(8);
+  read_back<Strategy>(9);
   read_back<Merge>(2);
   read_back<SamplingMethod>(2);
   read_back<Touch::Purpose>(4);

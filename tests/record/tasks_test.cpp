@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "record/decision_rule.h"
 #include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
-#include "record/tasks/decision_rule.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"

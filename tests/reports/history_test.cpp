@@ -239,7 +239,7 @@ TEST(History, CsvQuotesAndDisarmsFormulas) {
   EXPECT_THAT(rows, AllOf(HasSubstr("\"a,\"\"b\"\"\""), HasSubstr(",'=cmd(),"),
                           HasSubstr(",,12,um,conforms,global,")));
   const std::string header = history_csv_header();
-  EXPECT_EQ(std::count(header.begin(), header.end(), ','), 24);
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), 25);
 }
 
 TEST(ArchiveEntry, HoldsEveryCharacteristic) {

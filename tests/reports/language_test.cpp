@@ -250,7 +250,7 @@ TEST(LanguageScope, LastsAsLongAsItsObjectInItsThreadOnly) {
 }
 
 TEST(Phrase, IsMadeInTheLanguageOfTheReport) {
-  const core::Phrase value = core::phrase("the corrected value {} um", "5.169");
+  const core::Phrase value = core::phrase("the corrected value {}", "5.169 um");
   const core::Phrase sentence = core::phrase(
       "{} is within the acceptance limit of {} um (tolerance {:g} um, guard band {} um)", value,
       "11.691", 12.0, "0.309");

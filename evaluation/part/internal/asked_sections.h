@@ -13,7 +13,7 @@
 #include "evaluation/results/finding.h"
 #include "fit/least_squares/sections.h"
 #include "fit/profiles/closed_profile.h"
-#include "record/tasks/indication.h"
+#include "record/indication.h"
 
 // Private to the room: the sections of a prepared surface that a characteristic is about.
 

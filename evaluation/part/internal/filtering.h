@@ -2,7 +2,7 @@
 
 #include "core/result.h"
 #include "evaluation/part/surface.h"
-#include "record/tasks/indication.h"
+#include "record/indication.h"
 
 // Private to the room: filters of prepared surfaces (drawing, 6 and 7).
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "evaluation/results/measured_cloud.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/cone.h"
+#include "fit/least_squares/sections.h"
 #include "fit/least_squares/sphere.h"
 #include "record/tasks/settings.h"
 
@@ -29,7 +29,6 @@ using record::SurfaceSettings;
 using record::WindowTask;
 using SurfacePoints = std::vector<Eigen::Vector3d>;
 
-constexpr double kNewSectionMm = 0.5;
 constexpr double kThickestMm = 0.5;
 constexpr double kGuardMm = 0.5;
 /// An axis that leans more (60 deg) has no angle about part z.
@@ -220,18 +219,8 @@ class LayoutBuilder {
         sections[known.at({cloud[row].layer, cloud[row].pass})].rows.push_back(row);
       }
     } else if (is_turned(shape())) {
-      std::vector<std::size_t> order(cloud.size());
-      std::iota(order.begin(), order.end(), std::size_t{0});
-      const auto height = [&](std::size_t row) {
-        return (tips_[row] - out_.axis.point_mm).dot(out_.axis.direction);
-      };
-      std::stable_sort(order.begin(), order.end(),
-                       [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
-      for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i == 0 || height(order[i]) - height(order[i - 1]) > kNewSectionMm) {
-          sections.push_back({.layer = static_cast<int>(sections.size()), .rows = {}});
-        }
-        sections.back().rows.push_back(order[i]);
+      for (auto& rows : fit::rows_by_height(tips_, out_.axis)) {
+        sections.push_back({.layer = static_cast<int>(sections.size()), .rows = std::move(rows)});
       }
     }
     for (const PartPlace& place : places_) out_.part_z_mm.push_back(place.z_mm);

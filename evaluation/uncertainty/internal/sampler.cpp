@@ -133,8 +133,6 @@ FormModel::FormModel(const FormCloud& cloud, const ErrorModel& errors, const For
   first_state();
 }
 
-VectorXd FormModel::place_mm() const { return removed_.array() / root_weight_.array(); }
-
 double FormModel::flagged_share() const {
   return static_cast<double>(flagged_.size()) / static_cast<double>(y_.size());
 }

@@ -75,8 +75,6 @@ class FormModel {
   [[nodiscard]] const FormColumns& columns() const { return columns_; }
   /// For each group, the mean square of X^T deviations divided by their number [mm^2].
   [[nodiscard]] const Eigen::VectorXd& energy_mm2() const { return energy_; }
-  /// Position, size and tilt of the points as measured [mm].
-  [[nodiscard]] Eigen::VectorXd place_mm() const;
   /// Fraction of points that a robust start leaves out; above a fifth there is no smooth form.
   [[nodiscard]] double flagged_share() const;
   /// Standard deviation of the residual of the start [mm].

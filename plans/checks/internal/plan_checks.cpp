@@ -253,24 +253,14 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
     refuse("/pose_search", "the points come from a file");
-  } else if (feature.type == record::Shape::kCircle) {
+  } else if (feature.type != record::Shape::kCylinder) {
     for (const std::string_view key : {"strategy", "steps_deg", "min_step_deg", "max_poses"}) {
-      refuse(fmt::format("/pose_search/{}", key), "a circle is measured in its start pose");
+      const bool said = feature.pose_search.strategy == record::Strategy::kStartPose;
+      if (said && key == "strategy") continue;
+      refuse(fmt::format("/pose_search/{}", key),
+             fmt::format("a {} is measured in its start pose", name_of(feature.type)));
     }
   }
-}
-
-/// Whether the machine touches surfaces of that type; reports where it does not.
-bool check_touchable(const Plan& plan, std::size_t index, Findings& findings) {
-  const record::Shape type = plan.features[index].type;
-  const bool touchable = type == record::Shape::kCylinder || type == record::Shape::kCircle;
-  if (!touchable) {
-    findings.meaning(Code::kMeaning, feature_pointer(index) + "/type",
-                     fmt::format("a {} is not touched by the machine; give its points in a "
-                                 "\"source\" file",
-                                 name_of(type)));
-  }
-  return touchable;
 }
 
 }  // namespace
@@ -319,7 +309,6 @@ void check_plan(const Plan& plan, Findings& findings) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
     if (is_touched(plan, i, findings)) {
-      if (!check_touchable(plan, i, findings)) continue;
       check_sampling(plan, i, findings);
       check_pose_search(plan, i, findings);
     } else if (analysis_kind(plan.features[i].type) != nullptr) {

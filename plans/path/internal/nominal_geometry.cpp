@@ -63,11 +63,11 @@ PartPiece piece_of(const FeaturePlan& feature) {
                std::min(n.z_mm, n.z_mm + behind_mm), std::max(n.z_mm, n.z_mm + behind_mm)}};
     }
     case record::Shape::kSphere:
-      return {vector3(n.center_mm), {0.0, radius_mm, 0.0, 0.0, true}};
+      return {vector3(n.center_mm), {0.0, radius_mm, 0.0, 0.0, true, 0.0, true}};
     case record::Shape::kCone:
       return {Eigen::Vector3d::Zero(),
               {0.0, radius_mm, n.from_mm, n.to_mm, false,
-               (n.to_mm - n.from_mm) * std::tan(n.half_angle_deg * core::kDegree)}};
+               (n.to_mm - n.from_mm) * std::tan(n.half_angle_deg * core::kDegree), true}};
     default:
       break;
   }

@@ -41,6 +41,8 @@ class RecordedRun {
   [[nodiscard]] bool has_decision(const core::Message& message) const;
   /// Whether the series of a feature are in the journal; either all of them are, or none.
   [[nodiscard]] bool knows_series(int feature) const;
+  /// Whether the true values of the characteristics are in the journal; all of them are, or none.
+  [[nodiscard]] bool knows_true_values() const { return !run_.truth_values.empty(); }
   /// The number of the next check: -1, -2, ...
   [[nodiscard]] std::int64_t next_check() const;
 

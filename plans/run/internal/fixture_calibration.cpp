@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "fixture/axis_motion.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/rotary_poses.h"
 #include "plans/run/internal/qualification.h"
 

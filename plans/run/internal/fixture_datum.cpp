@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/internal/qualification.h"
 
 namespace rondure::plans {

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "fit/least_squares/sphere.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

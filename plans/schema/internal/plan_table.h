@@ -356,10 +356,13 @@ void describe(Visitor& v, PoseSearchPlan& p) {
   v.text("strategy", p.strategy,
          {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kRefined),
                      name_of(Strategy::kAsPublished), name_of(Strategy::kVirtual),
-                     name_of(Strategy::kMerged)},
+                     name_of(Strategy::kStartPose), name_of(Strategy::kMerged)},
           .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
-                     "halved steps. virtual: one cloud, turned in software. merged: no search; the "
+                     "halved steps. virtual: one cloud, turned in software. start-pose: no search; "
+                     "several features share the clamping of one start pose, as a datum and what "
+                     "refers to it must. A circle, plane, cone or sphere is always measured in its "
+                     "start pose. merged: no search; the "
                      "part is measured in each of `poses`, where it can be reached, and the "
                      "clouds are one (docs/several-poses.md)."});
   v.list("poses", p.poses,

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "record/tasks/decision_rule.h"
-#include "record/tasks/key_spec.h"
+#include "record/decision_rule.h"
+#include "record/key_spec.h"
 #include "record/words.h"
 
 namespace rondure::record {
