@@ -217,7 +217,7 @@ TEST(TurnedPlan, SaysWhatAFaceLacksAndDoesNotTake) {
   EXPECT_THAT(problems(with(kFace, {{"nominal", {{"faces", nullptr}}}})),
               HasSubstr("the side of the plane that is free to touch"));
   EXPECT_THAT(problems(with(kFace, {{"nominal", {{"diameter_mm", 50}}}})),
-              HasSubstr("it is no dimension of a plane"));
+              HasSubstr("a plane has no diameter_mm"));
   EXPECT_THAT(problems(with(kFace, {{"nominal", {{"from_diameter_mm", 90}}}})),
               HasSubstr("the inner diameter 90 mm is not below the outer diameter 80 mm"));
   EXPECT_THAT(problems(with(kFace, {{"sampling", {{"margin_mm", 15}}}})),
