@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "core/result.h"
 #include "core/units.h"
+#include "core/utf8.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
 #include "fit/geometry/points.h"
@@ -110,7 +111,7 @@ class Collector {
  public:
   Collector(const FitArguments& arguments, std::size_t points) : wanted_(arguments.reference) {
     out_.shape = arguments.shape;
-    out_.feature = arguments.feature;
+    out_.feature = core::well_formed(arguments.feature);  // a file may be in any encoding
     out_.points = points;
   }
 

@@ -246,6 +246,9 @@ TEST(FitFeatures, OfAFileAreToldApart) {
   const Outcome named = fit_of("sphere", plain(test::w10()), {"--feature", "E"});
   EXPECT_EQ(named.status, 2);
   EXPECT_THAT(named.err, HasSubstr("the file has no column feature"));
+  const std::string latin = "Fl\xE4";
+  const std::string part = "x,y,z,layer,feature\n" + layered(test::w4_face(), "," + latin);
+  EXPECT_EQ(found_in("plane", part, {"--feature", latin}).at("feature"), "Fl\uFFFD");
   const Outcome a = rondure({"fit", "cylinder", file, "--feature", "A"});
   EXPECT_THAT(a.out, HasSubstr("cylinder A, 24 points\n"));
 }

@@ -224,13 +224,17 @@ TEST(LocalSizes, NeedOppositePoints) {
 }
 
 TEST(LocalSizes, TakeTheNearestOfSeveralPartners) {
-  const auto sections = sections_across(circle_touched(1440, 0.0), kUpright);
-  const auto sizes = two_point_sizes(*sections, kPlain);
-  ASSERT_TRUE(sizes.has_value());
-  ASSERT_EQ(sizes->size(), 720U);  // at steps of 0.25 deg five points are within 0.5 deg
-  for (const LocalSize& size : *sizes) {
-    EXPECT_EQ(std::max(size.first, size.second) - std::min(size.first, size.second), 720U);
+  test::Layers arcs(1);  // at steps of 0.25 deg five points lie opposite each other
+  for (const double middle : {-90.0, 90.0}) {
+    for (int k = -40; k <= 40; ++k) {
+      const double angle = (middle + 0.25 * k) * core::kDegree;
+      arcs[0].emplace_back(12.0 * std::cos(angle), 12.0 * std::sin(angle), 0.0);
+    }
   }
+  const auto sizes = two_point_sizes(*sections_across(arcs, kUpright), kPlain);
+  ASSERT_TRUE(sizes.has_value());
+  ASSERT_EQ(sizes->size(), 81U);
+  for (const LocalSize& size : *sizes) EXPECT_EQ(size.second, size.first + 81);
 }
 
 TEST(LocalSizes, AreUnknownWhereOneSectionHasNoPair) {
