@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +18,7 @@
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
 #include "evaluation/part/internal/clamping.h"
+#include "evaluation/part/surface.h"
 #include "evaluation/results/finding.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/least_squares/sphere.h"
@@ -130,7 +130,9 @@ std::optional<fit::RoundnessEvaluation> dense_section(const std::vector<Eigen::V
 /// Sections normal to an axis, by layer.
 std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<CloudPoint>& cloud) {
   std::map<int, std::vector<std::size_t>> layers;
-  for (std::size_t i = 0; i < cloud.size(); ++i) layers[cloud[i].layer].push_back(i);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!cloud[i].left_out) layers[cloud[i].layer].push_back(i);
+  }
   const auto frame = fit::across(axis.direction);
   std::vector<LayerResult> out;
   for (const auto& [layer, rows] : layers) {
@@ -204,8 +206,27 @@ std::vector<fit::AxisScope> certificate_scopes(const std::optional<Eigen::Vector
   return {fit::AxisScope{fit::AxisScope::Kind::kHalfSphere}, found};
 }
 
+/// The points that take part: all but those in windows.
+struct KeptPoints {
+  explicit KeptPoints(const std::vector<CloudPoint>& cloud) {
+    for (std::size_t row = 0; row < cloud.size(); ++row) {
+      if (cloud[row].left_out) continue;
+      rows.push_back(row);
+      tips_mm.push_back(cloud[row].tip_mm);
+    }
+  }
+  /// Gives contacts the rows of the cloud in place of those among the kept points.
+  void name_rows(std::vector<fit::Contact>& contacts) const {
+    for (fit::Contact& contact : contacts) contact.index = rows[contact.index];
+  }
+
+  std::vector<std::size_t> rows;
+  std::vector<Eigen::Vector3d> tips_mm;
+};
+
 void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
-  const auto tips = tips_of(result.cloud);
+  const KeptPoints kept(result.cloud);
+  const auto& tips = kept.tips_mm;
   auto ls = fit::ls_cylinder(tips, direction);
   if (!ls) {
     result.failure = ls.error();
@@ -221,11 +242,14 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
   result.mz_cylinder = *mz;
   result.mc_cylinder = fit::min_circumscribed_cylinder(tips, ls->axis.direction, proof);
   result.mi_cylinder = fit::max_inscribed_cylinder(tips, ls->axis.direction, proof);
+  kept.name_rows(result.mz_cylinder->outer);
+  kept.name_rows(result.mz_cylinder->inner);
+  for (auto* const fit : {&result.mc_cylinder, &result.mi_cylinder}) {
+    if (*fit) kept.name_rows((*fit)->contacts);
+  }
   place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
                result.cloud);
-  std::vector<std::size_t> rows(result.cloud.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
-  mark_contacts(mz->outer, mz->inner, rows, result.cloud);
+  mark_contacts(mz->outer, mz->inner, kept.rows, result.cloud);
   const bool has_layers = result.feature.layers > 1;
   if (has_layers) result.layers = sections(mz->axis, result.cloud);
 }
@@ -263,7 +287,8 @@ void place_points(const fit::MinZonePlane& zone, const Eigen::Vector3d& mean,
 
 /// @param outward  Side of the material on which the plane was touched; none: not known.
 void evaluate_plane(const std::optional<Eigen::Vector3d>& outward, FeatureResult& result) {
-  const auto tips = tips_of(result.cloud);
+  const KeptPoints kept(result.cloud);
+  const auto& tips = kept.tips_mm;
   auto ls = fit::ls_plane(tips, outward);
   auto mz = fit::min_zone_plane(tips, outward);
   if (!ls || !mz) {
@@ -271,6 +296,8 @@ void evaluate_plane(const std::optional<Eigen::Vector3d>& outward, FeatureResult
     return;
   }
   place_points(*mz, mean_of(result.cloud), result.cloud);
+  kept.name_rows(mz->top);
+  kept.name_rows(mz->bottom);
   for (const fit::Contact& c : mz->top) result.cloud[c.index].outer_contact = true;
   for (const fit::Contact& c : mz->bottom) result.cloud[c.index].inner_contact = true;
   result.ls_plane = *std::move(ls);
@@ -285,7 +312,8 @@ void place_points(const fit::Axis& axis, const Deviation& deviation_mm, FeatureR
 }
 
 void evaluate_cone(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
-  const auto tips = tips_of(result.cloud);
+  const KeptPoints kept(result.cloud);
+  const auto& tips = kept.tips_mm;
   auto ls = fit::ls_cone(tips, direction);
   auto mz = fit::min_zone_cone(tips, direction);
   if (!ls || !mz) {
@@ -295,6 +323,8 @@ void evaluate_cone(const std::optional<Eigen::Vector3d>& direction, FeatureResul
   place_points(
       mz->cone.axis, [&](const Eigen::Vector3d& tip_mm) { return mz->cone.deviation_mm(tip_mm); },
       result);
+  kept.name_rows(mz->outer);
+  kept.name_rows(mz->inner);
   for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
   for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
   result.ls_cone = *std::move(ls);
@@ -302,7 +332,8 @@ void evaluate_cone(const std::optional<Eigen::Vector3d>& direction, FeatureResul
 }
 
 void evaluate_sphere(FeatureResult& result) {
-  const auto tips = tips_of(result.cloud);
+  const KeptPoints kept(result.cloud);
+  const auto& tips = kept.tips_mm;
   auto ls = fit::ls_sphere(tips);
   auto mz = fit::min_zone_sphere(tips);
   if (!ls || !mz) {
@@ -314,30 +345,12 @@ void evaluate_sphere(FeatureResult& result) {
       fit::Axis{mz->center_mm, Eigen::Vector3d::UnitZ()},
       [&](const Eigen::Vector3d& tip_mm) { return (tip_mm - mz->center_mm).norm() - middle_mm; },
       result);
+  kept.name_rows(mz->outer);
+  kept.name_rows(mz->inner);
   for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
   for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
   result.ls_sphere = *std::move(ls);
   result.mz_sphere = *std::move(mz);
-}
-
-/// @pre A circle has an expected direction.
-void fit_surface(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
-  switch (result.feature.shape) {
-    case record::Shape::kCylinder:
-      evaluate_cylinder(direction, result);
-      break;
-    case record::Shape::kPlane:
-      evaluate_plane(direction, result);
-      break;
-    case record::Shape::kCone:
-      evaluate_cone(direction, result);
-      break;
-    case record::Shape::kSphere:
-      evaluate_sphere(result);
-      break;
-    default:
-      evaluate_circle(*direction, result);
-  }
 }
 
 /// Evaluates the repeats of the final cloud: scatter of a touch, and of the zone of a single cloud.
@@ -348,6 +361,8 @@ void evaluate_repeats(const std::vector<const Touch*>& touches,
     result.repeat_sigma_mm = noise.sigma_mm;
     result.repeat_freedom = noise.freedom;
   }
+  const auto is_left_out = [](const CloudPoint& point) { return point.left_out; };
+  if (std::ranges::any_of(result.cloud, is_left_out)) return;  // zones of all touches mean nothing
   std::map<int, std::vector<Eigen::Vector3d>> clouds;
   std::size_t most = 0;
   for (const Touch* touch : touches) {
@@ -460,8 +475,24 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     const ThermalCorrection& c = *result.thermal;
     *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
   }
+  for (const LeftOut& row : rows_in_windows(result)) result.cloud[row.row].left_out = true;
   const auto direction = expected_axis(record, result.feature, *last);
-  fit_surface(direction, result);
+  switch (result.feature.shape) {
+    case record::Shape::kCylinder:
+      evaluate_cylinder(direction, result);
+      break;
+    case record::Shape::kPlane:
+      evaluate_plane(direction, result);
+      break;
+    case record::Shape::kCone:
+      evaluate_cone(direction, result);
+      break;
+    case record::Shape::kSphere:
+      evaluate_sphere(result);
+      break;
+    default:
+      evaluate_circle(*direction, result);
+  }
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
   if (result.mz_cylinder && touched) {
@@ -486,40 +517,6 @@ FeatureResult without_values(const Defect& defect) {
 }
 
 }  // namespace
-
-std::vector<std::size_t> windowed_rows(const FeatureResult& feature) {
-  std::set<std::size_t> rows;
-  for (const CharacteristicResult& result : feature.characteristics) {
-    if (!result.finding) continue;
-    for (const LeftOut& left : result.finding->left_out) {
-      if (!left.window.empty()) rows.insert(left.row);
-    }
-  }
-  return {rows.begin(), rows.end()};
-}
-
-std::optional<FeatureResult> outside_windows(const RunRecord& record, int index,
-                                             const FeatureResult& feature) {
-  const auto windowed = windowed_rows(feature);
-  const auto last = std::ranges::find_if(record.poses, [&](const record::PoseVisit& visit) {
-    return visit.feature == index && is_final(record, visit);
-  });
-  if (windowed.empty() || feature.failure || feature.merged || last == record.poses.end())
-    return std::nullopt;
-  FeatureResult out = feature;
-  out.cloud.clear();
-  for (std::size_t i = 0; i < feature.cloud.size(); ++i) {
-    if (std::ranges::binary_search(windowed, i)) continue;
-    out.cloud.push_back(feature.cloud[i]);
-    out.cloud.back().outer_contact = false;
-    out.cloud.back().inner_contact = false;
-  }
-  if (out.cloud.empty()) return std::nullopt;
-  out.layers.clear();
-  fit_surface(expected_axis(record, feature.feature, *last), out);
-  if (out.failure) return std::nullopt;
-  return out;
-}
 
 CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
   const std::optional<RunRecord> at_20 = compensated(measured);

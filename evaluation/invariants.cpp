@@ -139,7 +139,11 @@ std::optional<BrokenInvariant> broken_invariant(const FeatureResult& result) {
   if (result.mz_cylinder && result.ls_cylinder) {
     std::vector<Eigen::Vector3d> points;
     points.reserve(result.cloud.size());
-    for (const CloudPoint& point : result.cloud) points.push_back(point.tip_mm);
+    // A point in a window counts as another one, so that rows keep their numbers.
+    const auto kept = std::ranges::find(result.cloud, false, &CloudPoint::left_out);
+    for (const CloudPoint& point : result.cloud) {
+      points.push_back(point.left_out ? kept->tip_mm : point.tip_mm);
+    }
     Relations relations("CY", "");
     relate(points, *result.mz_cylinder, *result.ls_cylinder, result.mc_cylinder, result.mi_cylinder,
            relations);

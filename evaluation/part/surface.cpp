@@ -1,5 +1,6 @@
 #include "evaluation/part/surface.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "evaluation/part/internal/layout.h"
@@ -26,6 +27,13 @@ std::vector<MeasuredSurface> surfaces_of(std::span<const FeatureResult> features
     out.push_back(std::move(surface));
   }
   return out;
+}
+
+std::vector<LeftOut> rows_in_windows(const FeatureResult& feature) {
+  const bool windows = std::ranges::any_of(
+      feature.feature.settings,
+      [](const record::Setting& setting) { return setting.name.starts_with("exclude/"); });
+  return windows ? layout_of(feature).windows : std::vector<LeftOut>();
 }
 
 std::vector<std::vector<Eigen::Vector3d>> layers_of(const PreparedSurface& surface) {

@@ -34,6 +34,10 @@ struct MeasuredSurface {
 /// @param features  Must outlive the surfaces.
 [[nodiscard]] std::vector<MeasuredSurface> surfaces_of(std::span<const FeatureResult> features);
 
+/// The rows of the cloud in the windows of a feature that is not fitted yet; none where they cannot
+/// be told, which its characteristics will say.
+[[nodiscard]] std::vector<LeftOut> rows_in_windows(const FeatureResult& feature);
+
 /// A section of a prepared surface: a layer, or a group of neighbouring heights of a file. Each
 /// pass of a layer whose repeats were not averaged is a section of its own, so that opposite points
 /// and generatrices are taken within one pass; they follow each other with the same `layer`.

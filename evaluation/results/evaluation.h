@@ -51,6 +51,7 @@ struct CloudPoint {
   double angle_rad = 0.0;     ///< Angle about the minimum-zone axis, in [0, 2 pi).
   double height_mm = 0.0;     ///< Height along that axis, from the mean point.
   double deviation_mm = 0.0;  ///< Distance from the axis minus the mean of the two zone radii.
+  bool left_out = false;      ///< In a window: it enters no fit.
   bool outer_contact = false;
   bool inner_contact = false;
 };

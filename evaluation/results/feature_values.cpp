@@ -168,6 +168,43 @@ core::LengthUnit unit_of(const record::Characteristic& characteristic) {
   return size ? core::LengthUnit::kMm : core::LengthUnit::kUm;
 }
 
+std::optional<FeatureResult> outside_windows(const FeatureResult& feature) {
+  if (std::ranges::none_of(feature.cloud, &CloudPoint::left_out)) return std::nullopt;
+  FeatureResult out = feature;
+  out.cloud.clear();
+  std::vector<std::size_t> place(feature.cloud.size());  // in the shorter cloud, by row
+  for (std::size_t row = 0; row < feature.cloud.size(); ++row) {
+    place[row] = out.cloud.size();
+    if (!feature.cloud[row].left_out) out.cloud.push_back(feature.cloud[row]);
+  }
+  const auto renumber = [&](std::vector<fit::Contact>& contacts) {
+    for (fit::Contact& contact : contacts) contact.index = place[contact.index];
+  };
+  if (out.mz_cylinder) {
+    renumber(out.mz_cylinder->outer);
+    renumber(out.mz_cylinder->inner);
+  }
+  for (auto* const fit : {&out.mc_cylinder, &out.mi_cylinder}) {
+    if (*fit) renumber((*fit)->contacts);
+  }
+  if (out.mz_plane) {
+    renumber(out.mz_plane->top);
+    renumber(out.mz_plane->bottom);
+  }
+  if (out.mz_cone) {
+    renumber(out.mz_cone->outer);
+    renumber(out.mz_cone->inner);
+  }
+  if (out.mz_sphere) {
+    renumber(out.mz_sphere->outer);
+    renumber(out.mz_sphere->inner);
+  }
+  for (LayerResult& layer : out.layers) {
+    for (std::size_t& row : layer.rows) row = place[row];
+  }
+  return out;
+}
+
 const PoseValue* final_pose_of(const FeatureResult& feature) {
   const auto found = std::find_if(feature.poses.begin(), feature.poses.end(),
                                   [](const PoseValue& pose) { return pose.final_pose; });

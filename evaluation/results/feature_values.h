@@ -69,6 +69,10 @@ struct OneSided {
 /// Unit in which value and limits of a characteristic are written: mm of a size, um of all else.
 [[nodiscard]] core::LengthUnit unit_of(const record::Characteristic& characteristic);
 
+/// The feature without the points in its windows, as a report draws it; nothing where all points
+/// take part. Its fits are the same: they never saw those points.
+[[nodiscard]] std::optional<FeatureResult> outside_windows(const FeatureResult& feature);
+
 /// The final pose, or nothing when no pose is marked.
 [[nodiscard]] const PoseValue* final_pose_of(const FeatureResult& feature);
 

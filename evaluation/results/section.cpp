@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/units.h"
@@ -71,8 +70,9 @@ std::vector<Section> sections_of(const FeatureResult& feature) {
   if (sections.empty() && !feature.cloud.empty()) {
     Section all;
     all.projected = true;
-    all.rows.resize(feature.cloud.size());
-    std::iota(all.rows.begin(), all.rows.end(), std::size_t{0});
+    for (std::size_t row = 0; row < feature.cloud.size(); ++row) {
+      if (!feature.cloud[row].left_out) all.rows.push_back(row);
+    }
     sections.push_back(std::move(all));
   }
   for (Section& section : sections) fill_profile(section, feature.cloud);

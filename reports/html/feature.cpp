@@ -321,7 +321,7 @@ std::string messages(const evaluation::FeatureResult& feature) {
 std::string feature_section(const record::RunRecord& record, std::size_t index,
                             const evaluation::FeatureResult& all) {
   if (record::is_analysis(all.feature.shape)) return analysis_section(record, index, all);
-  const auto outside = evaluation::outside_windows(record, static_cast<int>(index), all);
+  const auto outside = evaluation::outside_windows(all);
   const evaluation::FeatureResult& feature = outside ? *outside : all;
   const auto zone = zone_of(feature);
   const record::Feature& asked = feature.feature;

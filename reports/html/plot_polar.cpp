@@ -85,14 +85,12 @@ std::string profile_path(const evaluation::Section& section, const PolarView& vi
 }
 
 /// Shades the sectors of a layer whose points all lie in windows.
-/// @param all       The feature with these points.
-/// @param windowed  Rows of its cloud, ascending.
+/// @param all  The feature with these points.
 void draw_windows(Svg& svg, const evaluation::Section& section,
-                  const evaluation::FeatureResult& all, const std::vector<std::size_t>& windowed) {
+                  const evaluation::FeatureResult& all) {
   std::vector<std::pair<double, bool>> points;  // by angle, and whether in a window
-  for (std::size_t row = 0; row < all.cloud.size(); ++row) {
-    if (all.cloud[row].layer == section.layer)
-      points.emplace_back(all.cloud[row].angle_rad, std::ranges::binary_search(windowed, row));
+  for (const evaluation::CloudPoint& point : all.cloud) {
+    if (point.layer == section.layer) points.emplace_back(point.angle_rad, point.left_out);
   }
   std::sort(points.begin(), points.end());
   const std::size_t count = points.size();
@@ -143,14 +141,13 @@ std::string roundness_of(const evaluation::FeatureResult& feature,
 }
 
 std::string plot(const evaluation::FeatureResult& feature, const evaluation::Section& section,
-                 const PolarView& view, double half_zone_mm, const evaluation::FeatureResult& all,
-                 const std::vector<std::size_t>& windowed) {
+                 const PolarView& view, double half_zone_mm, const evaluation::FeatureResult& all) {
   Svg svg(kSectionSize, kSectionSize, "polar",
           trf("{}: deviations about the minimum-zone axis", title_of(section)));
   draw_polar_axes(svg,
                   {kSectionCentre, kSectionMean + kSectionHalfZone + 6.0, 4.0, 7.0, 127.0, 130.0});
   draw_zone(svg, view, half_zone_mm);
-  if (!windowed.empty() && !section.projected) draw_windows(svg, section, all, windowed);
+  if (!section.projected) draw_windows(svg, section, all);
   const bool sparse = section.rows.size() <= 40;
   if (has_line(section)) svg.path(profile_path(section, view), sparse ? "guide" : "profile");
   draw_points(svg, section, feature, view);
@@ -193,8 +190,7 @@ std::string polar_plots(const evaluation::FeatureResult& feature, const evaluati
   const double half_zone_mm = 0.5 * zone.deviation_mm;
   const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5)};
   const std::size_t shown = std::min(sections.size(), kMostPlots);
-  const std::vector<std::size_t> windowed =
-      all != nullptr ? evaluation::windowed_rows(*all) : std::vector<std::size_t>();
+  const evaluation::FeatureResult& measured = all != nullptr ? *all : feature;
   bool thinned = false;
   bool sparse = false;
   std::string plots;
@@ -202,12 +198,11 @@ std::string polar_plots(const evaluation::FeatureResult& feature, const evaluati
     const std::size_t pick = shown == 1 ? 0 : i * (sections.size() - 1) / (shown - 1);
     thinned |= sections[pick].thinned;
     sparse |= has_line(sections[pick]) && sections[pick].rows.size() <= 40;
-    plots += plot(feature, sections[pick], view, half_zone_mm, all != nullptr ? *all : feature,
-                  windowed);
+    plots += plot(feature, sections[pick], view, half_zone_mm, measured);
   }
   const double magnification = view.px_per_mm * zone.mean_radius_mm / kSectionMean;
   std::string words = legend(shown, sections.size(), magnification, thinned, sparse);
-  if (!windowed.empty())
+  if (std::ranges::any_of(measured.cloud, &evaluation::CloudPoint::left_out))
     words +=
         note(tr("Grey sectors: windows, whose points take no part in the values of the "
                 "drawing."));
