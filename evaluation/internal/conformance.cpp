@@ -382,6 +382,7 @@ PartFindings find_all(const record::RunRecord& record, std::span<const FeatureRe
                       const std::optional<fit::ProbeTip>& probe) {
   PartFindings out(features.size());
   const std::vector<MeasuredSurface> part = surfaces_of(features);
+  const PartState as_read(part);
   std::vector<PartQuestion> questions;
   std::vector<PartInterval*> answers;
   for (std::size_t f = 0; f < features.size(); ++f) {
@@ -392,7 +393,7 @@ PartFindings find_all(const record::RunRecord& record, std::span<const FeatureRe
       if (!is_found(feature, asked)) continue;
       FoundCharacteristic& found = out[f][c].emplace(FoundCharacteristic{
           features[f].failure ? core::Result<Finding>(core::fail(*features[f].failure))
-                              : find(part, f, asked)});
+                              : find(as_read, f, asked)});
       if (!found.finding) continue;
       warn_of_shares(part, f, asked, *found.finding);
       questions.push_back({f, &asked, &*found.finding});

@@ -164,14 +164,15 @@ struct DatumPoints {
   }
 };
 
-core::Result<DatumPoints> datum_points(std::span<const MeasuredSurface> part, NamedDatum named,
+core::Result<DatumPoints> datum_points(const PartState& state, NamedDatum named,
                                        Association association, const FeatureResult& toleranced) {
+  const std::span<const MeasuredSurface> part = state.surfaces();
   DatumPoints out{std::move(named), association, {}};
   for (const std::size_t i : out.named.features) {
     if (part[i].of->failure) return out.fails(*part[i].of->failure);
     const auto factor = related(*part[i].of, toleranced);
     if (!factor) return out.fails(factor.error());
-    auto surface = prepared(part[i], record::Indication{});
+    auto surface = state.prepared(i, record::Indication{});
     if (!surface) return out.fails(surface.error());
     for (Eigen::Vector3d& p : surface->points_mm) p *= *factor;
     out.surfaces.push_back(*std::move(surface));
@@ -393,18 +394,17 @@ core::Result<DatumResult> axis_square_to(const DatumResult& primary, const Datum
   return out;
 }
 
-/// Whether a characteristic needs a place, an axis; the others need a direction only.
-bool needs_axis(record::Form form) {
+}  // namespace
+
+bool needs_datum_axis(record::Form form) {
   using record::Form;
   return form == Form::kCoaxiality || form == Form::kConcentricity || form == Form::kRunOut ||
          form == Form::kTotalRunOut;
 }
 
-}  // namespace
-
-core::Result<std::vector<DatumResult>> datums_of(std::span<const MeasuredSurface> part,
-                                                 std::size_t feature,
+core::Result<std::vector<DatumResult>> datums_of(const PartState& state, std::size_t feature,
                                                  const record::Characteristic& asked, Proof proof) {
+  const std::span<const MeasuredSurface> part = state.surfaces();
   const auto letters = letters_of(part);
   if (!letters) return core::fail(letters.error());
   std::vector<NamedDatum> named;
@@ -418,15 +418,15 @@ core::Result<std::vector<DatumResult>> datums_of(std::span<const MeasuredSurface
   if (named.empty()) return std::vector<DatumResult>{};
   const Association association = asked.indication.association.value_or(Association::kOneSided);
   const FeatureResult& toleranced = *part[feature].of;
-  const auto primary = datum_points(part, named.front(), association, toleranced);
+  const auto primary = datum_points(state, named.front(), association, toleranced);
   if (!primary) return core::fail(primary.error());
   auto first = primary->named.plane ? plane_datum(*primary) : axis_datum(*primary, proof);
   if (!first) return core::fail(first.error());
   std::vector<DatumResult> out = {*std::move(first)};
-  if (!out.front().plane || !needs_axis(asked.form) || named.size() < 2 || named[1].plane) {
+  if (!out.front().plane || !needs_datum_axis(asked.form) || named.size() < 2 || named[1].plane) {
     return out;
   }
-  const auto secondary = datum_points(part, named[1], association, toleranced);
+  const auto secondary = datum_points(state, named[1], association, toleranced);
   if (!secondary) return core::fail(secondary.error());
   auto second = axis_square_to(out.front(), *secondary);
   if (!second) return core::fail(second.error());

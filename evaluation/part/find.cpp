@@ -11,15 +11,16 @@ using record::Form;
 using Indication = record::Indication;
 
 /// The family of a characteristic that needs no datum.
-core::Result<Finding> find_alone(const PreparedSurface& surface,
+core::Result<Finding> find_alone(const PartState& part, std::size_t feature,
                                  const record::Characteristic& asked, Proof proof) {
+  const PreparedSurface& surface = *part.prepared(feature, asked.indication);
   switch (asked.form) {
     case Form::kDiameter:
       return find_size(surface, asked, proof);
     case Form::kStraightness:
     case Form::kTaper:
     case Form::kGeneratrixParallelism:
-      return find_straightness(surface, asked, proof);
+      return find_straightness(surface, asked, proof, part.lines(feature, asked.indication));
     default:
       return find_form(surface, asked, proof);
   }
@@ -99,17 +100,17 @@ bool is_found(const record::Feature& feature, const record::Characteristic& aske
   return false;
 }
 
-core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t feature,
+core::Result<Finding> find(const PartState& part, std::size_t feature,
                            const record::Characteristic& asked, Proof proof) {
-  const auto surface = prepared(part[feature], asked.indication);
+  const core::Result<PreparedSurface>& surface = part.prepared(feature, asked.indication);
   if (!surface) return core::fail(surface.error());
   core::Result<Finding> found = core::fail(core::Code::kMeaning, "not evaluated");
   if (asked.indication.datum.empty()) {
-    found = find_alone(*surface, asked, proof);
+    found = find_alone(part, feature, asked, proof);
   } else {
-    auto datums = datums_of(part, feature, asked, proof);
+    const core::Result<std::vector<DatumResult>>& datums = part.datums(feature, asked, proof);
     if (!datums) return core::fail(datums.error());
-    found = find_about_both(*surface, asked, *std::move(datums));
+    found = find_about_both(*surface, asked, *datums);
   }
   if (!found) return found;
   found->left_out = surface->left_out;
@@ -117,6 +118,11 @@ core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t fe
   found->warnings.insert(found->warnings.begin(), surface->warnings.begin(),
                          surface->warnings.end());
   return found;
+}
+
+core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t feature,
+                           const record::Characteristic& asked, Proof proof) {
+  return find(PartState(part), feature, asked, proof);
 }
 
 }  // namespace rondure::evaluation

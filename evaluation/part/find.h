@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/result.h"
+#include "evaluation/part/part_state.h"
 #include "evaluation/part/surface.h"
 #include "evaluation/results/finding.h"
 #include "record/run_record.h"
@@ -23,6 +24,10 @@ namespace rondure::evaluation {
 ///         plan instead.
 /// Source: methods, drawing.
 [[nodiscard]] core::Result<Finding> find(std::span<const MeasuredSurface> part, std::size_t feature,
+                                         const record::Characteristic& asked,
+                                         Proof proof = Proof::kFull);
+/// The same of a state of the part, which keeps what further characteristics can use.
+[[nodiscard]] core::Result<Finding> find(const PartState& part, std::size_t feature,
                                          const record::Characteristic& asked,
                                          Proof proof = Proof::kFull);
 

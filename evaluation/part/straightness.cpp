@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/families.h"
@@ -11,7 +12,6 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/line.h"
 #include "fit/profiles/generatrix.h"
-#include "fit/profiles/harmonics.h"
 #include "fit/references/min_zone_line.h"
 
 namespace rondure::evaluation {
@@ -23,19 +23,14 @@ using record::Reference;
 
 constexpr double kOneGeneratrix = 0.5 * core::kDegree;
 constexpr std::size_t kFewestOnALine = 3;
+constexpr int kDenseLines = 36;
 
 /// A place of a section profile in polar coordinates about the axis of the surface.
 struct ProfilePlace {
   double angle_rad = 0.0;
   double height_mm = 0.0;
   double distance_mm = 0.0;
-  std::optional<std::size_t> point;  // none: of the series between the points
-};
-
-/// A generatrix with the points of the surface that it consists of; empty of a series.
-struct TouchedLine {
-  fit::Generatrix line;
-  std::vector<std::size_t> points;
+  std::size_t point = 0;
 };
 
 /// A section as generatrices see it: its points, or the series through them.
@@ -48,9 +43,7 @@ class LineSection {
       places_.push_back({angle_rad(surface, p),
                          (p - surface.axis.point_mm).dot(surface.axis.direction),
                          fit::distance_mm(surface.axis, p), i});
-      height_mm_ += places_.back().height_mm;
     }
-    height_mm_ /= static_cast<double>(places_.size());
     for (const std::size_t row : window_rows(surface, section)) {
       left_out_rad_.push_back(angle_rad(surface, surface.of->cloud[row].tip_mm));
     }
@@ -65,30 +58,8 @@ class LineSection {
     return out;
   }
 
-  /// Replaces the points by their harmonic series.
-  core::Result<void> fit_series() {
-    std::vector<double> theta_rad;
-    std::vector<double> r_mm;
-    for (const ProfilePlace& place : places_) {
-      theta_rad.push_back(place.angle_rad);
-      r_mm.push_back(place.distance_mm);
-    }
-    const auto profile = fit::ordered_profile(theta_rad, r_mm);
-    if (!profile) return core::fail(in_layer(of_, profile.error()));
-    const auto uniform = fit::resampled(*profile);
-    if (!uniform) return core::fail(in_layer(of_, uniform.error()));
-    const auto highest = static_cast<int>((uniform->profile.r_mm.size() - 1) / 2);
-    auto table = fit::harmonics(uniform->profile, {.highest = highest, .override_sampling = true});
-    if (!table) return core::fail(in_layer(of_, table.error()));
-    series_ = *std::move(table);
-    return {};
-  }
-
   /// The place at an angle; nothing where a window takes it out.
   [[nodiscard]] core::Result<std::optional<ProfilePlace>> at(double angle_rad) const {
-    if (series_) {
-      return ProfilePlace{angle_rad, height_mm_, fit::value_at(*series_, angle_rad), {}};
-    }
     const auto apart = [&](double other_rad) {
       return std::abs(std::remainder(other_rad - angle_rad, core::kTwoPi));
     };
@@ -108,18 +79,36 @@ class LineSection {
   SurfaceSection of_;
   std::vector<ProfilePlace> places_;
   std::vector<double> left_out_rad_;
-  double height_mm_ = 0.0;
-  std::optional<fit::HarmonicTable> series_;
 };
 
 /// Angles of the generatrices: those of the first section or, of dense sections, every 10 deg.
 std::vector<double> angles_of_lines(const std::vector<LineSection>& sections, bool dense) {
   std::vector<double> out;
   if (dense) {
-    for (int i = 0; i < 36; ++i) out.push_back(10.0 * i * core::kDegree);
+    for (int i = 0; i < kDenseLines; ++i) out.push_back(core::kTwoPi * i / kDenseLines);
     return out;
   }
   return sections.front().angles_rad();
+}
+
+/// The generatrices of dense sections, every 10 deg, by the harmonic series of their profiles.
+core::Result<std::vector<TouchedLine>> series_lines(const PreparedSurface& surface,
+                                                    const Sections& sections) {
+  std::vector<fit::DenseSection> dense;
+  for (const SurfaceSection& section : sections) {
+    const SurfaceSection pass = by_pass(surface, section).front();
+    const auto flat = projected(surface, std::span(&pass, 1));
+    if (!flat) return core::fail(flat.error());
+    auto profile = section_profile(flat->front());
+    if (!profile) return core::fail(in_layer(section, profile.error()));
+    dense.push_back({flat->front().circle.center_mm, core::mean(flat->front().heights_mm),
+                     std::move(profile->profile)});
+  }
+  auto lines = fit::dense_generatrices(dense, kDenseLines);
+  if (!lines) return core::fail(lines.error());
+  std::vector<TouchedLine> out;
+  for (fit::Generatrix& line : *lines) out.push_back({std::move(line), {}});
+  return out;
 }
 
 /// The generatrices of a surface with three points and more.
@@ -131,9 +120,7 @@ core::Result<std::vector<TouchedLine>> lines_of(const PreparedSurface& surface, 
   for (const SurfaceSection& section : *all) sections.emplace_back(surface, section);
   const bool dense = std::ranges::all_of(*all, &SurfaceSection::dense);
   if (dense && std::ranges::all_of(sections, &LineSection::closed)) {
-    for (LineSection& section : sections) {
-      if (auto fitted = section.fit_series(); !fitted) return core::fail(fitted.error());
-    }
+    return series_lines(surface, *all);
   }
   std::vector<TouchedLine> out;
   for (const double angle : angles_of_lines(sections, dense)) {
@@ -145,7 +132,7 @@ core::Result<std::vector<TouchedLine>> lines_of(const PreparedSurface& surface, 
       if (!*place) continue;
       line.line.heights_mm.push_back((*place)->height_mm);
       line.line.distances_mm.push_back((*place)->distance_mm);
-      if ((*place)->point) line.points.push_back(*(*place)->point);
+      line.points.push_back((*place)->point);
     }
     if (line.line.heights_mm.size() >= kFewestOnALine) out.push_back(std::move(line));
   }
@@ -156,6 +143,17 @@ core::Result<std::vector<TouchedLine>> lines_of(const PreparedSurface& surface, 
                                             "number of points a layer, or a scan")
                              : core::phrase("no angle holds 3 points of different layers: "
                                             "sampling.stagger 0 and at least 3 layers, or a scan"));
+}
+
+/// lines_of(), once for each surface.
+core::Result<std::span<const TouchedLine>> shared_lines(const PreparedSurface& surface,
+                                                        bool opposite, SharedLines& shared) {
+  if (!shared.found) {
+    auto lines = lines_of(surface, opposite);
+    if (!lines) return core::fail(lines.error());
+    shared.found = *std::move(lines);
+  }
+  return std::span<const TouchedLine>(*shared.found);
 }
 
 double angle_in_one_turn(double angle_rad) {
@@ -227,8 +225,8 @@ void judge_worst(const record::Characteristic& asked, Finding& out) {
 }
 
 core::Result<Finding> find_generatrices(const PreparedSurface& surface,
-                                        const record::Characteristic& asked) {
-  const auto lines = lines_of(surface, false);
+                                        const record::Characteristic& asked, SharedLines& shared) {
+  const auto lines = shared_lines(surface, false, shared);
   if (!lines) return core::fail(lines.error());
   Finding out;
   for (const TouchedLine& line : *lines) {
@@ -298,8 +296,8 @@ core::Result<Finding> find_median_line(const PreparedSurface& surface,
 
 /// Taper and parallelism of the generatrices, in every plane that holds two.
 core::Result<Finding> find_taper(const PreparedSurface& surface,
-                                 const record::Characteristic& asked) {
-  const auto lines = lines_of(surface, true);
+                                 const record::Characteristic& asked, SharedLines& shared) {
+  const auto lines = shared_lines(surface, true, shared);
   if (!lines) return core::fail(lines.error());
   std::vector<fit::Generatrix> generatrices;
   for (const TouchedLine& line : *lines) generatrices.push_back(line.line);
@@ -340,13 +338,14 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
 }  // namespace
 
 core::Result<Finding> find_straightness(const PreparedSurface& surface,
-                                        const record::Characteristic& asked, Proof proof) {
-  if (asked.form != Form::kStraightness) return find_taper(surface, asked);
+                                        const record::Characteristic& asked, Proof proof,
+                                        SharedLines& shared) {
+  if (asked.form != Form::kStraightness) return find_taper(surface, asked, shared);
   if (auto checked = check_straightness(asked); !checked) return core::fail(checked.error());
   if (asked.indication.of == Indication::Of::kMedianLine) {
     return find_median_line(surface, asked, proof);
   }
-  return find_generatrices(surface, asked);
+  return find_generatrices(surface, asked, shared);
 }
 
 }  // namespace rondure::evaluation

@@ -539,17 +539,21 @@ void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain&
     }
     move(s, deviations, chain.other);
   }
+  const PartState moved(chain.moved);
+  const PartState raised(chain.other);
+  const PartState mirrored(chain.mirrored);
+  const PartState center(chain.center);
   for (std::size_t q = 0; q < questions.size(); ++q) {
     if (fault_of(questions[q])) continue;
-    std::vector<double> row = questions[q].values(chain.moved);
+    std::vector<double> row = questions[q].values(moved);
     const auto& on = questions[q].surfaces;
     if (std::any_of(on.begin(), on.end(), [&](std::size_t s) { return spots[s]; })) {
-      const std::vector<double> raised = questions[q].values(chain.other);
-      for (std::size_t v = 0; v < row.size(); ++v) row[v] -= raised[v] - row[v];
+      const std::vector<double> other = questions[q].values(raised);
+      for (std::size_t v = 0; v < row.size(); ++v) row[v] -= other[v] - row[v];
     } else if (mirror) {
-      std::vector<double> bias = questions[q].values(chain.mirrored);
-      const std::vector<double> center = questions[q].values(chain.center);
-      for (std::size_t v = 0; v < row.size(); ++v) bias[v] = 0.5 * (row[v] + bias[v]) - center[v];
+      std::vector<double> bias = questions[q].values(mirrored);
+      const std::vector<double> middle = questions[q].values(center);
+      for (std::size_t v = 0; v < row.size(); ++v) bias[v] = 0.5 * (row[v] + bias[v]) - middle[v];
       out.bias_mm[q].push_back(std::move(bias));
     }
     out.rows_mm[q].push_back(std::move(row));
@@ -560,8 +564,9 @@ void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain&
     move(s, inspected[s], chain.other);
     chain.other[s].tip_radius_mm = surfaces[s].measured.tip_radius_mm;
   }
+  const PartState read(chain.other);
   for (std::size_t q = 0; q < questions.size(); ++q) {
-    if (!fault_of(questions[q])) out.read_mm[q].push_back(questions[q].values(chain.other));
+    if (!fault_of(questions[q])) out.read_mm[q].push_back(questions[q].values(read));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
+#include "evaluation/part/part_state.h"
 #include "evaluation/part/surface.h"
 #include "evaluation/uncertainty/influences.h"
 #include "evaluation/uncertainty/statement.h"
@@ -31,7 +32,7 @@ struct TrialSurface {
 
 /// Values of a part, e.g. the judged values of find(); NaN where there is none. Pure: it is called
 /// from several threads.
-using ValueFunction = std::function<std::vector<double>(std::span<const MeasuredSurface>)>;
+using ValueFunction = std::function<std::vector<double>(const PartState&)>;
 
 /// What the trials are asked for.
 struct TrialQuestion {

@@ -1,6 +1,7 @@
 #include "fit/profiles/generatrix.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -101,15 +102,27 @@ class SectionSeries {
   }
 
  private:
+  /// Sums four series, of every fourth harmonic each: their turns do not wait for one another.
   [[nodiscard]] double radius(double angle) const {
-    const Complex step = std::polar(1.0, angle - start_);
-    Complex turned = 1.0;
-    double sum = 0.0;
-    for (const Complex& value : harmonics_) {
-      sum += (value * turned).real();
-      turned *= step;
+    constexpr std::size_t kSeries = 4;
+    const auto turned_by = [&](double times) { return std::polar(1.0, times * (angle - start_)); };
+    const Complex step = turned_by(kSeries);
+    std::array<double, kSeries> x{};
+    std::array<double, kSeries> y{};
+    for (std::size_t j = 0; j < kSeries; ++j) {
+      x[j] = turned_by(static_cast<double>(j)).real();
+      y[j] = turned_by(static_cast<double>(j)).imag();
     }
-    return sum;
+    std::array<double, kSeries> sums{};
+    for (std::size_t k = 0; k < harmonics_.size(); k += kSeries) {
+      for (std::size_t j = 0; j < kSeries && k + j < harmonics_.size(); ++j) {
+        sums[j] += harmonics_[k + j].real() * x[j] - harmonics_[k + j].imag() * y[j];
+        const double turned = x[j] * step.real() - y[j] * step.imag();
+        y[j] = x[j] * step.imag() + y[j] * step.real();
+        x[j] = turned;
+      }
+    }
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
   }
 
   Eigen::Vector2d center_;

@@ -69,6 +69,37 @@ record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int lay
   return out;
 }
 
+record::Feature& add_to_points_run(record::RunRecord& run, const std::string& id,
+                                   record::Shape shape,
+                                   const std::vector<std::vector<Eigen::Vector3d>>& layers,
+                                   record::Side side) {
+  run.ending = "finished";
+  const int pose = static_cast<int>(run.poses.size());
+  run.poses.push_back({pose, static_cast<int>(run.features.size()), {}, {}, true, 0.0});
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    for (std::size_t i = 0; i < layers[layer].size(); ++i) {
+      record::Touch touch;
+      touch.id = static_cast<std::int64_t>(run.touches.size());
+      touch.pose = pose;
+      touch.layer = static_cast<int>(layer);
+      touch.point = static_cast<int>(i);
+      touch.tip_mm = layers[layer][i];
+      run.touches.push_back(touch);
+    }
+  }
+  record::Feature& feature = run.features.emplace_back();
+  feature.id = id;
+  feature.shape = shape;
+  feature.side = side;
+  feature.strategy = record::Strategy::kPointsFile;
+  feature.points_file = "shaft.csv";
+  feature.points_sha256 = "of shaft.csv";
+  feature.tip_radius_mm = 1.5;
+  feature.layers = static_cast<int>(layers.size());
+  feature.points_per_layer = static_cast<int>(layers.front().size());
+  return feature;
+}
+
 evaluation::Evaluation evaluated(const record::RunRecord& run) {
   auto out = evaluate(run);
   EXPECT_TRUE(out) << (out ? "" : out.error().what);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
@@ -17,6 +20,13 @@ namespace rondure::reports {
 /// A finished run over such points as a file of known layers: a cylinder, or a circle of one layer.
 /// The characteristics cover every form and reference, with a tolerance of 1 mm.
 [[nodiscard]] record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int layers);
+
+/// Adds a feature of a points file: its layers, the lowest first, with a tip of 1.5 mm radius.
+/// Returns it for its characteristics and settings.
+record::Feature& add_to_points_run(record::RunRecord& run, const std::string& id,
+                                   record::Shape shape,
+                                   const std::vector<std::vector<Eigen::Vector3d>>& layers,
+                                   record::Side side = record::Side::kOutside);
 
 /// The evaluation of a run; fails the test when there is none.
 [[nodiscard]] evaluation::Evaluation evaluated(const record::RunRecord& run);

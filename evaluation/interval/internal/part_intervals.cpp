@@ -136,7 +136,7 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
       trial.read_mm.push_back(judged.value_mm);
     }
     trial.values = [feature = question.feature, task = question.asked,
-                    count](std::span<const MeasuredSurface> part) {
+                    count](const PartState& part) {
       return judged_values(find(part, feature, *task, Proof::kNone), count);
     };
     places.push_back(q);

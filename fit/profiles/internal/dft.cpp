@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -24,17 +25,32 @@ std::mutex& planning() {
   return mutex;
 }
 
-template <class Make>
-void execute(const Make& make) {
+/// Gives a plan to use on any arrays of its size. Making one takes as long as several transforms,
+/// so that those of usual profiles are kept.
+template <class Make, class Use>
+void planned(std::size_t count, const Make& make, const Use& use) {
+  constexpr std::size_t kKept = 8192;
+  static std::map<std::size_t, Plan> kept;  // one for each Make, as its type differs
+  if (count <= kKept) {
+    const auto plan = [&] {
+      const std::lock_guard lock(planning());
+      const auto found = kept.find(count);
+      return found != kept.end()
+                 ? found->second.get()
+                 : kept.emplace(count, Plan(make(), fftw_destroy_plan)).first->second.get();
+    }();
+    use(plan);
+    return;
+  }
   const auto destroy = [](fftw_plan plan) {
     const std::lock_guard lock(planning());
     fftw_destroy_plan(plan);
   };
-  const auto planned = [&] {
+  const auto plan = [&] {
     const std::lock_guard lock(planning());
     return Plan(make(), destroy);
-  };
-  fftw_execute(planned().get());
+  }();
+  use(plan.get());
 }
 
 /// FFTW's complex number is two doubles, as std::complex is by the standard.
@@ -48,7 +64,9 @@ Spectrum spectrum(std::span<const double> series) {
   std::vector<double> in(series.begin(), series.end());
   std::vector<Complex> out(series.size() / 2 + 1);
   const int count = static_cast<int>(series.size());
-  execute([&] { return fftw_plan_dft_r2c_1d(count, in.data(), raw(out), kFlags); });
+  planned(
+      series.size(), [&] { return fftw_plan_dft_r2c_1d(count, in.data(), raw(out), kFlags); },
+      [&](fftw_plan plan) { fftw_execute_dft_r2c(plan, in.data(), raw(out)); });
   return out;
 }
 
@@ -57,7 +75,9 @@ std::vector<double> series_of(std::span<const Complex> half, std::size_t count) 
   std::vector<Complex> in(half.begin(), half.end());  // it is overwritten
   std::vector<double> out(count);
   const int size = static_cast<int>(count);
-  execute([&] { return fftw_plan_dft_c2r_1d(size, raw(in), out.data(), kFlags); });
+  planned(
+      count, [&] { return fftw_plan_dft_c2r_1d(size, raw(in), out.data(), kFlags); },
+      [&](fftw_plan plan) { fftw_execute_dft_c2r(plan, raw(in), out.data()); });
   for (double& x : out) x /= static_cast<double>(count);
   return out;
 }
