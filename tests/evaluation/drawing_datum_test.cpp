@@ -14,6 +14,8 @@
 #include "core/units.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/part/internal/families.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 #include "tests/evaluation/drawing_part.h"
 #include "tests/fit/drawing_cases.h"
 
@@ -798,6 +800,49 @@ TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
   EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 15.0;
   EXPECT_GT(part.value(asked), 0.0);
+}
+
+TEST(DrawingRefusals, OfHalfAFaceLeaveNoVerdict) {
+  DrawnPart part;
+  part.cylinder("A", round_journal(10.0, {-60.0, -20.0}, 16));
+  const Layers whole = virtual_face(15.0, 24);
+  Layers half = whole;
+  for (auto& circle : half) circle.resize(13);
+  const auto flatness = [] {
+    record::Characteristic out;
+    out.form = Form::kFlatness;
+    return out;
+  }();
+  for (const auto& asked : {flatness, about(Form::kPerpendicularity, {"A"}),
+                            along(about(Form::kTotalRunOut, {"A"}), Direction::kAxial)}) {
+    SCOPED_TRACE(name_of(asked.form));
+    DrawnPart seen = part;
+    seen.plane("F", whole);
+    ASSERT_TRUE(seen.last(asked).has_value());
+    EXPECT_FALSE(seen.last(asked)->no_verdict.has_value());
+    DrawnPart unseen = part;
+    unseen.plane("F", half);
+    ASSERT_TRUE(unseen.last(asked).has_value());
+    EXPECT_TRUE(unseen.last(asked)->no_verdict.has_value());
+  }
+}
+
+TEST(DrawingRefusals, OfAWindowOverHalfTheTurnLeaveNoVerdict) {
+  record::SurfaceSettings settings;
+  settings.exclude.emplace_back();
+  settings.exclude.back().name = "flat";
+  settings.exclude.back().from_deg = 80.0;
+  settings.exclude.back().to_deg = 280.0;
+  DrawnPart part;
+  part.cylinder("A", round_journal(15.0, {0.0, 40.0}, 24));
+  part.cylinder("C", round_journal(20.0, {80.0, 100.0}, 24)).feature.settings =
+      record::settings_of_task(settings);
+  for (const Form form : {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality}) {
+    SCOPED_TRACE(name_of(form));
+    const auto found = part.last(about(form, {"A"}));
+    ASSERT_TRUE(found.has_value()) << found.error().what;
+    EXPECT_TRUE(found->no_verdict.has_value());
+  }
 }
 
 TEST(DrawingRefusals, OfAPartOfTheTurnLeaveNoVerdict) {

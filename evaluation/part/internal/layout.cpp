@@ -47,13 +47,6 @@ bool is_turned(Shape shape) {
   return shape == Shape::kCylinder || shape == Shape::kCircle || shape == Shape::kCone;
 }
 
-bool has_layers(const FeatureResult& feature) {
-  const auto& cloud = feature.cloud;
-  return feature.feature.layers > 0 || feature.feature.shape == Shape::kCircle ||
-         std::any_of(cloud.begin(), cloud.end(),
-                     [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
-}
-
 SurfacePoints chosen_points(const SurfacePoints& tips, const std::vector<bool>& chosen) {
   SurfacePoints out;
   for (std::size_t i = 0; i < tips.size(); ++i) {
@@ -376,6 +369,13 @@ class LayoutBuilder {
 };
 
 }  // namespace
+
+bool has_layers(const FeatureResult& feature) {
+  const auto& cloud = feature.cloud;
+  return feature.feature.layers > 0 || feature.feature.shape == Shape::kCircle ||
+         std::any_of(cloud.begin(), cloud.end(),
+                     [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
+}
 
 Eigen::Matrix3d part_from_cloud(const FeatureResult& feature) {
   // A cloud of several poses is in the frame of the body already.
