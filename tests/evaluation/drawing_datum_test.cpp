@@ -739,13 +739,16 @@ TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
             "datum \"E-F\": a common datum is of cylinders; name one plane");
   EXPECT_EQ(why({"S"}, Association::kLs),
             "datum S has 1 section, an axis needs 2; name a common datum, e.g. \"A-B\"");
-  EXPECT_EQ(why({"arc"}, Association::kOneSided),
-            "datum arc: the points leave 240 deg open, no one-sided axis rests on them; measure "
-            "all round, or plan association \"ls\"");
-  EXPECT_EQ(why({"E", "arc"}, Association::kOneSided),
-            "datum arc: the points leave 240 deg open, no one-sided axis rests on them; measure "
-            "all round, or plan association \"ls\"");
-  EXPECT_TRUE(part.last(about(Form::kCoaxiality, {"arc"}, Association::kLs)).has_value());
+  for (const Association association :
+       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
+    for (const std::vector<std::string>& datum :
+         {std::vector<std::string>{"arc"}, std::vector<std::string>{"E", "arc"}}) {
+      EXPECT_EQ(why(datum, association),
+                "datum arc: no axis rests on arc: layer 1: the points leave 240 deg of the turn "
+                "unseen; measure the whole turn, and keep what windows and gaps leave open below "
+                "180 deg");
+    }
+  }
   EXPECT_EQ(why({"E"}, Association::kLs),
             "coaxiality is about an axis: name a cylinder as datum, alone or after the plane");
   EXPECT_EQ(why({"E", "A-S"}, Association::kLs),
@@ -800,6 +803,24 @@ TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
   EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 15.0;
   EXPECT_GT(part.value(asked), 0.0);
+}
+
+TEST(DrawingDatums, OfMoreThanAQuarterOfTheTurnUnseenAreRefused) {
+  const auto run_out = [](std::size_t count, Association association) {
+    Layers open = round_journal(15.0, {0.0, 40.0}, 24);
+    for (auto& layer : open) layer.resize(count);
+    DrawnPart part;
+    part.cylinder("A", open);
+    part.cylinder("C", round_journal(20.0, {80.0, 100.0}, 24));
+    return part.last(about(Form::kRunOut, {"A"}, association));
+  };
+  EXPECT_TRUE(run_out(19, Association::kLs).has_value());  // 90 deg open
+  for (const Association association :
+       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
+    const auto refused = run_out(18, association);  // 105 deg open
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, core::Code::kReferenceAbsent);
+  }
 }
 
 TEST(DrawingRefusals, OfHalfAFaceLeaveNoVerdict) {
