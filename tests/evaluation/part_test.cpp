@@ -434,6 +434,18 @@ TEST(SurfaceFilter, BridgesAWindowAboutTheCircleOfTheOtherPoints) {
   EXPECT_THAT(refused.error().what, HasSubstr("not defined beside a window"));
 }
 
+TEST(SurfaceFilter, BesideAWindowNeedsTheRestOfTheTurn) {
+  // 100..110 deg are the window; at 200..239 deg nothing was measured.
+  Layers layers = w8();
+  auto& points = layers[0];
+  points.erase(points.begin() + 200, points.begin() + 240);
+  const auto gap =
+      prepared_of(cylinder_of(layers, with_window(window(99.5, 110.5))), gaussian(15.0));
+  ASSERT_FALSE(gap);
+  EXPECT_EQ(gap.error().code, core::Code::kSampling);
+  EXPECT_THAT(gap.error().what, HasSubstr("largest gap between angles is 41 deg"));
+}
+
 TEST(SurfaceFilter, KeepsTheEccentricity) {
   const auto centred = prepared_of(cylinder_of(w8()), gaussian(50.0));
   const auto eccentric = prepared_of(cylinder_of(w8(0.05)), gaussian(50.0));

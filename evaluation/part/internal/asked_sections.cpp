@@ -191,6 +191,7 @@ void add_rows(const PreparedSurface& surface, std::span<const std::size_t> point
 
 std::vector<std::size_t> window_rows(const PreparedSurface& surface,
                                      const SurfaceSection& section) {
+  const bool layers = has_layers(*surface.of);
   double middle_mm = 0.0;
   for (const std::size_t i : section.points) {
     middle_mm +=
@@ -199,8 +200,11 @@ std::vector<std::size_t> window_rows(const PreparedSurface& surface,
   std::vector<std::size_t> out;
   for (const LeftOut& left : surface.left_out) {
     if (left.window.empty() || left.row >= surface.of->cloud.size()) continue;
-    const double height = height_along_mm(surface, surface.of->cloud[left.row].tip_mm);
-    if (std::abs(height - middle_mm) <= kThickness) out.push_back(left.row);
+    const CloudPoint& point = surface.of->cloud[left.row];
+    const bool here =
+        layers ? point.layer == section.layer
+               : std::abs(height_along_mm(surface, point.tip_mm) - middle_mm) <= kThickness;
+    if (here) out.push_back(left.row);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "core/phrase.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/sections.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/harmonics.h"
@@ -127,7 +128,12 @@ core::Result<void> filter_section(PreparedSurface& surface, const SurfaceSection
   const auto profile = round_profile(points);
   if (!profile) return core::fail(profile.error());
   const fit::AngularProfile& measured = profile->by_angle;
-  const Spacing spacing = spacing_of(measured, section.gap);
+  std::vector<Eigen::Vector2d> left_out;
+  for (const std::size_t row : window_rows(surface, section)) {
+    left_out.emplace_back(frame.transpose() *
+                          (surface.of->cloud[row].tip_mm - surface.axis.point_mm));
+  }
+  const Spacing spacing = spacing_of(*profile, left_out);
   if (auto checked = check_carries(spacing, section.layer, options.cutoff_upr); !checked) {
     return checked;
   }

@@ -287,9 +287,8 @@ class LayoutBuilder {
   core::Result<void> take_windows_from_sections() {
     for (SectionRows& section : out_.sections) {
       std::vector<std::size_t> rows;
-      for (const std::size_t row : section.rows) {
-        if (out_.kept[row]) rows.push_back(row);
-      }
+      std::vector<std::size_t> left_out;
+      for (const std::size_t row : section.rows) (out_.kept[row] ? rows : left_out).push_back(row);
       section.gap = !rows.empty() && rows.size() < section.rows.size();
       if (rows.empty()) {
         out_.warnings.push_back(
@@ -298,8 +297,8 @@ class LayoutBuilder {
                               section.layer + 1)));
       }
       section.rows = std::move(rows);
-      section.dense = is_turned(shape()) &&
-                      carries_lowest_cutoff(points_of(section.rows), out_.axis, section.gap);
+      section.dense = is_turned(shape()) && carries_lowest_cutoff(points_of(section.rows),
+                                                                  out_.axis, points_of(left_out));
     }
     return check_layers_left();
   }
