@@ -574,6 +574,30 @@ TEST(SurfaceFilter, AlongTheAxisBridgesAWindow) {
               20.0 - 0.001012355070, kWorked);
 }
 
+TEST(SurfaceFilter, AlongTheAxisBesideAWindowNeedsTheOtherPoints) {
+  WindowTask hole;
+  hole.name = "hole";
+  hole.from_deg = 29.0;
+  hole.to_deg = 31.0;
+  hole.from_mm = 4.5;
+  hole.to_mm = 5.5;
+  hole.guard_mm = 0.0;
+  const auto with_hole = [&](const Layers& layers) {
+    return prepared_of(cylinder_of(layers, with_window(hole)), gaussian(std::nullopt, 8.0));
+  };
+  EXPECT_TRUE(with_hole(w9_body()));
+  Layers lost = w9_body();
+  lost.erase(lost.begin() + 15, lost.begin() + 25);  // not measured: no window took them
+  const auto gap = with_hole(lost);
+  ASSERT_FALSE(gap);
+  EXPECT_THAT(gap.error().what, HasSubstr("31 layers 11 mm apart"));
+  Layers scratched = w9_body();
+  for (std::size_t z = 15; z < 25; ++z) scratched[z].erase(scratched[z].begin() + 60);
+  const auto one_line = with_hole(scratched);
+  ASSERT_FALSE(one_line);
+  EXPECT_THAT(one_line.error().what, HasSubstr("41 layers 11 mm apart"));
+}
+
 TEST(SurfaceFilter, AlongTheAxisNeedsLayersCloseTogetherAtEqualAngles) {
   const FeatureResult body = cylinder_of(w9_body());
   const auto wide = prepared_of(body, gaussian(15.0, 2.5));
