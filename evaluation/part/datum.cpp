@@ -8,6 +8,7 @@
 
 #include "core/phrase.h"
 #include "core/units.h"
+#include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/clamping.h"
 #include "evaluation/part/internal/families.h"
 #include "fit/datums/datum_axis.h"
@@ -210,19 +211,14 @@ fit::DatumAssociation to_fit(Association association) {
   return fit::DatumAssociation::kOneSided;
 }
 
-/// Nothing rests on an arc: the points of a one-sided datum must surround its axis.
-core::Result<void> check_surrounded(const DatumPoints& datum, const fit::Axis& axis) {
-  const auto frame = fit::across(axis.direction);
-  for (const PreparedSurface& s : datum.surfaces) {
-    std::vector<Eigen::Vector2d> flat;
-    for (const auto& p : s.points_mm) flat.emplace_back(frame.transpose() * (p - axis.point_mm));
-    const double open = fit::largest_gap_rad(flat, Eigen::Vector2d::Zero());
-    if (open < 0.5 * core::kTwoPi) continue;
-    return core::fail(
-        core::Code::kReferenceAbsent,
-        core::phrase("datum {}: the points leave {:.0f} deg open, no one-sided axis rests on them; "
-                     "measure all round, or plan association \"ls\"",
-                     datum.named.name, core::degrees(open)));
+/// No axis rests on an arc, whatever the association: an axis needs the turn of every section.
+core::Result<void> check_surrounded(const DatumPoints& datum) {
+  for (const PreparedSurface& surface : datum.surfaces) {
+    const auto why = unseen_part(surface);
+    if (!why) continue;
+    return core::fail(core::Code::kReferenceAbsent,
+                      core::phrase("datum {}: no axis rests on {}: {}", datum.named.name,
+                                   surface.of->feature.id, *why));
   }
   return {};
 }
@@ -304,16 +300,10 @@ core::Result<DatumResult> axis_datum(const DatumPoints& datum, Proof proof) {
                                    "e.g. \"A-B\"",
                                    datum.named.name));
   }
+  if (auto round = check_surrounded(datum); !round) return core::fail(round.error());
   const AxisAssociation associated(datum);
-  auto found = associated.find(Association::kLs);
+  const auto found = associated.find(datum.association);
   if (!found) return core::fail(found.error());
-  if (datum.one_sided()) {
-    if (auto round = check_surrounded(datum, found->axis); !round) return core::fail(round.error());
-  }
-  if (datum.association != Association::kLs) {
-    found = associated.find(datum.association);
-    if (!found) return core::fail(found.error());
-  }
   DatumResult out = datum.result(found->axis, found->radii_mm);
   out.length_mm = datum.extent_mm(out.place.direction);
   if (datum.association != Association::kOneSided || proof == Proof::kNone) return out;
@@ -365,6 +355,7 @@ core::Result<DatumResult> axis_square_to(const DatumResult& primary, const Datum
                       core::phrase("datum {}: after a plane one cylinder gives the axis; name one",
                                    datum.named.name));
   }
+  if (auto round = check_surrounded(datum); !round) return core::fail(round.error());
   const PreparedSurface& surface = datum.surfaces.front();
   const fit::Plane plane{primary.place.point_mm, primary.place.direction};
   const auto frame = fit::across(plane.normal);
@@ -378,7 +369,6 @@ core::Result<DatumResult> axis_square_to(const DatumResult& primary, const Datum
   };
   DatumResult out = datum.result(along_normal(ls->center_mm), {ls->radius_mm});
   if (datum.one_sided()) {
-    if (auto round = check_surrounded(datum, out.place); !round) return core::fail(round.error());
     const auto found =
         fit::datum_axis_square_to(plane, {surface.points_mm, surface.material.inside});
     if (!found) return datum.fails(found.error());

@@ -31,7 +31,7 @@ struct SurfaceForm {
   fit::FormParameters ls = {};  // about least squares only
   std::optional<fit::DeviationRange> range = {};
   bool certified = true;
-  double unseen_rad = 0.0;
+  std::optional<core::Phrase> unseen = {};
 };
 
 double value_of_parameter(const fit::FormParameters& form, Indication::Parameter parameter) {
@@ -78,8 +78,8 @@ void note_evidence(const record::Characteristic& asked, record::Shape about,
   if (!found.certified) {
     out.no_verdict = core::phrase("no certificate stands behind the {}",
                                   core::Phrase(words_of(asked.reference, about)));
-  } else if (found.unseen_rad > 0.0 && !too_wide) {
-    out.no_verdict = unseen_words(found.unseen_rad);
+  } else if (found.unseen && !too_wide) {
+    out.no_verdict = found.unseen;
   } else if (found.range) {
     out.no_verdict = undecided_range(*found.range, asked.tolerance_mm);
   }
@@ -107,7 +107,7 @@ core::Result<Finding> find_cylindricity(const PreparedSurface& surface,
   out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
   out.reference = core::as_it_is(reference_of(asked));
   if (proof == Proof::kNone) return out;
-  found.unseen_rad = unseen_in(surface);
+  found.unseen = unseen_part(surface);
   note_evidence(asked, record::Shape::kCylinder, found, out);
   return out;
 }
@@ -138,7 +138,7 @@ core::Result<SectionForm> form_of_section(const PreparedSurface& surface,
   out.form = {.value_mm = circle->deviation_mm,
               .range = circle->range,
               .certified = circle->certified,
-              .unseen_rad = unseen_in(surface, section)};
+              .unseen = unseen_part(surface, std::span(&section, 1), surface.axis)};
   for (const std::size_t contact : circle->contacts) out.points.push_back(section.points[contact]);
   if (asked.reference != Reference::kLeastSquares) return out;
   std::vector<double> deviations_mm;
@@ -171,7 +171,7 @@ core::Result<Finding> find_roundness(const PreparedSurface& surface,
     out.local.push_back(
         {.layer = section.layer, .position = section.height_mm, .value_mm = form.value_mm});
     found.certified = found.certified && form.certified;
-    found.unseen_rad = std::max(found.unseen_rad, form.unseen_rad);
+    if (!found.unseen) found.unseen = form.unseen;
     const auto least_most = form.range.value_or(fit::DeviationRange{form.value_mm, form.value_mm});
     range.low_mm = std::max(range.low_mm, least_most.low_mm);
     range.high_mm = std::max(range.high_mm, least_most.high_mm);
@@ -231,6 +231,7 @@ core::Result<Finding> find_flatness(const PreparedSurface& surface,
   }
   out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
   out.reference = core::as_it_is(reference_of(asked.reference, record::Shape::kPlane));
+  found.unseen = unseen_of_face(surface);
   note_evidence(asked, record::Shape::kPlane, found, out);
   return out;
 }

@@ -38,15 +38,7 @@ core::Result<MedianLine> median_line_of(const PreparedSurface& surface,
 
 /// The centre of a section that is not touched all round is not known well enough for a verdict.
 void note_unseen_centers(const PreparedSurface& surface, const MedianLine& line, Finding& out) {
-  for (const SurfaceSection& section : line.sections) {
-    const double unseen = unseen_in(surface, section);
-    if (unseen <= 0.0) continue;
-    out.no_verdict = core::phrase(
-        "layer {} leaves {:.0f} deg of the turn unseen: its centre is not known well enough; "
-        "measure the whole turn",
-        section.layer + 1, core::degrees(unseen));
-    return;
-  }
+  out.no_verdict = unseen_part(surface, line.sections, surface.axis);
 }
 
 core::Result<void> check_direction(const PreparedSurface& surface, const MedianLine& line) {
@@ -145,6 +137,10 @@ core::Result<Finding> find_plane(const PreparedSurface& surface,
   std::vector<double> heights;
   for (const auto& p : points) heights.push_back((p - points.front()).dot(normal));
   add_extreme_rows(surface, heights, out);
+  // The rest of the face can only add: a plane that fails does so as read.
+  if (!asked.tolerance_mm || *value <= *asked.tolerance_mm) {
+    out.no_verdict = unseen_of_face(surface);
+  }
   return out;
 }
 

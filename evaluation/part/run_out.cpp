@@ -8,7 +8,6 @@
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
-#include "evaluation/results/internal/deviation.h"
 #include "fit/datums/datum.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"
@@ -186,15 +185,15 @@ core::Result<std::vector<Circle>> turned_circles(const Turned& turned,
 }
 
 /// What no point and no window names of a turn can only add to the run-out.
-void note_unseen_turn(const PreparedSurface& surface, const record::Characteristic& asked,
-                      Finding& out) {
+void note_unseen_turn(const Turned& turned, const Sections& sections,
+                      const record::Characteristic& asked, Finding& out) {
   const auto& limit = asked.tolerance_mm;
   if (limit && out.judged.front().value_mm > *limit) return;
-  double unseen = surface.sections.empty() ? unseen_in(surface) : 0.0;
-  for (const SurfaceSection& section : surface.sections) {
-    if (!section.points.empty()) unseen = std::max(unseen, unseen_in(surface, section));
-  }
-  if (unseen > 0.0) out.no_verdict = unseen_words(unseen);
+  // The middle of a part of a face lies in that part: the turn is that about the datum.
+  const bool face = turned.surface.of->feature.shape == Shape::kPlane;
+  const fit::Axis& about = face ? turned.axis : turned.surface.axis;
+  out.no_verdict = sections.empty() ? unseen_turn(turned.surface, about)
+                                    : unseen_part(turned.surface, sections, about);
 }
 
 /// The rows at both ends of the measure among some points, the greatest first.
@@ -226,12 +225,15 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
     std::iota(all.begin(), all.end(), std::size_t{0});
     add_turned_rows(*about, all, out);
     out.judged.push_back({symbol, measured_range(*about, all).width(), limits_of(asked)});
-    note_unseen_turn(surface, asked, out);
+    note_unseen_turn(*about, surface.sections, asked, out);
     return out;
   }
   const auto found = turned_circles(*about, asked.indication);
   if (!found) return core::fail(found.error());
+  Sections turns;
   for (const Circle& circle : *found) {
+    turns.push_back(
+        {.layer = circle.layer, .height_mm = circle.position_mm, .points = circle.points});
     out.local.push_back({about->axial ? LocalValue::Place::kRadius : LocalValue::Place::kLayer,
                          circle.layer, circle.position_mm,
                          measured_range(*about, circle.points).width()});
@@ -239,7 +241,7 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
   }
   add_turned_rows(*about, (*found)[out.worst].points, out);
   out.judged.push_back({symbol, out.local[out.worst].value_mm, limits_of(asked)});
-  note_unseen_turn(surface, asked, out);
+  note_unseen_turn(*about, turns, asked, out);
   return out;
 }
 

@@ -112,25 +112,14 @@ void judge_sections(const PreparedSurface& surface, const record::Characteristic
 /// What no point and no window names of the turn: a size could be anything there. It can only add
 /// to a size that fails as read.
 /// @param only_worsens  More points move the judged sizes towards their limits.
-void note_unseen(double unseen_rad, bool only_worsens, Finding& out) {
-  if (unseen_rad <= 0.0) return;
+void note_unseen(const std::optional<core::Phrase>& unseen, bool only_worsens, Finding& out) {
+  if (!unseen) return;
   const auto fails = [](const JudgedValue& v) {
     return (v.limits.upper_mm && v.value_mm > *v.limits.upper_mm) ||
            (v.limits.lower_mm && v.value_mm < *v.limits.lower_mm);
   };
   if (only_worsens && std::ranges::any_of(out.judged, fails)) return;
-  out.no_verdict = core::phrase(
-      "the points leave {:.0f} deg of the turn unseen: the size is not known there; "
-      "measure the whole turn",
-      core::degrees(unseen_rad));
-}
-
-double unseen_of_sections(const PreparedSurface& surface, const Sections& sections) {
-  double unseen = 0.0;
-  for (const SurfaceSection& section : sections) {
-    unseen = std::max(unseen, unseen_in(surface, section));
-  }
-  return unseen;
+  out.no_verdict = unseen;
 }
 
 void note_uncertified(bool certified, std::string_view size, Finding& out) {
@@ -166,7 +155,7 @@ core::Result<Finding> find_global(const PreparedSurface& surface,
   Finding out;
   out.reference = of_sections(size_words(surface, size, name), asked.indication);
   bool certified = true;
-  double unseen = 0.0;
+  std::optional<core::Phrase> unseen;
   if (asked.indication.section == Indication::Section::kAll) {
     const auto whole = whole_size(surface, size, proof);
     if (!whole) return core::fail(whole.error());
@@ -174,7 +163,7 @@ core::Result<Finding> find_global(const PreparedSurface& surface,
         {symbol_of_size(name), surface.material.diameter_mm(whole->radius_mm), limits_of(asked)});
     add_rows(surface, whole->contacts, out);
     certified = whole->certified;
-    unseen = unseen_in(surface);
+    unseen = unseen_part(surface);
   } else {
     const auto sections = asked_sections(surface, asked.indication);
     if (!sections) return core::fail(sections.error());
@@ -187,7 +176,7 @@ core::Result<Finding> find_global(const PreparedSurface& surface,
       certified = certified && circle->certified;
     }
     judge_sections(surface, asked, symbol_of_size(name), symbol_of_size(name), sizes, out);
-    unseen = unseen_of_sections(surface, *sections);
+    unseen = unseen_part(surface, *sections, surface.axis);
   }
   if (proof == Proof::kNone) return out;
   note_uncertified(certified, name, out);
@@ -365,7 +354,7 @@ core::Result<Finding> find_local(const PreparedSurface& surface,
   add_rank_numbers(*whole, out);
   const bool only_worsens = !indication.rank;
   if (proof == Proof::kFull) {
-    note_unseen(unseen_of_sections(surface, *sections), only_worsens, out);
+    note_unseen(unseen_part(surface, *sections, surface.axis), only_worsens, out);
   }
   return out;
 }
@@ -403,7 +392,7 @@ core::Result<Finding> find_envelope(const PreparedSurface& surface,
   }
   if (proof == Proof::kNone) return out;
   note_uncertified(mating->certified, name, out);
-  note_unseen(unseen_in(surface), true, out);
+  note_unseen(unseen_part(surface), true, out);
   return out;
 }
 

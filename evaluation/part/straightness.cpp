@@ -217,11 +217,15 @@ double value_of_line(const fit::GeneratrixStraightness& straight,
   return straight.ls.total_mm;
 }
 
-/// Marks the greatest local value as the one that decides.
-void judge_worst(const record::Characteristic& asked, Finding& out) {
+/// Marks the greatest local value as the one that decides. Generatrices that are not seen can only
+/// add to it.
+void judge_worst(const PreparedSurface& surface, const record::Characteristic& asked,
+                 Finding& out) {
   const auto worst = std::ranges::max_element(out.local, {}, &LocalValue::value_mm);
   out.worst = static_cast<std::size_t>(worst - out.local.begin());
   out.judged.push_back({symbol_of(asked), worst->value_mm, limits_of(asked)});
+  if (asked.tolerance_mm && worst->value_mm > *asked.tolerance_mm) return;
+  out.no_verdict = unseen_part(surface, surface.sections, surface.axis);
 }
 
 core::Result<Finding> find_generatrices(const PreparedSurface& surface,
@@ -238,7 +242,7 @@ core::Result<Finding> find_generatrices(const PreparedSurface& surface,
                          .value_mm = value_of_line(*straight, asked, surface.material.inside)});
     out.lines.push_back(picture_of(line, *straight, surface.material.sign()));
   }
-  judge_worst(asked, out);
+  judge_worst(surface, asked, out);
   add_rows(surface, (*lines)[out.worst].points, out);
   out.reference =
       core::phrase("{} of each generatrix",
@@ -282,15 +286,7 @@ core::Result<Finding> find_median_line(const PreparedSurface& surface,
   const char* reference = asked.reference == Reference::kMinimumZone ? "MZLI" : "LSLI";
   out.reference = core::phrase("{} of the median line", core::as_it_is(reference));
   if (proof == Proof::kNone) return out;
-  for (const SurfaceSection& section : *all) {
-    const double unseen = unseen_in(surface, section);
-    if (unseen > 0.0 && !out.no_verdict) {
-      out.no_verdict = core::phrase(
-          "layer {} leaves {:.0f} deg of the turn unseen: its centre is not known well enough; "
-          "measure the whole turn",
-          section.layer + 1, core::degrees(unseen));
-    }
-  }
+  if (!out.no_verdict) out.no_verdict = unseen_part(surface, *all, surface.axis);
   return out;
 }
 
@@ -320,7 +316,7 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
          .position = angle_in_one_turn(plane.angle_rad),
          .value_mm = asked.form == Form::kTaper ? plane.taper_mm : plane.parallelism_mm});
   }
-  judge_worst(asked, out);
+  judge_worst(surface, asked, out);
   for (const TouchedLine& line : *lines) {
     const double turn = line.line.angle_rad - (*planes)[out.worst].angle_rad;
     if (std::abs(std::remainder(turn, 0.5 * core::kTwoPi)) > kOneGeneratrix) continue;

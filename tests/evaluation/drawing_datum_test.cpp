@@ -14,6 +14,8 @@
 #include "core/units.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/part/internal/families.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 #include "tests/evaluation/drawing_part.h"
 #include "tests/fit/drawing_cases.h"
 
@@ -737,13 +739,16 @@ TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
             "datum \"E-F\": a common datum is of cylinders; name one plane");
   EXPECT_EQ(why({"S"}, Association::kLs),
             "datum S has 1 section, an axis needs 2; name a common datum, e.g. \"A-B\"");
-  EXPECT_EQ(why({"arc"}, Association::kOneSided),
-            "datum arc: the points leave 240 deg open, no one-sided axis rests on them; measure "
-            "all round, or plan association \"ls\"");
-  EXPECT_EQ(why({"E", "arc"}, Association::kOneSided),
-            "datum arc: the points leave 240 deg open, no one-sided axis rests on them; measure "
-            "all round, or plan association \"ls\"");
-  EXPECT_TRUE(part.last(about(Form::kCoaxiality, {"arc"}, Association::kLs)).has_value());
+  for (const Association association :
+       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
+    for (const std::vector<std::string>& datum :
+         {std::vector<std::string>{"arc"}, std::vector<std::string>{"E", "arc"}}) {
+      EXPECT_EQ(why(datum, association),
+                "datum arc: no axis rests on arc: layer 1: the points leave 240 deg of the turn "
+                "unseen; measure the whole turn, and keep what windows and gaps leave open below "
+                "180 deg");
+    }
+  }
   EXPECT_EQ(why({"E"}, Association::kLs),
             "coaxiality is about an axis: name a cylinder as datum, alone or after the plane");
   EXPECT_EQ(why({"E", "A-S"}, Association::kLs),
@@ -798,6 +803,67 @@ TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
   EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
   asked.indication.radius_mm = 15.0;
   EXPECT_GT(part.value(asked), 0.0);
+}
+
+TEST(DrawingDatums, OfMoreThanAQuarterOfTheTurnUnseenAreRefused) {
+  const auto run_out = [](std::size_t count, Association association) {
+    Layers open = round_journal(15.0, {0.0, 40.0}, 24);
+    for (auto& layer : open) layer.resize(count);
+    DrawnPart part;
+    part.cylinder("A", open);
+    part.cylinder("C", round_journal(20.0, {80.0, 100.0}, 24));
+    return part.last(about(Form::kRunOut, {"A"}, association));
+  };
+  EXPECT_TRUE(run_out(19, Association::kLs).has_value());  // 90 deg open
+  for (const Association association :
+       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
+    const auto refused = run_out(18, association);  // 105 deg open
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, core::Code::kReferenceAbsent);
+  }
+}
+
+TEST(DrawingRefusals, OfHalfAFaceLeaveNoVerdict) {
+  DrawnPart part;
+  part.cylinder("A", round_journal(10.0, {-60.0, -20.0}, 16));
+  const Layers whole = virtual_face(15.0, 24);
+  Layers half = whole;
+  for (auto& circle : half) circle.resize(13);
+  const auto flatness = [] {
+    record::Characteristic out;
+    out.form = Form::kFlatness;
+    return out;
+  }();
+  for (const auto& asked : {flatness, about(Form::kPerpendicularity, {"A"}),
+                            along(about(Form::kTotalRunOut, {"A"}), Direction::kAxial)}) {
+    SCOPED_TRACE(name_of(asked.form));
+    DrawnPart seen = part;
+    seen.plane("F", whole);
+    ASSERT_TRUE(seen.last(asked).has_value());
+    EXPECT_FALSE(seen.last(asked)->no_verdict.has_value());
+    DrawnPart unseen = part;
+    unseen.plane("F", half);
+    ASSERT_TRUE(unseen.last(asked).has_value());
+    EXPECT_TRUE(unseen.last(asked)->no_verdict.has_value());
+  }
+}
+
+TEST(DrawingRefusals, OfAWindowOverHalfTheTurnLeaveNoVerdict) {
+  record::SurfaceSettings settings;
+  settings.exclude.emplace_back();
+  settings.exclude.back().name = "flat";
+  settings.exclude.back().from_deg = 80.0;
+  settings.exclude.back().to_deg = 280.0;
+  DrawnPart part;
+  part.cylinder("A", round_journal(15.0, {0.0, 40.0}, 24));
+  part.cylinder("C", round_journal(20.0, {80.0, 100.0}, 24)).feature.settings =
+      record::settings_of_task(settings);
+  for (const Form form : {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality}) {
+    SCOPED_TRACE(name_of(form));
+    const auto found = part.last(about(form, {"A"}));
+    ASSERT_TRUE(found.has_value()) << found.error().what;
+    EXPECT_TRUE(found->no_verdict.has_value());
+  }
 }
 
 TEST(DrawingRefusals, OfAPartOfTheTurnLeaveNoVerdict) {

@@ -244,6 +244,29 @@ TEST(DrawingForm, OfAnUnseenArcHasNoVerdictUnlessItIsTooWide) {
   }
 }
 
+TEST(DrawingForm, OfAWindowOverHalfTheTurnHasNoVerdict) {
+  const auto layers = test::turned_layers(3, 12, [](int, double) { return 15.0; });
+  const auto under = drawn(layers, {false, 0.0}, {8, 9, 10, 11});          // 150 deg open
+  const auto half = drawn(layers, {false, 0.0}, {7, 8, 9, 10, 11});        // 180 deg open
+  const auto over = drawn(layers, {false, 0.0}, {5, 6, 7, 8, 9, 10, 11});  // 240 deg open
+  const auto roundness = asked(Form::kRoundness, Reference::kLeastSquares);
+  EXPECT_FALSE(form_of(under, roundness).no_verdict);
+  EXPECT_TRUE(form_of(half, roundness).no_verdict);
+  EXPECT_TRUE(form_of(over, roundness).no_verdict);
+}
+
+TEST(DrawingForm, OfALayerOfOnePointHasNoVerdict) {
+  auto layers = test::turned_layers(5, 12, [](int, double) { return 15.0; });
+  auto cylindricity = asked(Form::kCylindricity, Reference::kLeastSquares);
+  EXPECT_FALSE(form_of(drawn(layers, {false, 0.0}), cylindricity).no_verdict);
+  layers[4].resize(1);
+  const auto why = form_of(drawn(layers, {false, 0.0}), cylindricity).no_verdict;
+  ASSERT_TRUE(why);
+  EXPECT_EQ(why->english(),
+            "layer 5 has 1 points, a turn needs at least 3: touch more there, or leave the layer "
+            "out");
+}
+
 TEST(DrawingForm, OfACircleThatIsNotUniqueHasNoVerdictWithinItsRange) {
   // Dents at 0 and 180 deg hold the inscribed circle, which slides across them: RONt is anything
   // from 17.07 to 28 um about circles whose radius agrees to 1 nm.

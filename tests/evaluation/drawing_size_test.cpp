@@ -454,6 +454,13 @@ TEST(DrawingSize, OfPointsThatHideAPartOfTheTurnHasNoVerdict) {
   // A window over the same points is known.
   const auto window = drawn(test::turned_layers(3, 12, round_12), {false, 0.0}, {8, 9, 10, 11});
   EXPECT_FALSE(found(window, size_asked(Size::kGG)).no_verdict);
+  const auto half = drawn(test::turned_layers(3, 12, round_12), {false, 0.0}, {6, 7, 8, 9, 10, 11});
+  EXPECT_TRUE(found(half, size_asked(Size::kGG, Indication::Section::kACS)).no_verdict);
+  auto one = test::turned_layers(4, 12, round_12);
+  one[3].resize(1);
+  for (const Size size : {Size::kGG, Size::kGN, Size::kGX, Size::kGC}) {
+    EXPECT_TRUE(found(drawn(one, {false, 0.0}), size_asked(size)).no_verdict);
+  }
   for (auto& layer : layers) layer.resize(6);
   EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(Size::kGG)).code,
             core::Code::kReferenceAbsent);

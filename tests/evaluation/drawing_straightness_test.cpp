@@ -100,6 +100,17 @@ TEST(DrawingStraightness, OfAPerfectCylinderIsNotVoid) {
   EXPECT_FALSE(line.no_verdict);
 }
 
+TEST(DrawingStraightness, OfHalfAShaftHasNoVerdictAndNoTaperEither) {
+  auto layers = test::turned_layers(4, 12, [](int, double) { return 10.0; });
+  const auto whole = drawn(layers, kPlainShaft);
+  for (auto& layer : layers) layer.resize(7);
+  const auto half = drawn(layers, kPlainShaft);
+  for (const Form form : {Form::kStraightness, Form::kTaper}) {
+    EXPECT_FALSE(line_of(whole, asked(form, Reference::kLeastSquares)).no_verdict);
+    EXPECT_TRUE(line_of(half, asked(form, Reference::kLeastSquares)).no_verdict);
+  }
+}
+
 TEST(DrawingTaper, OfW2HasEveryDigit) {
   const auto part = drawn(test::w2(), kPlainShaft);
   const double tapers[] = {0.008940004424, 0.008612582072, 0.009435002017, 0.008750501283};

@@ -434,6 +434,18 @@ TEST(SurfaceFilter, BridgesAWindowAboutTheCircleOfTheOtherPoints) {
   EXPECT_THAT(refused.error().what, HasSubstr("not defined beside a window"));
 }
 
+TEST(SurfaceFilter, BesideAWindowNeedsTheRestOfTheTurn) {
+  // 100..110 deg are the window; at 200..239 deg nothing was measured.
+  Layers layers = w8();
+  auto& points = layers[0];
+  points.erase(points.begin() + 200, points.begin() + 240);
+  const auto gap =
+      prepared_of(cylinder_of(layers, with_window(window(99.5, 110.5))), gaussian(15.0));
+  ASSERT_FALSE(gap);
+  EXPECT_EQ(gap.error().code, core::Code::kSampling);
+  EXPECT_THAT(gap.error().what, HasSubstr("largest gap between angles is 41 deg"));
+}
+
 TEST(SurfaceFilter, KeepsTheEccentricity) {
   const auto centred = prepared_of(cylinder_of(w8()), gaussian(50.0));
   const auto eccentric = prepared_of(cylinder_of(w8(0.05)), gaussian(50.0));
@@ -560,6 +572,30 @@ TEST(SurfaceFilter, AlongTheAxisBridgesAWindow) {
   EXPECT_NEAR(line.zone_mm, 0.004604884871, kWorked);
   EXPECT_NEAR(surface->points_mm[surface->sections[16].points[0]].head<2>().norm(),
               20.0 - 0.001012355070, kWorked);
+}
+
+TEST(SurfaceFilter, AlongTheAxisBesideAWindowNeedsTheOtherPoints) {
+  WindowTask hole;
+  hole.name = "hole";
+  hole.from_deg = 29.0;
+  hole.to_deg = 31.0;
+  hole.from_mm = 4.5;
+  hole.to_mm = 5.5;
+  hole.guard_mm = 0.0;
+  const auto with_hole = [&](const Layers& layers) {
+    return prepared_of(cylinder_of(layers, with_window(hole)), gaussian(std::nullopt, 8.0));
+  };
+  EXPECT_TRUE(with_hole(w9_body()));
+  Layers lost = w9_body();
+  lost.erase(lost.begin() + 15, lost.begin() + 25);  // not measured: no window took them
+  const auto gap = with_hole(lost);
+  ASSERT_FALSE(gap);
+  EXPECT_THAT(gap.error().what, HasSubstr("31 layers 11 mm apart"));
+  Layers scratched = w9_body();
+  for (std::size_t z = 15; z < 25; ++z) scratched[z].erase(scratched[z].begin() + 60);
+  const auto one_line = with_hole(scratched);
+  ASSERT_FALSE(one_line);
+  EXPECT_THAT(one_line.error().what, HasSubstr("41 layers 11 mm apart"));
 }
 
 TEST(SurfaceFilter, AlongTheAxisNeedsLayersCloseTogetherAtEqualAngles) {

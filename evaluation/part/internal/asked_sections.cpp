@@ -10,7 +10,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/part/internal/layout.h"
 #include "evaluation/results/internal/deviation.h"
+#include "fit/geometry/points.h"
+#include "fit/least_squares/circle.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -19,6 +22,12 @@ using Indication = record::Indication;
 
 /// Points of one section differ by at most this along the axis (drawing, 1).
 constexpr double kThickness = 0.5;
+/// Fewest points that show a turn.
+constexpr std::size_t kFewestOfATurn = 3;
+/// Whatever windows name: nothing rests on points that leave half a turn open (roundness, B.4).
+constexpr double kMostOpen = 0.5 * core::kTwoPi - 1e-6;
+/// Greatest distance of a point of a face from the circle of its layer [mm].
+constexpr double kOffCircle = 0.1;
 
 double height_along_mm(const PreparedSurface& surface, const Eigen::Vector3d& place_mm) {
   return (place_mm - surface.axis.point_mm).dot(surface.axis.direction);
@@ -42,16 +51,62 @@ bool is_uniform(std::span<const double> theta_rad) {
   return true;
 }
 
-double unseen_of(const PreparedSurface& surface, std::span<const std::size_t> points,
-                 std::span<const std::size_t> windows, std::size_t a_turn) {
-  std::vector<double> angles_rad;
+double unseen_of(const PreparedSurface& surface, const fit::Axis& about,
+                 std::span<const std::size_t> points, std::span<const std::size_t> windows,
+                 std::size_t a_turn) {
+  const auto frame = fit::across(about.direction);
+  std::vector<Eigen::Vector2d> places;
   for (const std::size_t i : points) {
-    angles_rad.push_back(within_one_turn(angle_rad(surface, surface.points_mm[i])));
+    places.emplace_back(frame.transpose() * (surface.points_mm[i] - about.point_mm));
   }
+  const double open = fit::largest_gap_rad(places, Eigen::Vector2d::Zero());
+  if (open >= kMostOpen) return open;
   for (const std::size_t row : windows) {
-    angles_rad.push_back(within_one_turn(angle_rad(surface, surface.of->cloud[row].tip_mm)));
+    places.emplace_back(frame.transpose() * (surface.of->cloud[row].tip_mm - about.point_mm));
+  }
+  std::vector<double> angles_rad;
+  for (const Eigen::Vector2d& q : places) {
+    angles_rad.push_back(within_one_turn(std::atan2(q.y(), q.x())));
   }
   return unseen_rad(std::move(angles_rad), a_turn);
+}
+
+std::vector<std::size_t> all_points_of(const PreparedSurface& surface) {
+  std::vector<std::size_t> out(surface.points_mm.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
+}
+
+std::vector<std::size_t> all_window_rows(const PreparedSurface& surface) {
+  std::vector<std::size_t> out;
+  for (const LeftOut& left : surface.left_out) {
+    if (!left.window.empty() && left.row < surface.of->cloud.size()) out.push_back(left.row);
+  }
+  return out;
+}
+
+double unseen_in_section(const PreparedSurface& surface, const SurfaceSection& section,
+                         const fit::Axis& about) {
+  const auto windows = window_rows(surface, section);
+  return unseen_of(surface, about, section.points, windows, section.points.size() + windows.size());
+}
+
+/// The axis of the circle of a layer of a face. Points along a row, or spread, are on none.
+std::optional<fit::Axis> circle_axis(const PreparedSurface& surface,
+                                     const SurfaceSection& section) {
+  const auto frame = fit::across(surface.axis.direction);
+  std::vector<Eigen::Vector2d> places;
+  double chord_mm = 0.0;
+  for (const std::size_t i : section.points) {
+    places.emplace_back(frame.transpose() * (surface.points_mm[i] - surface.axis.point_mm));
+    chord_mm = std::max(chord_mm, (places.back() - places.front()).norm());
+  }
+  if (places.size() < kFewestOfATurn) return std::nullopt;
+  const auto circle = fit::ls_circle(places);
+  if (!circle || circle->deviation_mm > 2.0 * kOffCircle) return std::nullopt;
+  // The circle of a row is so large that no point stands off its chord.
+  if (chord_mm * chord_mm < 8.0 * circle->radius_mm * kOffCircle) return std::nullopt;
+  return fit::Axis{surface.axis.point_mm + frame * circle->center_mm, surface.axis.direction};
 }
 
 }  // namespace
@@ -136,6 +191,7 @@ void add_rows(const PreparedSurface& surface, std::span<const std::size_t> point
 
 std::vector<std::size_t> window_rows(const PreparedSurface& surface,
                                      const SurfaceSection& section) {
+  const bool layers = has_layers(*surface.of);
   double middle_mm = 0.0;
   for (const std::size_t i : section.points) {
     middle_mm +=
@@ -144,8 +200,11 @@ std::vector<std::size_t> window_rows(const PreparedSurface& surface,
   std::vector<std::size_t> out;
   for (const LeftOut& left : surface.left_out) {
     if (left.window.empty() || left.row >= surface.of->cloud.size()) continue;
-    const double height = height_along_mm(surface, surface.of->cloud[left.row].tip_mm);
-    if (std::abs(height - middle_mm) <= kThickness) out.push_back(left.row);
+    const CloudPoint& point = surface.of->cloud[left.row];
+    const bool here =
+        layers ? point.layer == section.layer
+               : std::abs(height_along_mm(surface, point.tip_mm) - middle_mm) <= kThickness;
+    if (here) out.push_back(left.row);
   }
   return out;
 }
@@ -157,22 +216,67 @@ double angle_rad(const PreparedSurface& surface, const Eigen::Vector3d& place_mm
 }
 
 double unseen_in(const PreparedSurface& surface, const SurfaceSection& section) {
-  const auto windows = window_rows(surface, section);
-  return unseen_of(surface, section.points, windows, section.points.size() + windows.size());
+  return unseen_in_section(surface, section, surface.axis);
 }
 
-double unseen_in(const PreparedSurface& surface) {
-  std::vector<std::size_t> points(surface.points_mm.size());
-  std::iota(points.begin(), points.end(), std::size_t{0});
-  std::vector<std::size_t> windows;
-  for (const LeftOut& left : surface.left_out) {
-    if (!left.window.empty() && left.row < surface.of->cloud.size()) windows.push_back(left.row);
+std::optional<core::Phrase> unseen_part(const PreparedSurface& surface,
+                                        std::span<const SurfaceSection> sections,
+                                        const fit::Axis& about) {
+  for (const SurfaceSection& section : sections) {
+    if (section.points.size() < kFewestOfATurn) {
+      return core::phrase(
+          "layer {} has {} points, a turn needs at least {}: touch more there, or leave the layer "
+          "out",
+          section.layer + 1, section.points.size(), kFewestOfATurn);
+    }
+    const double unseen = unseen_in_section(surface, section, about);
+    if (unseen <= 0.0) continue;
+    return core::phrase(
+        "layer {}: the points leave {:.0f} deg of the turn unseen; measure the whole turn, and "
+        "keep what windows and gaps leave open below 180 deg",
+        section.layer + 1, core::degrees(unseen));
   }
-  std::size_t a_turn = surface.sections.empty() ? points.size() : 1;
+  return std::nullopt;
+}
+
+std::optional<core::Phrase> unseen_turn(const PreparedSurface& surface, const fit::Axis& about) {
+  std::size_t a_turn = surface.sections.empty() ? surface.points_mm.size() : 1;
   for (const SurfaceSection& section : surface.sections) {
     a_turn = std::max(a_turn, section.points.size());
   }
-  return unseen_of(surface, points, windows, a_turn);
+  const double unseen =
+      unseen_of(surface, about, all_points_of(surface), all_window_rows(surface), a_turn);
+  if (unseen <= 0.0) return std::nullopt;
+  return unseen_words(unseen);
+}
+
+std::optional<core::Phrase> unseen_part(const PreparedSurface& surface) {
+  const bool layers = has_layers(*surface.of) && !surface.sections.empty();
+  return layers ? unseen_part(surface, surface.sections, surface.axis)
+                : unseen_turn(surface, surface.axis);
+}
+
+std::optional<core::Phrase> unseen_of_face(const PreparedSurface& surface) {
+  for (const SurfaceSection& section : surface.sections) {
+    const auto about = circle_axis(surface, section);
+    if (!about) continue;
+    if (auto why = unseen_part(surface, std::span(&section, 1), *about)) return why;
+  }
+  // Windows over one side of the face: seen from the middle of what there was to measure.
+  const auto windows = all_window_rows(surface);
+  if (windows.empty()) return std::nullopt;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : surface.points_mm) sum += p;
+  for (const std::size_t row : windows) sum += surface.of->cloud[row].tip_mm;
+  const auto count = static_cast<double>(surface.points_mm.size() + windows.size());
+  const auto frame = fit::across(surface.axis.direction);
+  std::vector<Eigen::Vector2d> places;
+  for (const Eigen::Vector3d& p : surface.points_mm) {
+    places.emplace_back(frame.transpose() * (p - sum / count));
+  }
+  const double open = fit::largest_gap_rad(places, Eigen::Vector2d::Zero());
+  if (open < kMostOpen) return std::nullopt;
+  return unseen_words(open);
 }
 
 core::Phrase of_sections(const core::Phrase& what, const Indication& indication) {

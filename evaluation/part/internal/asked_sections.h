@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,11 +49,22 @@ void add_rows(const PreparedSurface& surface, std::span<const std::size_t> point
 /// Angle of a place about the axis of the surface, in the frame of across() [rad].
 [[nodiscard]] double angle_rad(const PreparedSurface& surface, const Eigen::Vector3d& place_mm);
 
-/// The part of the turn that no point and no window names, where it is too wide for a value; else 0
-/// (see evaluation::unseen_rad()).
+/// The part of the turn that no point and no window names, where it is too wide for a value (see
+/// evaluation::unseen_rad()), or half a turn and more without a point, windows or not; else 0.
 [[nodiscard]] double unseen_in(const PreparedSurface& surface, const SurfaceSection& section);
-/// The same for all points together, projected along the axis.
-[[nodiscard]] double unseen_in(const PreparedSurface& surface);
+
+/// Why no verdict may rest on some sections: the first of fewer than three points, or that leaves a
+/// part of its turn about an axis unseen as of unseen_in(). Nothing where all are seen.
+[[nodiscard]] std::optional<core::Phrase> unseen_part(const PreparedSurface& surface,
+                                                      std::span<const SurfaceSection> sections,
+                                                      const fit::Axis& about);
+/// The same of all points together, projected along the axis.
+[[nodiscard]] std::optional<core::Phrase> unseen_turn(const PreparedSurface& surface,
+                                                      const fit::Axis& about);
+/// Of a whole surface about its own axis: of each layer or, without layers, of all points together.
+[[nodiscard]] std::optional<core::Phrase> unseen_part(const PreparedSurface& surface);
+/// Of a face: of its layers that are circles, and of windows over one side of it.
+[[nodiscard]] std::optional<core::Phrase> unseen_of_face(const PreparedSurface& surface);
 
 /// " of any section", " of section 2": which sections a value is of; `what` is "GG".
 [[nodiscard]] core::Phrase of_sections(const core::Phrase& what,

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "core/phrase.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "evaluation/part/internal/asked_sections.h"
+#include "evaluation/part/internal/layout.h"
 #include "evaluation/part/internal/sections.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/harmonics.h"
@@ -127,7 +130,12 @@ core::Result<void> filter_section(PreparedSurface& surface, const SurfaceSection
   const auto profile = round_profile(points);
   if (!profile) return core::fail(profile.error());
   const fit::AngularProfile& measured = profile->by_angle;
-  const Spacing spacing = spacing_of(measured, section.gap);
+  std::vector<Eigen::Vector2d> left_out;
+  for (const std::size_t row : window_rows(surface, section)) {
+    left_out.emplace_back(frame.transpose() *
+                          (surface.of->cloud[row].tip_mm - surface.axis.point_mm));
+  }
+  const Spacing spacing = spacing_of(*profile, left_out);
   if (auto checked = check_carries(spacing, section.layer, options.cutoff_upr); !checked) {
     return checked;
   }
@@ -209,21 +217,91 @@ core::Result<std::vector<std::vector<GeneratrixPoint>>> grid_of(
   return lines;
 }
 
-/// Whether the sections stand close enough for a cut-off along the axis.
+/// A height at which there were points: a section, or a layer that windows took.
+struct AxialLevel {
+  double height_mm = 0.0;
+  std::vector<double> left_out_rad;  ///< About the axis, ascending from 0.
+
+  /// Whether a window took the place at an angle.
+  [[nodiscard]] bool has_window(double angle_rad) const {
+    if (left_out_rad.empty()) return false;
+    const double other = left_out_rad[nearest(left_out_rad, angle_rad)];
+    return std::abs(std::remainder(other - angle_rad, core::kTwoPi)) <=
+           kSameGeneratrixDeg * core::kDegree;
+  }
+};
+
+/// The levels of the sections of one pass, in their order, then those of layers that windows took.
+std::vector<AxialLevel> axial_levels(const PreparedSurface& surface,
+                                     const std::vector<std::size_t>& sections,
+                                     std::optional<int> pass) {
+  std::vector<AxialLevel> out;
+  std::set<std::size_t> placed;
+  const auto take = [&](std::size_t row, AxialLevel& level) {
+    const double angle = angle_rad(surface, surface.of->cloud[row].tip_mm);
+    level.left_out_rad.push_back(angle < 0.0 ? angle + core::kTwoPi : angle);
+  };
+  for (const std::size_t s : sections) {
+    out.push_back({surface.sections[s].height_mm, {}});
+    for (const std::size_t row : window_rows(surface, surface.sections[s])) {
+      placed.insert(row);
+      take(row, out.back());
+    }
+  }
+  std::map<int, std::size_t> taken;  // layers
+  for (const LeftOut& left : surface.left_out) {
+    if (left.window.empty() || left.row >= surface.of->cloud.size()) continue;
+    const CloudPoint& point = surface.of->cloud[left.row];
+    if (placed.contains(left.row) || point.pass != pass) continue;
+    // Without layers each point is a level of its own.
+    const int layer = has_layers(*surface.of) ? point.layer : -1 - static_cast<int>(left.row);
+    const auto [known, is_new] = taken.try_emplace(layer, out.size());
+    if (is_new) {
+      out.push_back({(point.tip_mm - surface.axis.point_mm).dot(surface.axis.direction), {}});
+    }
+    take(left.row, out[known->second]);
+  }
+  for (AxialLevel& level : out) std::ranges::sort(level.left_out_rad);
+  return out;
+}
+
+double widest_step_mm(std::vector<double> heights_mm) {
+  std::ranges::sort(heights_mm);
+  double out = 0.0;
+  for (std::size_t i = 1; i < heights_mm.size(); ++i) {
+    out = std::max(out, heights_mm[i] - heights_mm[i - 1]);
+  }
+  return out;
+}
+
+/// Whether the sections stand close enough for a cut-off along the axis, and at every angle: only
+/// places that a window took may lack.
 core::Result<void> check_layers(const PreparedSurface& surface,
-                                const std::vector<std::size_t>& sections, double cutoff_mm) {
+                                const std::vector<std::size_t>& sections,
+                                const std::vector<std::vector<GeneratrixPoint>>& lines,
+                                const std::vector<AxialLevel>& levels, double cutoff_mm) {
   std::vector<double> heights;
   for (const std::size_t s : sections) heights.push_back(surface.sections[s].height_mm);
-  std::sort(heights.begin(), heights.end());
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < heights.size(); ++i) gaps.push_back(heights[i] - heights[i - 1]);
-  const double length = heights.empty() ? 0.0 : heights.back() - heights.front();
-  // A window may take whole layers; the others still stand as planned.
-  const bool windows = !surface.left_out.empty();
-  const double apart = gaps.empty() ? 0.0
-                       : windows    ? core::median(gaps)
-                                    : *std::max_element(gaps.begin(), gaps.end());
-  const bool fine = gaps.size() >= 2 &&
+  const double length =
+      heights.empty() ? 0.0 : std::ranges::max(heights) - std::ranges::min(heights);
+  std::vector<double> all;
+  for (const AxialLevel& level : levels) all.push_back(level.height_mm);
+  double apart = widest_step_mm(all);
+  const double between_sections = widest_step_mm(heights);
+  for (const auto& line : lines) {
+    if (line.size() == sections.size() && between_sections <= apart) continue;
+    const double angle = angle_rad(surface, surface.points_mm[line.front().index]);
+    std::vector<double> seen;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const bool here =
+          k < sections.size() && std::ranges::any_of(line, [&](const GeneratrixPoint& point) {
+            return point.section == sections[k];
+          });
+      if (here || levels[k].has_window(angle)) seen.push_back(levels[k].height_mm);
+    }
+    apart = std::max(apart, widest_step_mm(std::move(seen)));
+  }
+  const bool fine = heights.size() >= 3 &&
                     kProfilePointsPerUndulation * apart <= cutoff_mm * (1 + 1e-3) &&
                     length >= 2.0 * cutoff_mm;
   if (fine) return {};
@@ -248,9 +326,16 @@ core::Result<void> filter_along(PreparedSurface& surface, double cutoff_mm) {
   options.windows = !surface.left_out.empty();
   options.override_sampling = true;  // check_layers() has looked, with a sentence of layers
   for (const auto& [pass, sections] : passes) {
-    if (auto checked = check_layers(surface, sections, cutoff_mm); !checked) return checked;
+    // A window may take whole layers, or some angles of them; the others still stand as planned.
+    const auto levels = axial_levels(surface, sections, pass);
+    if (auto checked = check_layers(surface, sections, {}, levels, cutoff_mm); !checked) {
+      return checked;
+    }
     auto lines = grid_of(surface, sections, cutoff_mm);
     if (!lines) return core::fail(lines.error());
+    if (auto checked = check_layers(surface, sections, *lines, levels, cutoff_mm); !checked) {
+      return checked;
+    }
     for (std::vector<GeneratrixPoint>& line : *lines) {
       std::sort(line.begin(), line.end(),
                 [](const auto& a, const auto& b) { return a.height_mm < b.height_mm; });

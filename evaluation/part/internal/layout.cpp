@@ -47,13 +47,6 @@ bool is_turned(Shape shape) {
   return shape == Shape::kCylinder || shape == Shape::kCircle || shape == Shape::kCone;
 }
 
-bool has_layers(const FeatureResult& feature) {
-  const auto& cloud = feature.cloud;
-  return feature.feature.layers > 0 || feature.feature.shape == Shape::kCircle ||
-         std::any_of(cloud.begin(), cloud.end(),
-                     [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
-}
-
 SurfacePoints chosen_points(const SurfacePoints& tips, const std::vector<bool>& chosen) {
   SurfacePoints out;
   for (std::size_t i = 0; i < tips.size(); ++i) {
@@ -294,9 +287,8 @@ class LayoutBuilder {
   core::Result<void> take_windows_from_sections() {
     for (SectionRows& section : out_.sections) {
       std::vector<std::size_t> rows;
-      for (const std::size_t row : section.rows) {
-        if (out_.kept[row]) rows.push_back(row);
-      }
+      std::vector<std::size_t> left_out;
+      for (const std::size_t row : section.rows) (out_.kept[row] ? rows : left_out).push_back(row);
       section.gap = !rows.empty() && rows.size() < section.rows.size();
       if (rows.empty()) {
         out_.warnings.push_back(
@@ -305,8 +297,8 @@ class LayoutBuilder {
                               section.layer + 1)));
       }
       section.rows = std::move(rows);
-      section.dense = is_turned(shape()) &&
-                      carries_lowest_cutoff(points_of(section.rows), out_.axis, section.gap);
+      section.dense = is_turned(shape()) && carries_lowest_cutoff(points_of(section.rows),
+                                                                  out_.axis, points_of(left_out));
     }
     return check_layers_left();
   }
@@ -376,6 +368,13 @@ class LayoutBuilder {
 };
 
 }  // namespace
+
+bool has_layers(const FeatureResult& feature) {
+  const auto& cloud = feature.cloud;
+  return feature.feature.layers > 0 || feature.feature.shape == Shape::kCircle ||
+         std::any_of(cloud.begin(), cloud.end(),
+                     [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
+}
 
 Eigen::Matrix3d part_from_cloud(const FeatureResult& feature) {
   // A cloud of several poses is in the frame of the body already.

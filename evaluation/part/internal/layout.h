@@ -45,6 +45,9 @@ struct SurfaceLayout {
 
 [[nodiscard]] SurfaceLayout layout_of(const FeatureResult& feature);
 
+/// Whether the layers of the cloud are known; a file without them is parted by heights.
+[[nodiscard]] bool has_layers(const FeatureResult& feature);
+
 /// Least-squares feature of some points: of a plane its normal, of a sphere part z through its
 /// centre.
 struct FittedSurface {

@@ -11,8 +11,6 @@ namespace rondure::evaluation {
 namespace {
 
 constexpr double kLowestCutoffUpr = 15.0;
-/// Gaps above this many median ones are windows, as fit::filter_with_windows() has it.
-constexpr double kWindowGap = 1.5;
 constexpr double kPointsRoundOff = 1e-9;
 
 }  // namespace
@@ -21,6 +19,7 @@ core::Result<RoundProfile> round_profile(std::span<const Eigen::Vector2d> points
   const auto circle = fit::ls_circle(points);
   if (!circle) return core::fail(circle.error());
   RoundProfile out;
+  out.center_mm = circle->center_mm;
   out.outward.reserve(points.size());
   for (const Eigen::Vector2d& p : points) {
     const Eigen::Vector2d v = p - circle->center_mm;
@@ -35,20 +34,26 @@ core::Result<RoundProfile> round_profile(std::span<const Eigen::Vector2d> points
   return out;
 }
 
-Spacing spacing_of(const fit::AngularProfile& profile, bool windows) {
-  if (!windows) {
-    return {static_cast<double>(profile.theta_rad.size()), profile.largest_gap_rad};
+Spacing spacing_of(const RoundProfile& profile, std::span<const Eigen::Vector2d> left_out) {
+  const fit::AngularProfile& seen = profile.by_angle;
+  if (left_out.empty()) {
+    return {static_cast<double>(seen.theta_rad.size()), seen.largest_gap_rad};
   }
-  std::vector<double> gaps = {profile.theta_rad.front() + core::kTwoPi - profile.theta_rad.back()};
-  for (std::size_t i = 1; i < profile.theta_rad.size(); ++i) {
-    gaps.push_back(profile.theta_rad[i] - profile.theta_rad[i - 1]);
+  const auto gaps_of = [](const std::vector<double>& theta_rad) {
+    std::vector<double> gaps = {theta_rad.front() + core::kTwoPi - theta_rad.back()};
+    for (std::size_t i = 1; i < theta_rad.size(); ++i) {
+      gaps.push_back(theta_rad[i] - theta_rad[i - 1]);
+    }
+    return gaps;
+  };
+  std::vector<double> all_rad = seen.theta_rad;
+  for (const Eigen::Vector2d& place : left_out) {
+    const Eigen::Vector2d v = place - profile.center_mm;
+    const double angle = std::atan2(v.y(), v.x());
+    all_rad.push_back(angle < seen.theta_rad.front() ? angle + core::kTwoPi : angle);
   }
-  const double usual = core::median(gaps);
-  Spacing out{core::kTwoPi / usual, 0.0};
-  for (const double gap : gaps) {
-    if (gap <= kWindowGap * usual) out.gap_rad = std::max(out.gap_rad, gap);
-  }
-  return out;
+  std::ranges::sort(all_rad);
+  return {core::kTwoPi / core::median(gaps_of(seen.theta_rad)), std::ranges::max(gaps_of(all_rad))};
 }
 
 bool carries(const Spacing& spacing, double cutoff_upr) {
@@ -57,14 +62,17 @@ bool carries(const Spacing& spacing, double cutoff_upr) {
 }
 
 bool carries_lowest_cutoff(std::span<const Eigen::Vector3d> points_mm, const fit::Axis& axis,
-                           bool gap) {
+                           std::span<const Eigen::Vector3d> left_out_mm) {
   const auto frame = fit::across(axis.direction);
-  std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector3d& p : points_mm) {
-    points.emplace_back(frame.transpose() * (p - axis.point_mm));
-  }
-  const auto profile = round_profile(points);
-  return profile && carries(spacing_of(profile->by_angle, gap), kLowestCutoffUpr);
+  const auto flat = [&](std::span<const Eigen::Vector3d> places_mm) {
+    std::vector<Eigen::Vector2d> out;
+    for (const Eigen::Vector3d& p : places_mm) {
+      out.emplace_back(frame.transpose() * (p - axis.point_mm));
+    }
+    return out;
+  };
+  const auto profile = round_profile(flat(points_mm));
+  return profile && carries(spacing_of(*profile, flat(left_out_mm)), kLowestCutoffUpr);
 }
 
 }  // namespace rondure::evaluation

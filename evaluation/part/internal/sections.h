@@ -18,6 +18,7 @@ inline constexpr double kProfilePointsPerUndulation = 7.0;
 
 /// A section about its least-squares circle.
 struct RoundProfile {
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> outward;  ///< Unit directions from the centre.
   std::vector<double> theta_rad;
   std::vector<double> r_mm;      ///< From the circle.
@@ -33,15 +34,18 @@ struct Spacing {
   double gap_rad = 0.0;
 };
 
-/// @param windows  They take a part of the turn: gaps above 1.5 times the median one do not count.
-[[nodiscard]] Spacing spacing_of(const fit::AngularProfile& profile, bool windows);
+/// @param left_out  Places that windows took out of the section: only what these stand for is no
+///                  gap.
+[[nodiscard]] Spacing spacing_of(const RoundProfile& profile,
+                                 std::span<const Eigen::Vector2d> left_out);
 
 /// Whether there are 7 points per undulation and no gap of a quarter of one.
 [[nodiscard]] bool carries(const Spacing& spacing, double cutoff_upr);
 
 /// Whether a section carries the lowest usual cut-off, 15 UPR: it may then be read as a profile.
-/// @param gap  As `windows` of spacing_of().
+/// @param left_out_mm  As of spacing_of().
 [[nodiscard]] bool carries_lowest_cutoff(std::span<const Eigen::Vector3d> points_mm,
-                                         const fit::Axis& axis, bool gap);
+                                         const fit::Axis& axis,
+                                         std::span<const Eigen::Vector3d> left_out_mm);
 
 }  // namespace rondure::evaluation
