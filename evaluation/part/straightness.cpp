@@ -99,8 +99,8 @@ class LineSection {
     if (std::ranges::any_of(left_out_rad_, named)) return std::nullopt;
     return core::fail(
         core::Code::kSampling,
-        core::phrase("layer {} has no point within 0.5 deg of {:.3f} deg: begin all layers at one "
-                     "angle (sampling.stagger 0), or scan",
+        core::phrase("layer {} has no point within 0.5 deg of {:.3f} deg: touch all layers at the "
+                     "same angles (sampling.stagger 0), or scan",
                      of_.layer + 1, core::degrees(angle_rad)));
   }
 
@@ -112,14 +112,24 @@ class LineSection {
   std::optional<fit::HarmonicTable> series_;
 };
 
-/// Angles of the generatrices: those of the first section or, of dense sections, every 10 deg.
+/// Angles of the generatrices: those of all sections or, of dense ones, every 10 deg. A section
+/// without a point at an angle of another refuses it in at(), so that no line is lost in silence.
 std::vector<double> angles_of_lines(const std::vector<LineSection>& sections, bool dense) {
   std::vector<double> out;
   if (dense) {
     for (int i = 0; i < 36; ++i) out.push_back(10.0 * i * core::kDegree);
     return out;
   }
-  return sections.front().angles_rad();
+  out = sections.front().angles_rad();
+  for (const LineSection& section : sections) {
+    for (const double angle : section.angles_rad()) {
+      const auto named = [&](double other_rad) {
+        return std::abs(std::remainder(other_rad - angle, core::kTwoPi)) <= kOneGeneratrix;
+      };
+      if (std::ranges::none_of(out, named)) out.push_back(angle);
+    }
+  }
+  return out;
 }
 
 /// The generatrices of a surface with three points and more.
@@ -330,6 +340,15 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
     const auto straight =
         fit::generatrix_straightness(line.line.heights_mm, line.line.distances_mm);
     if (straight) out.lines.push_back(picture_of(line, *straight, surface.material.sign()));
+  }
+  // Fewer than half of them by the points alone: what a window takes out is known.
+  const bool window =
+      std::ranges::any_of(surface.left_out, [](const LeftOut& l) { return !l.window.empty(); });
+  if (!window && 4 * planes->size() < lines->size()) {
+    out.no_verdict = core::phrase(
+        "{} of {} generatrices have one opposite to them: the taper of the others is not known; "
+        "plan an even number of points a layer, or a scan",
+        2 * planes->size(), lines->size());
   }
   out.numbers.push_back({"mean taper", mean->diameter_mm});
   out.numbers.push_back({"cone_angle_deg", core::degrees(mean->cone_angle_rad), false});

@@ -159,6 +159,35 @@ TEST(DrawingStraightness, OfDenseSectionsHasALineEveryTenDegrees) {
   EXPECT_TRUE(lines.rows.empty());
 }
 
+TEST(DrawingStraightness, LosesNoGeneratrixOfALayerWithFewerPoints) {
+  const auto dent = [](int j, double t) {
+    return j == 2 && std::abs(t - 0.7854) < 0.1 ? 9.9 : 10.0;
+  };
+  auto part = drawn(test::turned_layers(4, 8, dent), kPlainShaft);
+  EXPECT_GT(line_of(part, asked(Form::kStraightness)).judged.front().value_mm, 0.05);
+  auto& first = part.surface.sections[0].points;
+  first = {first[0], first[2], first[4], first[6]};
+  for (const Form form : {Form::kStraightness, Form::kTaper}) {
+    const core::Error why = line_refusal(part, asked(form));
+    EXPECT_EQ(why.code, core::Code::kSampling);
+    EXPECT_NE(why.what.find("layer 1 has no point within 0.5 deg"), std::string::npos) << why.what;
+  }
+}
+
+TEST(DrawingTaper, OfOneOppositePairAmongManyHasNoVerdict) {
+  test::Layers layers;
+  for (int j = 0; j < 3; ++j) {
+    auto& layer = layers.emplace_back();
+    for (const double deg : {0.0, 40.0, 80.0, 120.0, 180.0, 240.0, 280.0, 320.0}) {
+      const double t = deg * core::kDegree;
+      layer.emplace_back(10.0 * std::cos(t), 10.0 * std::sin(t), 15.0 * j);
+    }
+  }
+  const Finding taper = line_of(drawn(layers, kPlainShaft), asked(Form::kTaper));
+  EXPECT_EQ(taper.local.size(), 1U);
+  EXPECT_TRUE(taper.no_verdict);
+}
+
 TEST(DrawingRefusals, OfStraightnessSayWhatToPlanInstead) {
   const auto round = [](int, double) { return 12.0; };
   const auto staggered = drawn(test::turned_layers(4, 12, round, 15.0, 0.0, 0.1), kPlainShaft);
