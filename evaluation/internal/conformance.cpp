@@ -204,6 +204,14 @@ int severity(Verdict verdict) {
   return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
 }
 
+/// How far a value is from its nearest limit, below 0 beyond it; without limits infinite.
+double margin_mm(const JudgedValue& value) {
+  double out = HUGE_VAL;
+  if (value.limits.upper_mm) out = std::min(out, *value.limits.upper_mm - value.value_mm);
+  if (value.limits.lower_mm) out = std::min(out, value.value_mm - *value.limits.lower_mm);
+  return out;
+}
+
 /// A datum that rocks leaves a verdict only where the one-sided and the equalised one agree.
 void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& found,
                        std::size_t index, Judged& out) {
@@ -244,7 +252,7 @@ void judge_together(const core::Result<DecisionRule>& rule, const PartInterval& 
 }
 
 /// A characteristic that find() computed: every judged value by the rule, the most severe verdict
-/// is that of the characteristic.
+/// is that of the characteristic; of equal ones that of the value nearest to its limit.
 void judge_found(const Circumstances& by, const FeatureResult& result, FoundCharacteristic& found,
                  CharacteristicResult& out) {
   out.verdict = Verdict::kVoid;
@@ -255,6 +263,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   const auto finding = std::make_shared<const Finding>(*std::move(found.finding));
   out.finding = finding;
   std::optional<Judged> worst;
+  double nearest_mm = HUGE_VAL;
   for (std::size_t i = 0; i < finding->judged.size(); ++i) {
     const JudgedValue& value = finding->judged[i];
     if (!std::isfinite(value.value_mm)) {
@@ -269,7 +278,10 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
         by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
-    if (!worst || severity(judged.verdict) > severity(worst->verdict)) worst = std::move(judged);
+    const int more = worst ? severity(judged.verdict) - severity(worst->verdict) : 1;
+    if (more < 0 || (more == 0 && margin_mm(value) >= nearest_mm)) continue;
+    nearest_mm = margin_mm(value);
+    worst = std::move(judged);
   }
   judge_together(by.rule, found.interval, *worst);
   out.value = std::move(worst->value);
