@@ -335,6 +335,36 @@ TEST(DrawingSize, OfOddLayersSaysToPlanAnEvenNumber) {
             "more points");
 }
 
+TEST(DrawingSize, OfTooFewPairsHasNoVerdictAndOfLostOnesAWarning) {
+  const auto one_pair = [](double radius_mm) {
+    test::Layers layers;
+    for (int j = 0; j < 3; ++j) {
+      auto& layer = layers.emplace_back();
+      for (const double deg : {0.0, 40.0, 80.0, 120.0, 180.0, 240.0, 280.0, 320.0}) {
+        const double t = deg * core::kDegree;
+        layer.emplace_back(radius_mm * std::cos(t), radius_mm * std::sin(t), 15.0 * j);
+      }
+    }
+    return drawn(layers, {false, 0.0});
+  };
+  record::Characteristic size = size_asked(Size::kLP);
+  size.lower_mm = 23.9;
+  size.tolerance_mm = 24.1;
+  const Finding inside = found(one_pair(12.0), size);
+  EXPECT_EQ(number(inside, "pairs"), 3.0);
+  EXPECT_EQ(number(inside, "lost pairs"), 9.0);
+  EXPECT_TRUE(inside.no_verdict);
+  ASSERT_EQ(inside.warnings.size(), 1U);
+  EXPECT_EQ(inside.warnings[0].what,
+            "3 pairs of opposite points, 9 lost: a point of theirs is missing");
+  EXPECT_FALSE(found(one_pair(12.1), size).no_verdict) << "a size that fails fails";
+  EXPECT_TRUE(found(one_pair(12.0), envelope_asked(23.9, 24.1)).no_verdict);
+  const Finding window =
+      found(drawn(test::turned_layers(2, 12, round_12), {false, 0.0}, {3}), size);
+  EXPECT_EQ(window.warnings.size(), 1U);
+  EXPECT_FALSE(window.no_verdict);
+}
+
 TEST(DrawingEnvelope, OfW1FailsThoughEveryOtherSizeIsInside) {
   const Finding fails = found(w1_at_20_degC(), envelope_asked(24.979, 25.0));
   ASSERT_EQ(fails.judged.size(), 2U);
