@@ -36,6 +36,7 @@ core::Result<std::vector<bool>> rows_without_outliers(const SurfaceLayout& layou
   std::vector<bool> rows = layout.kept;
   if (!leaves_out_outliers(indication)) return rows;
   if (layout.too_many) return core::fail(*layout.too_many);
+  if (layout.form) return core::fail(*layout.form);
   for (const std::size_t row : layout.outlying) {
     rows[row] = false;
     out.left_out.push_back({row, {}});

@@ -649,6 +649,34 @@ TEST(SurfaceOutliers, ThatAreMoreThanAQuarterAreForm) {
   EXPECT_TRUE(surface->warnings.empty());
 }
 
+TEST(SurfaceOutliers, ThatAreNeighboursAreForm) {
+  Indication rule;
+  rule.outliers = Indication::Outliers::kFiveScales;
+  // The error of the rule for five layers with 0.05 mm more at some places.
+  const auto sentence = [&](auto is_off) {
+    Layers layers;
+    for (int j = 0; j < 5; ++j) {
+      layers.push_back(ring(36, 10.0 * j, w8_profile));
+      for (int i = 0; i < 36; ++i) {
+        Eigen::Vector3d& p = layers.back()[static_cast<std::size_t>(i)];
+        if (is_off(j, i)) p.head<2>() += 0.05 * p.head<2>().normalized();
+      }
+    }
+    const FeatureResult feature = cylinder_of(layers);
+    EXPECT_TRUE(prepared_of(feature)) << "without the rule all points take part";
+    const auto surface = prepared_of(feature, rule);
+    if (surface) return std::string();
+    EXPECT_EQ(surface.error().code, core::Code::kOutliers);
+    return surface.error().what;
+  };
+  EXPECT_EQ(sentence([](int j, int i) { return j == 1 && (i == 5 || i == 6); }), "");
+  EXPECT_THAT(sentence([](int j, int i) { return j == 1 && (i == 35 || i < 2); }),
+              HasSubstr("3 of 36 points of layer 2, next to each other"));
+  EXPECT_THAT(sentence([](int j, int) { return j == 4; }), HasSubstr("36 of 36 points of layer 5"));
+  EXPECT_THAT(sentence([](int, int i) { return i == 9; }),
+              HasSubstr("points of 5 layers, one above the other"));
+}
+
 // ---- Trials.
 
 TEST(SurfaceTrials, NeverChangeWhichPointsTakePart) {
