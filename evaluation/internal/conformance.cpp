@@ -14,9 +14,11 @@
 #include "evaluation/part/contacts.h"
 #include "evaluation/part/find.h"
 #include "evaluation/part/internal/families.h"
+#include "evaluation/part/internal/layout.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
+#include "fit/sizes/material.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -29,10 +31,37 @@ using core::micrometres;
 
 using record::Form;
 
+/// What a file can state wrong, as in prepared(): points of different heights in one layer, a tip
+/// that leaves the surface no radius.
+core::Result<void> check_file(const FeatureResult& result) {
+  if (result.feature.strategy != record::Strategy::kPointsFile) return {};
+  const auto& cylinder = result.ls_cylinder;
+  if (cylinder && result.tip_radius_mm) {
+    const fit::Material material{result.feature.side == record::Side::kInside,
+                                 *result.tip_radius_mm};
+    if (auto done = fit::check_material(material, cylinder->radius_mm); !done) return done;
+  }
+  const fit::Axis& axis = cylinder ? cylinder->axis : result.section_axis;
+  for (const LayerResult& layer : result.layers) {
+    // A layer may be square to the axis, or flat in the file where the part stands aslant.
+    std::vector<double> along_mm;
+    std::vector<double> z_mm;
+    for (const std::size_t row : layer.rows) {
+      const Eigen::Vector3d& tip = result.cloud[row].tip_mm;
+      along_mm.push_back((tip - axis.point_mm).dot(axis.direction));
+      z_mm.push_back(tip.z());
+    }
+    if (along_mm.empty() || check_thickness(layer.layer, z_mm)) continue;
+    if (auto done = check_thickness(layer.layer, along_mm); !done) return done;
+  }
+  return {};
+}
+
 /// The value of a characteristic, if what proves it is present.
 core::Result<Deviation> value_of(const FeatureResult& result,
                                  const record::Characteristic& characteristic) {
   if (result.failure) return core::fail(*result.failure);
+  if (auto checked = check_file(result); !checked) return core::fail(checked.error());
   return characteristic.form == Form::kRoundness
              ? worst_section(result, characteristic.reference)
              : cylinder_deviation(result, characteristic.reference);

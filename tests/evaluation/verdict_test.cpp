@@ -164,6 +164,26 @@ TEST(Verdict, OfTwoLimitsStatesTheValueNearestToIts) {
   EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kDoesNotConform);
 }
 
+TEST(Verdict, OfAFileWithAThickLayerOrAnImpossibleTipIsVoid) {
+  RunRecord run = points_run(rough_part(3, 4, 40, 2.0 * std::numbers::pi), 4);
+  run.header.decision_rule = "simple-acceptance";
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    run.features[0].characteristics = {{"form", form, record::Reference::kMinimumZone, 20e-3, ""}};
+    EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms);
+    RunRecord thick = run;
+    for (std::size_t i = 0; i < 40; i += 2) {
+      thick.touches[i].layer = 1;
+      thick.touches[i].point += 40;
+    }
+    EXPECT_EQ(result_of(thick).verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(result_of(thick).reason, HasSubstr("mm thick"));
+    RunRecord wrong = run;
+    wrong.features[0].tip_radius_mm = 60.0;
+    EXPECT_EQ(result_of(wrong).verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(result_of(wrong).reason, HasSubstr("correct the tip diameter"));
+  }
+}
+
 TEST(Verdict, PrintsADeclaredTemperatureAsDeclared) {
   RunRecord run = touched_run("iso-14253-1");
   forget_temperatures(run);

@@ -328,13 +328,7 @@ class LayoutBuilder {
       for (const std::size_t row : section.rows) {
         heights.push_back((tips_[row] - out_.axis.point_mm).dot(out_.axis.direction));
       }
-      const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-      if (*high - *low <= kThickestMm) continue;
-      return core::fail(said(
-          core::Code::kSampling,
-          core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
-                       "{:g} mm along the axis; give the file a column layer",
-                       section.layer + 1, *high - *low, kThickestMm)));
+      if (auto done = evaluation::check_thickness(section.layer, heights); !done) return done;
     }
     return {};
   }
@@ -518,6 +512,16 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
       said(core::Code::kMeaning, core::phrase("characteristics of a {} are not computed; make the "
                                               "feature a cylinder, a circle, a plane or a sphere",
                                               std::string(name_of(feature.feature.shape)))));
+}
+
+core::Result<void> check_thickness(int layer, std::span<const double> heights_mm) {
+  const auto [low, high] = std::minmax_element(heights_mm.begin(), heights_mm.end());
+  if (*high - *low <= kThickestMm) return {};
+  return core::fail(
+      said(core::Code::kSampling,
+           core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
+                        "{:g} mm along the axis; give the file a column layer",
+                        layer + 1, *high - *low, kThickestMm)));
 }
 
 SurfaceLayout layout_of(const FeatureResult& feature) {

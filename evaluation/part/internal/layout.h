@@ -46,6 +46,11 @@ struct SurfaceLayout {
 
 [[nodiscard]] SurfaceLayout layout_of(const FeatureResult& feature);
 
+/// Whether the points of a section lie in one plane across the axis to 0.5 mm.
+/// @pre Not empty.
+/// @return kSampling with the layer and its thickness.
+[[nodiscard]] core::Result<void> check_thickness(int layer, std::span<const double> heights_mm);
+
 /// Least-squares feature of some points: of a plane its normal, of a sphere part z through its
 /// centre.
 struct FittedSurface {
