@@ -175,6 +175,19 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
   EXPECT_EQ(refusal(part, second).code, core::Code::kRank);
 }
 
+TEST(DrawingRefusals, OfLayersUpsideDownNameNoSection) {
+  auto layers = test::turned_layers(3, 12, [](int j, double) { return 12.0 + 0.1 * j; });
+  record::Characteristic lowest = size_asked(Size::kGG, Indication::Section::kSCS);
+  lowest.indication.section_layers = {1.0};
+  EXPECT_NEAR(value(drawn(layers, {false, 0.0}), lowest), 24.0, 1e-6);
+  std::reverse(layers.begin(), layers.end());
+  const core::Error why = refusal(drawn(layers, {false, 0.0}), lowest);
+  EXPECT_EQ(why.code, core::Code::kMeaning);
+  EXPECT_EQ(why.what,
+            "section_layers counts from the lowest layer, but layer 2 lies below layer 1: number "
+            "the layers of the file upwards");
+}
+
 TEST(DrawingSize, OfAnySectionListsItsGreatestAndItsLeast) {
   const auto part = drawn(test::w1(), kShaft);
   const Finding whole = found(part, size_asked(Size::kLP));

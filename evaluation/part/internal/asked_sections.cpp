@@ -54,6 +54,27 @@ double unseen_of(const PreparedSurface& surface, std::span<const std::size_t> po
   return unseen_rad(std::move(angles_rad), a_turn);
 }
 
+/// section_layers counts from the lowest layer; a file may number its layers as it likes.
+core::Result<void> check_ascending(const PreparedSurface& surface, const Sections& sections) {
+  double up = 1.0;  // of a plane heights are radii
+  if (surface.of->feature.shape != record::Shape::kPlane) {
+    Eigen::Index largest = 0;
+    surface.axis.direction.cwiseAbs().maxCoeff(&largest);
+    up = surface.axis.direction[largest] < 0.0 ? -1.0 : 1.0;
+  }
+  for (std::size_t i = 1; i < sections.size(); ++i) {
+    const SurfaceSection& below = sections[i - 1];
+    const SurfaceSection& above = sections[i];
+    if (below.layer == above.layer || up * above.height_mm > up * below.height_mm) continue;
+    return core::fail(
+        core::Code::kMeaning,
+        core::phrase("section_layers counts from the lowest layer, but layer {} lies below layer "
+                     "{}: number the layers of the file upwards",
+                     above.layer + 1, below.layer + 1));
+  }
+  return {};
+}
+
 }  // namespace
 
 core::Result<Sections> asked_sections(const PreparedSurface& surface,
@@ -71,6 +92,7 @@ core::Result<Sections> asked_sections(const PreparedSurface& surface,
                       core::phrase("the points form no sections; give the file a column layer"));
   }
   if (indication.section != Indication::Section::kSCS) return all;
+  if (auto ascend = check_ascending(surface, all); !ascend) return core::fail(ascend.error());
   Sections out;
   for (const double number : indication.section_layers) {
     const auto found = std::ranges::find_if(
