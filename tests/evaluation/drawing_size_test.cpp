@@ -175,6 +175,13 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
   EXPECT_EQ(refusal(part, second).code, core::Code::kRank);
 }
 
+TEST(DrawingRefusals, OfALayerOfOnePointNameItOnce) {
+  auto layers = test::turned_layers(3, 12, [](int, double) { return 12.0; });
+  layers[2].resize(1);
+  EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(Size::kLP)).what,
+            "layer 3 has 1 points, and a circle needs at least 3: touch more");
+}
+
 TEST(DrawingRefusals, OfLayersUpsideDownNameNoSection) {
   auto layers = test::turned_layers(3, 12, [](int j, double) { return 12.0 + 0.1 * j; });
   record::Characteristic lowest = size_asked(Size::kGG, Indication::Section::kSCS);

@@ -354,6 +354,14 @@ TEST(SurfaceSections, ThickerThanHalfAMillimetreAreRefused) {
   EXPECT_THAT(surface.error().what, HasSubstr("section 1 is 6."));
 }
 
+TEST(SurfaceSections, OfOneLayerAreRefusedWithoutAWordOfWindows) {
+  FeatureResult one = cylinder_of(test::w2());
+  for (CloudPoint& point : one.cloud) point.layer = 0;
+  const auto surface = prepared_of(one);
+  ASSERT_FALSE(surface);
+  EXPECT_THAT(surface.error().what, HasSubstr("all points lie in one layer"));
+}
+
 TEST(SurfaceSections, OfAScanAreItsPasses) {
   FeatureResult scan = cylinder_of({ring(720, 0.0, w8_profile), ring(720, 10.0, w8_profile)});
   for (std::size_t i = 0; i < scan.cloud.size(); ++i) scan.cloud[i].pass = static_cast<int>(i % 2);

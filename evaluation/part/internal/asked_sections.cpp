@@ -131,6 +131,12 @@ core::Result<std::vector<fit::Section>> projected(const PreparedSurface& surface
   for (const SurfaceSection& section : of) {
     std::vector<Eigen::Vector3d> points;
     for (const std::size_t i : section.points) points.push_back(surface.points_mm[i]);
+    if (points.size() < 3) {
+      return core::fail(core::Code::kTooFewPoints,
+                        core::phrase("layer {} has {} points, and a circle needs at least 3: touch "
+                                     "more",
+                                     section.layer + 1, points.size()));
+    }
     auto one = fit::sections_across(std::span(&points, 1), surface.axis);
     if (!one) return core::fail(in_layer(section, one.error()));
     out.push_back(std::move(one->front()));

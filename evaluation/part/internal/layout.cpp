@@ -200,6 +200,11 @@ class LayoutBuilder {
     const auto left =
         std::count_if(layers.begin(), layers.end(), [](const auto& layer) { return layer.second; });
     if (left >= 2) return {};
+    if (settings_.exclude.empty()) {
+      return core::fail(said(core::Code::kRank,
+                             core::phrase("all points lie in one layer, and an axis needs 2: "
+                                          "measure more layers, or make the feature a circle")));
+    }
     return core::fail(said(core::Code::kRank,
                            core::phrase("the windows leave {} of {} layers; 2 are needed: make "
                                         "them smaller, or plan more layers",
