@@ -350,7 +350,8 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
         "plan an even number of points a layer, or a scan",
         2 * planes->size(), lines->size());
   }
-  out.numbers.push_back({"mean taper", mean->diameter_mm});
+  // A change of diameter over the length: of a cone twice the taper of a plane, which is judged.
+  out.numbers.push_back({"diameter change over length", mean->diameter_mm});
   out.numbers.push_back({"cone_angle_deg", core::degrees(mean->cone_angle_rad), false});
   out.reference = core::phrase("{} of opposite generatrices", core::as_it_is("LSLI"));
   return out;

@@ -117,6 +117,7 @@ TEST(DrawingTaper, OfW2HasEveryDigit) {
   EXPECT_NEAR(taper.judged.front().value_mm, tapers[2], kLineDigits);
   EXPECT_NEAR(ranges.judged.front().value_mm, parallel[2], kLineDigits);
   ASSERT_EQ(taper.numbers.size(), 2U);
+  EXPECT_EQ(taper.numbers[0].name, "diameter change over length");
   EXPECT_NEAR(taper.numbers[0].value, 0.017869044029, kLineDigits);
   EXPECT_NEAR(taper.numbers[1].value, 0.017063657767, kLineDigits);
   EXPECT_EQ(taper.rows.size(), 8U);  // of both generatrices of the plane
