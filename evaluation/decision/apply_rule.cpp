@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/decision/internal/risks.h"
@@ -157,7 +159,12 @@ core::Phrase side_of(const NearestLimit& limit) {
 core::Phrase simple_sentence(const core::Phrase& text, const KnownValue& value,
                              const Limits& limits, const Zones& zones) {
   const NearestLimit limit = nearest_limit(limits, zones);
-  const std::string by = in_digits(value, std::abs(limit.limit_mm - zones.compared_mm));
+  const double apart_mm = std::abs(limit.limit_mm - zones.compared_mm);
+  std::string by = in_digits(value, apart_mm);
+  // "by 0.000 um" beyond a limit reads as if the value held it.
+  const bool vanishes = by.find_first_not_of("0.") == std::string::npos;
+  if (vanishes && !limits.hold(zones.compared_mm))
+    by = fmt::format("{:.2g}", micrometres(apart_mm));
   if (has_tolerance(value, limits)) {
     return core::phrase(
         "{} is {} the tolerance of {:g} um by {} um", text,

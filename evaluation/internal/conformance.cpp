@@ -14,9 +14,11 @@
 #include "evaluation/part/contacts.h"
 #include "evaluation/part/find.h"
 #include "evaluation/part/internal/families.h"
+#include "evaluation/part/internal/layout.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
+#include "fit/sizes/material.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -29,10 +31,37 @@ using core::micrometres;
 
 using record::Form;
 
+/// What a file can state wrong, as in prepared(): points of different heights in one layer, a tip
+/// that leaves the surface no radius.
+core::Result<void> check_file(const FeatureResult& result) {
+  if (result.feature.strategy != record::Strategy::kPointsFile) return {};
+  const auto& cylinder = result.ls_cylinder;
+  if (cylinder && result.tip_radius_mm) {
+    const fit::Material material{result.feature.side == record::Side::kInside,
+                                 *result.tip_radius_mm};
+    if (auto done = fit::check_material(material, cylinder->radius_mm); !done) return done;
+  }
+  const fit::Axis& axis = cylinder ? cylinder->axis : result.section_axis;
+  for (const LayerResult& layer : result.layers) {
+    // A layer may be square to the axis, or flat in the file where the part stands aslant.
+    std::vector<double> along_mm;
+    std::vector<double> z_mm;
+    for (const std::size_t row : layer.rows) {
+      const Eigen::Vector3d& tip = result.cloud[row].tip_mm;
+      along_mm.push_back((tip - axis.point_mm).dot(axis.direction));
+      z_mm.push_back(tip.z());
+    }
+    if (along_mm.empty() || check_thickness(layer.layer, z_mm)) continue;
+    if (auto done = check_thickness(layer.layer, along_mm); !done) return done;
+  }
+  return {};
+}
+
 /// The value of a characteristic, if what proves it is present.
 core::Result<Deviation> value_of(const FeatureResult& result,
                                  const record::Characteristic& characteristic) {
   if (result.failure) return core::fail(*result.failure);
+  if (auto checked = check_file(result); !checked) return core::fail(checked.error());
   return characteristic.form == Form::kRoundness
              ? worst_section(result, characteristic.reference)
              : cylinder_deviation(result, characteristic.reference);
@@ -204,6 +233,14 @@ int severity(Verdict verdict) {
   return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
 }
 
+/// How far a value is from its nearest limit, below 0 beyond it; without limits infinite.
+double margin_mm(const JudgedValue& value) {
+  double out = HUGE_VAL;
+  if (value.limits.upper_mm) out = std::min(out, *value.limits.upper_mm - value.value_mm);
+  if (value.limits.lower_mm) out = std::min(out, value.value_mm - *value.limits.lower_mm);
+  return out;
+}
+
 /// A datum that rocks leaves a verdict only where the one-sided and the equalised one agree.
 void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& found,
                        std::size_t index, Judged& out) {
@@ -244,7 +281,7 @@ void judge_together(const core::Result<DecisionRule>& rule, const PartInterval& 
 }
 
 /// A characteristic that find() computed: every judged value by the rule, the most severe verdict
-/// is that of the characteristic.
+/// is that of the characteristic; of equal ones that of the value nearest to its limit.
 void judge_found(const Circumstances& by, const FeatureResult& result, FoundCharacteristic& found,
                  CharacteristicResult& out) {
   out.verdict = Verdict::kVoid;
@@ -255,6 +292,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   const auto finding = std::make_shared<const Finding>(*std::move(found.finding));
   out.finding = finding;
   std::optional<Judged> worst;
+  double nearest_mm = HUGE_VAL;
   for (std::size_t i = 0; i < finding->judged.size(); ++i) {
     const JudgedValue& value = finding->judged[i];
     if (!std::isfinite(value.value_mm)) {
@@ -269,7 +307,10 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
         by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
-    if (!worst || severity(judged.verdict) > severity(worst->verdict)) worst = std::move(judged);
+    const int more = worst ? severity(judged.verdict) - severity(worst->verdict) : 1;
+    if (more < 0 || (more == 0 && margin_mm(value) >= nearest_mm)) continue;
+    nearest_mm = margin_mm(value);
+    worst = std::move(judged);
   }
   judge_together(by.rule, found.interval, *worst);
   out.value = std::move(worst->value);

@@ -38,4 +38,15 @@ core::Result<std::size_t> count_of_outliers(const std::vector<bool>& out) {
   return gone;
 }
 
+std::size_t longest_run(const std::vector<bool>& out) {
+  std::size_t longest = 0;
+  std::size_t run = 0;
+  // Twice round: a run may hold the first and the last point.
+  for (std::size_t i = 0; i < 2 * out.size(); ++i) {
+    run = out[i % out.size()] ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return std::min(longest, out.size());
+}
+
 }  // namespace rondure::evaluation

@@ -16,4 +16,8 @@ namespace rondure::evaluation {
 /// Number of marked points; kOutliers when it is more than a quarter of all, since that is form.
 [[nodiscard]] core::Result<std::size_t> count_of_outliers(const std::vector<bool>& out);
 
+/// Most marked points that are next to each other round a closed profile.
+/// @param out  By angle.
+[[nodiscard]] std::size_t longest_run(const std::vector<bool>& out);
+
 }  // namespace rondure::evaluation

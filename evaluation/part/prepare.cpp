@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/phrase.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/part/internal/filtering.h"
 #include "evaluation/part/internal/layout.h"
@@ -36,6 +37,7 @@ core::Result<std::vector<bool>> rows_without_outliers(const SurfaceLayout& layou
   std::vector<bool> rows = layout.kept;
   if (!leaves_out_outliers(indication)) return rows;
   if (layout.too_many) return core::fail(*layout.too_many);
+  if (layout.form) return core::fail(*layout.form);
   for (const std::size_t row : layout.outlying) {
     rows[row] = false;
     out.left_out.push_back({row, {}});
@@ -88,7 +90,7 @@ void fill_sections(const SurfaceLayout& layout, const std::vector<bool>& taken,
 
 /// Names the points far off that take part.
 void name_outlying(const SurfaceLayout& layout, const Indication& indication,
-                      const std::vector<bool>& taken, PreparedSurface& out) {
+                   const std::vector<bool>& taken, PreparedSurface& out) {
   if (leaves_out_outliers(indication) || layout.too_many) return;
   std::size_t named = 0;
   std::size_t more = 0;
@@ -124,6 +126,17 @@ void warn_of_no_filter(PreparedSurface& out) {
                             most)));
 }
 
+/// A tip that leaves the surface no radius is wrong, and so is what is computed of its points.
+core::Result<void> check_tip(const PreparedSurface& surface) {
+  const record::Shape shape = surface.of->feature.shape;
+  if (shape != record::Shape::kCylinder && shape != record::Shape::kCircle) return {};
+  std::vector<double> distances_mm;
+  for (const Eigen::Vector3d& p : surface.points_mm) {
+    distances_mm.push_back(fit::distance_mm(surface.axis, p));
+  }
+  return fit::check_material(surface.material, core::mean(distances_mm));
+}
+
 }  // namespace
 
 core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
@@ -153,6 +166,7 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
   const auto fit = fitted(*surface.of, out.points_mm, layout->axis.direction, Deviations::kSkip);
   if (!fit) return core::fail(fit.error());
   out.axis = fit->axis;
+  if (auto done = check_tip(out); !done) return core::fail(done.error());
   if (auto done = restrict_rows(*layout, indication, *taken); !done)
     return core::fail(done.error());
   if (indication.from_mm || indication.to_mm) take();

@@ -35,6 +35,8 @@ struct LocalSizeSet {
   std::vector<fit::LocalSize> sizes;  // first, second: points of the surface
   bool of_points = true;              // false: of the harmonic series between them
   std::size_t lost = 0;
+  /// A section that lost more than half of its pairs, no window being the cause.
+  std::optional<core::Phrase> too_few;
 };
 
 bool is_filtered(const Indication& indication) {
@@ -109,16 +111,18 @@ void judge_sections(const PreparedSurface& surface, const record::Characteristic
   if (lowest->least_rows != highest->greatest_rows) add_rows(surface, lowest->least_rows, out);
 }
 
+bool fails_as_read(const Finding& finding) {
+  return std::ranges::any_of(finding.judged, [](const JudgedValue& v) {
+    return (v.limits.upper_mm && v.value_mm > *v.limits.upper_mm) ||
+           (v.limits.lower_mm && v.value_mm < *v.limits.lower_mm);
+  });
+}
+
 /// What no point and no window names of the turn: a size could be anything there. It can only add
 /// to a size that fails as read.
 /// @param only_worsens  More points move the judged sizes towards their limits.
 void note_unseen(const std::optional<core::Phrase>& unseen, bool only_worsens, Finding& out) {
-  if (!unseen) return;
-  const auto fails = [](const JudgedValue& v) {
-    return (v.limits.upper_mm && v.value_mm > *v.limits.upper_mm) ||
-           (v.limits.lower_mm && v.value_mm < *v.limits.lower_mm);
-  };
-  if (only_worsens && std::ranges::any_of(out.judged, fails)) return;
+  if (!unseen || (only_worsens && fails_as_read(out))) return;
   out.no_verdict = unseen;
 }
 
@@ -231,6 +235,7 @@ core::Error no_pairs(const PreparedSurface& surface, const SurfaceSection& secti
 core::Result<void> add_local_sizes(const PreparedSurface& surface, const SurfaceSection& section,
                                    bool filtered, LocalSizeSet& out) {
   const std::size_t before = out.sizes.size();
+  const std::size_t in_windows = window_rows(surface, section).size();
   for (const SurfaceSection& pass : by_pass(surface, section)) {
     auto flat = projected(surface, std::span(&pass, 1));
     if (!flat) return core::fail(flat.error());
@@ -250,7 +255,14 @@ core::Result<void> add_local_sizes(const PreparedSurface& surface, const Surface
     }
     const auto planned = static_cast<std::size_t>(surface.of->feature.points_per_layer);
     const std::size_t possible = std::max(planned, pass.points.size()) / 2;
-    out.lost += possible > found ? possible - found : 0;
+    const std::size_t lost = possible > found ? possible - found : 0;
+    out.lost += lost;
+    if (2 * lost > possible + 2 * in_windows) {
+      out.too_few = core::phrase(
+          "layer {} has {} of {} opposite pairs: the size is not known between them; plan an even "
+          "number of points at equal angles, or a scan",
+          section.layer + 1, found, possible);
+    }
     for (std::size_t i = 0; i < found; ++i) {
       fit::LocalSize size = (*sizes)[i];
       size.first = pass.points[size.first];
@@ -289,7 +301,15 @@ double value_of_rank(const fit::RankSizes& ranks, Rank rank) {
   return ranks_by_name(ranks)[static_cast<std::size_t>(rank)].value;
 }
 
-void add_rank_numbers(const LocalSizeSet& set, Finding& out) {
+/// The pairs that are there, those that are not; too few of them can only hide a size that fails.
+void add_rank_numbers(const LocalSizeSet& set, bool only_worsens, Finding& out) {
+  if (set.lost > 0) {
+    out.warnings.push_back(core::error_of(
+        core::Code::kSampling,
+        core::phrase("{} pairs of opposite points, {} lost: a point of theirs is missing",
+                     set.sizes.size(), set.lost)));
+  }
+  if (set.too_few && !(only_worsens && fails_as_read(out))) out.no_verdict = set.too_few;
   for (const NamedNumber& number : ranks_by_name(fit::rank_sizes(set.sizes)))
     out.numbers.push_back(number);
   out.numbers.push_back({"pairs", static_cast<double>(set.sizes.size()), false});
@@ -351,8 +371,8 @@ core::Result<Finding> find_local(const PreparedSurface& surface,
       if (asked.lower_mm || !asked.tolerance_mm) add_rows(surface, pair_of(*whole, false), out);
     }
   }
-  add_rank_numbers(*whole, out);
   const bool only_worsens = !indication.rank;
+  add_rank_numbers(*whole, only_worsens, out);
   if (proof == Proof::kFull) {
     note_unseen(unseen_part(surface, *sections, surface.axis), only_worsens, out);
   }
@@ -386,7 +406,7 @@ core::Result<Finding> find_envelope(const PreparedSurface& surface,
     out.judged.push_back({symbol_of_size(inside ? "LP SX" : "LP SN"),
                           inside ? ranks.sx_mm : ranks.sn_mm, inside ? upper : lower});
     add_rows(surface, pair_of(*local, inside), out);
-    add_rank_numbers(*local, out);
+    add_rank_numbers(*local, true, out);
   } else if (!fails && proof == Proof::kFull) {
     return core::fail(local.error());
   }

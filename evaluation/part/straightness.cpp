@@ -70,8 +70,8 @@ class LineSection {
     if (std::ranges::any_of(left_out_rad_, named)) return std::nullopt;
     return core::fail(
         core::Code::kSampling,
-        core::phrase("layer {} has no point within 0.5 deg of {:.3f} deg: begin all layers at one "
-                     "angle (sampling.stagger 0), or scan",
+        core::phrase("layer {} has no point within 0.5 deg of {:.3f} deg: touch all layers at the "
+                     "same angles (sampling.stagger 0), or scan",
                      of_.layer + 1, core::degrees(angle_rad)));
   }
 
@@ -81,14 +81,24 @@ class LineSection {
   std::vector<double> left_out_rad_;
 };
 
-/// Angles of the generatrices: those of the first section or, of dense sections, every 10 deg.
+/// Angles of the generatrices: those of all sections or, of dense ones, every 10 deg. A section
+/// without a point at an angle of another refuses it in at(), so that no line is lost in silence.
 std::vector<double> angles_of_lines(const std::vector<LineSection>& sections, bool dense) {
   std::vector<double> out;
   if (dense) {
     for (int i = 0; i < kDenseLines; ++i) out.push_back(core::kTwoPi * i / kDenseLines);
     return out;
   }
-  return sections.front().angles_rad();
+  out = sections.front().angles_rad();
+  for (const LineSection& section : sections) {
+    for (const double angle : section.angles_rad()) {
+      const auto named = [&](double other_rad) {
+        return std::abs(std::remainder(other_rad - angle, core::kTwoPi)) <= kOneGeneratrix;
+      };
+      if (std::ranges::none_of(out, named)) out.push_back(angle);
+    }
+  }
+  return out;
 }
 
 /// The generatrices of dense sections, every 10 deg, by the harmonic series of their profiles.
@@ -325,7 +335,17 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
         fit::generatrix_straightness(line.line.heights_mm, line.line.distances_mm);
     if (straight) out.lines.push_back(picture_of(line, *straight, surface.material.sign()));
   }
-  out.numbers.push_back({"mean taper", mean->diameter_mm});
+  // Fewer than half of them by the points alone: what a window takes out is known.
+  const bool window =
+      std::ranges::any_of(surface.left_out, [](const LeftOut& l) { return !l.window.empty(); });
+  if (!window && 4 * planes->size() < lines->size()) {
+    out.no_verdict = core::phrase(
+        "{} of {} generatrices have one opposite to them: the taper of the others is not known; "
+        "plan an even number of points a layer, or a scan",
+        2 * planes->size(), lines->size());
+  }
+  // A change of diameter over the length: of a cone twice the taper of a plane, which is judged.
+  out.numbers.push_back({"diameter change over length", mean->diameter_mm});
   out.numbers.push_back({"cone_angle_deg", core::degrees(mean->cone_angle_rad), false});
   out.reference = core::phrase("{} of opposite generatrices", core::as_it_is("LSLI"));
   return out;

@@ -72,6 +72,9 @@ core::Result<std::vector<LocalSize>> two_point_sizes(std::span<const Section> se
   }
   std::vector<LocalSize> out;
   for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (auto checked = check_material(material, sections[i].circle.radius_mm); !checked) {
+      return core::fail(checked.error());
+    }
     if (append_pairs(sections[i], i, material, out)) continue;
     return core::fail(core::Code::kSampling,
                       fmt::format("section {} of {}, of {} points, has no two points opposite each "

@@ -23,5 +23,8 @@ struct Material {
 
 /// @return kBadOption if the tip radius is negative or not finite.
 [[nodiscard]] core::Result<void> check_material(const Material& material);
+/// The same; kBadOption also if the surface of a circle or cylinder of tip centres of this radius
+/// would have none, which tells of a wrong tip or side.
+[[nodiscard]] core::Result<void> check_material(const Material& material, double center_radius_mm);
 
 }  // namespace rondure::fit

@@ -38,7 +38,7 @@ std::string number_entry(const evaluation::NamedNumber& number,
   static constexpr auto kWords = std::to_array<NumberWords>(
       {{"pairs", translatable("Opposite pairs")},
        {"lost pairs", translatable("Pairs without an opposite point")},
-       {"mean taper", translatable("Taper of the mean diameters")},
+       {"diameter change over length", translatable("Change of the mean diameter over the length")},
        {"cone_angle_deg", translatable("Cone angle"), "°", 5},
        {"datum_length_mm", translatable("Length of the datum"), " mm", 3},
        {"datum_distance_mm", translatable("Distance from the middle of the datum"), " mm", 3},

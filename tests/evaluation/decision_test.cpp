@@ -97,6 +97,15 @@ TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
   }
 }
 
+TEST(DecisionRule, NoSentenceSaysThatAValueIsAboveItsToleranceByNothing) {
+  const evaluation::DecisionRule simple = rule_named(Kind::kSimpleAcceptance);
+  const evaluation::KnownValue value{.measured_mm = 4.0000002e-3};
+  const auto outcome = apply_rule(simple, value, {.lower_mm = {}, .upper_mm = 4e-3});
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->verdict, evaluation::Verdict::kDoesNotConform);
+  EXPECT_THAT(outcome->sentence, HasSubstr("by 2e-07 um"));
+}
+
 TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
   const auto errors = error_sample(400);
   for (const Kind kind : kAllRules) {

@@ -175,6 +175,26 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
   EXPECT_EQ(refusal(part, second).code, core::Code::kRank);
 }
 
+TEST(DrawingRefusals, OfALayerOfOnePointNameItOnce) {
+  auto layers = test::turned_layers(3, 12, [](int, double) { return 12.0; });
+  layers[2].resize(1);
+  EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(Size::kLP)).what,
+            "layer 3 has 1 points, and a circle needs at least 3: touch more");
+}
+
+TEST(DrawingRefusals, OfLayersUpsideDownNameNoSection) {
+  auto layers = test::turned_layers(3, 12, [](int j, double) { return 12.0 + 0.1 * j; });
+  record::Characteristic lowest = size_asked(Size::kGG, Indication::Section::kSCS);
+  lowest.indication.section_layers = {1.0};
+  EXPECT_NEAR(value(drawn(layers, {false, 0.0}), lowest), 24.0, 1e-6);
+  std::reverse(layers.begin(), layers.end());
+  const core::Error why = refusal(drawn(layers, {false, 0.0}), lowest);
+  EXPECT_EQ(why.code, core::Code::kMeaning);
+  EXPECT_EQ(why.what,
+            "section_layers counts from the lowest layer, but layer 2 lies below layer 1: number "
+            "the layers of the file upwards");
+}
+
 TEST(DrawingSize, OfAnySectionListsItsGreatestAndItsLeast) {
   const auto part = drawn(test::w1(), kShaft);
   const Finding whole = found(part, size_asked(Size::kLP));
@@ -333,6 +353,36 @@ TEST(DrawingSize, OfOddLayersSaysToPlanAnEvenNumber) {
   EXPECT_EQ(refusal(spoilt, size_asked(Size::kLP)).what,
             "the windows leave no opposite points in layer 1; turn sampling.start_deg, or plan "
             "more points");
+}
+
+TEST(DrawingSize, OfTooFewPairsHasNoVerdictAndOfLostOnesAWarning) {
+  const auto one_pair = [](double radius_mm) {
+    test::Layers layers;
+    for (int j = 0; j < 3; ++j) {
+      auto& layer = layers.emplace_back();
+      for (const double deg : {0.0, 40.0, 80.0, 120.0, 180.0, 240.0, 280.0, 320.0}) {
+        const double t = deg * core::kDegree;
+        layer.emplace_back(radius_mm * std::cos(t), radius_mm * std::sin(t), 15.0 * j);
+      }
+    }
+    return drawn(layers, {false, 0.0});
+  };
+  record::Characteristic size = size_asked(Size::kLP);
+  size.lower_mm = 23.9;
+  size.tolerance_mm = 24.1;
+  const Finding inside = found(one_pair(12.0), size);
+  EXPECT_EQ(number(inside, "pairs"), 3.0);
+  EXPECT_EQ(number(inside, "lost pairs"), 9.0);
+  EXPECT_TRUE(inside.no_verdict);
+  ASSERT_EQ(inside.warnings.size(), 1U);
+  EXPECT_EQ(inside.warnings[0].what,
+            "3 pairs of opposite points, 9 lost: a point of theirs is missing");
+  EXPECT_FALSE(found(one_pair(12.1), size).no_verdict) << "a size that fails fails";
+  EXPECT_TRUE(found(one_pair(12.0), envelope_asked(23.9, 24.1)).no_verdict);
+  const Finding window =
+      found(drawn(test::turned_layers(2, 12, round_12), {false, 0.0}, {3}), size);
+  EXPECT_EQ(window.warnings.size(), 1U);
+  EXPECT_FALSE(window.no_verdict);
 }
 
 TEST(DrawingEnvelope, OfW1FailsThoughEveryOtherSizeIsInside) {

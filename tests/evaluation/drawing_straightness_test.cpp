@@ -128,6 +128,7 @@ TEST(DrawingTaper, OfW2HasEveryDigit) {
   EXPECT_NEAR(taper.judged.front().value_mm, tapers[2], kLineDigits);
   EXPECT_NEAR(ranges.judged.front().value_mm, parallel[2], kLineDigits);
   ASSERT_EQ(taper.numbers.size(), 2U);
+  EXPECT_EQ(taper.numbers[0].name, "diameter change over length");
   EXPECT_NEAR(taper.numbers[0].value, 0.017869044029, kLineDigits);
   EXPECT_NEAR(taper.numbers[1].value, 0.017063657767, kLineDigits);
   EXPECT_EQ(taper.rows.size(), 8U);  // of both generatrices of the plane
@@ -168,6 +169,35 @@ TEST(DrawingStraightness, OfDenseSectionsHasALineEveryTenDegrees) {
   EXPECT_NEAR(lines.local[lines.worst].value_mm, 0.004, 1e-6);
   EXPECT_NEAR(core::degrees(lines.local[lines.worst].position), 90.0, 1e-9);
   EXPECT_TRUE(lines.rows.empty());
+}
+
+TEST(DrawingStraightness, LosesNoGeneratrixOfALayerWithFewerPoints) {
+  const auto dent = [](int j, double t) {
+    return j == 2 && std::abs(t - 0.7854) < 0.1 ? 9.9 : 10.0;
+  };
+  auto part = drawn(test::turned_layers(4, 8, dent), kPlainShaft);
+  EXPECT_GT(line_of(part, asked(Form::kStraightness)).judged.front().value_mm, 0.05);
+  auto& first = part.surface.sections[0].points;
+  first = {first[0], first[2], first[4], first[6]};
+  for (const Form form : {Form::kStraightness, Form::kTaper}) {
+    const core::Error why = line_refusal(part, asked(form));
+    EXPECT_EQ(why.code, core::Code::kSampling);
+    EXPECT_NE(why.what.find("layer 1 has no point within 0.5 deg"), std::string::npos) << why.what;
+  }
+}
+
+TEST(DrawingTaper, OfOneOppositePairAmongManyHasNoVerdict) {
+  test::Layers layers;
+  for (int j = 0; j < 3; ++j) {
+    auto& layer = layers.emplace_back();
+    for (const double deg : {0.0, 40.0, 80.0, 120.0, 180.0, 240.0, 280.0, 320.0}) {
+      const double t = deg * core::kDegree;
+      layer.emplace_back(10.0 * std::cos(t), 10.0 * std::sin(t), 15.0 * j);
+    }
+  }
+  const Finding taper = line_of(drawn(layers, kPlainShaft), asked(Form::kTaper));
+  EXPECT_EQ(taper.local.size(), 1U);
+  EXPECT_TRUE(taper.no_verdict);
 }
 
 TEST(DrawingRefusals, OfStraightnessSayWhatToPlanInstead) {

@@ -354,6 +354,14 @@ TEST(SurfaceSections, ThickerThanHalfAMillimetreAreRefused) {
   EXPECT_THAT(surface.error().what, HasSubstr("section 1 is 6."));
 }
 
+TEST(SurfaceSections, OfOneLayerAreRefusedWithoutAWordOfWindows) {
+  FeatureResult one = cylinder_of(test::w2());
+  for (CloudPoint& point : one.cloud) point.layer = 0;
+  const auto surface = prepared_of(one);
+  ASSERT_FALSE(surface);
+  EXPECT_THAT(surface.error().what, HasSubstr("all points lie in one layer"));
+}
+
 TEST(SurfaceSections, OfAScanAreItsPasses) {
   FeatureResult scan = cylinder_of({ring(720, 0.0, w8_profile), ring(720, 10.0, w8_profile)});
   for (std::size_t i = 0; i < scan.cloud.size(); ++i) scan.cloud[i].pass = static_cast<int>(i % 2);
@@ -683,6 +691,34 @@ TEST(SurfaceOutliers, ThatAreMoreThanAQuarterAreForm) {
   ASSERT_TRUE(surface);
   EXPECT_EQ(surface->points_mm.size(), 72U);
   EXPECT_TRUE(surface->warnings.empty());
+}
+
+TEST(SurfaceOutliers, ThatAreNeighboursAreForm) {
+  Indication rule;
+  rule.outliers = Indication::Outliers::kFiveScales;
+  // The error of the rule for five layers with 0.05 mm more at some places.
+  const auto sentence = [&](auto is_off) {
+    Layers layers;
+    for (int j = 0; j < 5; ++j) {
+      layers.push_back(ring(36, 10.0 * j, w8_profile));
+      for (int i = 0; i < 36; ++i) {
+        Eigen::Vector3d& p = layers.back()[static_cast<std::size_t>(i)];
+        if (is_off(j, i)) p.head<2>() += 0.05 * p.head<2>().normalized();
+      }
+    }
+    const FeatureResult feature = cylinder_of(layers);
+    EXPECT_TRUE(prepared_of(feature)) << "without the rule all points take part";
+    const auto surface = prepared_of(feature, rule);
+    if (surface) return std::string();
+    EXPECT_EQ(surface.error().code, core::Code::kOutliers);
+    return surface.error().what;
+  };
+  EXPECT_EQ(sentence([](int j, int i) { return j == 1 && (i == 5 || i == 6); }), "");
+  EXPECT_THAT(sentence([](int j, int i) { return j == 1 && (i == 35 || i < 2); }),
+              HasSubstr("3 of 36 points of layer 2, next to each other"));
+  EXPECT_THAT(sentence([](int j, int) { return j == 4; }), HasSubstr("36 of 36 points of layer 5"));
+  EXPECT_THAT(sentence([](int, int i) { return i == 9; }),
+              HasSubstr("points of 5 layers, one above the other"));
 }
 
 // ---- Trials.

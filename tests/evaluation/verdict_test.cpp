@@ -142,6 +142,48 @@ TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
   }
 }
 
+TEST(Verdict, OfTwoLimitsStatesTheValueNearestToIts) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 24; ++i) {
+    const double t = 45.0 * (i % 8) * core::kDegree;
+    const double r = i % 4 == 1 ? 24.9955 : 25.0;
+    points.emplace_back(r * std::cos(t), r * std::sin(t), 10.0 * (i / 8));
+  }
+  RunRecord run = points_run(points, 3);
+  run.header.decision_rule = "simple-acceptance";
+  record::Characteristic size{"d", record::Form::kDiameter, {}, 47.1, ""};
+  size.lower_mm = 46.99;
+  run.features[0].characteristics = {size};
+  const evaluation::CharacteristicResult least = result_of(run);
+  EXPECT_EQ(least.verdict, evaluation::Verdict::kConforms) << least.reason;
+  ASSERT_TRUE(least.value);
+  EXPECT_NEAR(least.value->value_mm(), 46.991, 1e-4);
+  run.features[0].characteristics[0].tolerance_mm = 47.001;
+  EXPECT_NEAR(result_of(run).value->value_mm(), 47.0, 1e-4);
+  run.features[0].characteristics[0].lower_mm = 46.9925;
+  EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kDoesNotConform);
+}
+
+TEST(Verdict, OfAFileWithAThickLayerOrAnImpossibleTipIsVoid) {
+  RunRecord run = points_run(rough_part(3, 4, 40, 2.0 * std::numbers::pi), 4);
+  run.header.decision_rule = "simple-acceptance";
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    run.features[0].characteristics = {{"form", form, record::Reference::kMinimumZone, 20e-3, ""}};
+    EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms);
+    RunRecord thick = run;
+    for (std::size_t i = 0; i < 40; i += 2) {
+      thick.touches[i].layer = 1;
+      thick.touches[i].point += 40;
+    }
+    EXPECT_EQ(result_of(thick).verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(result_of(thick).reason, HasSubstr("mm thick"));
+    RunRecord wrong = run;
+    wrong.features[0].tip_radius_mm = 60.0;
+    EXPECT_EQ(result_of(wrong).verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(result_of(wrong).reason, HasSubstr("correct the tip diameter"));
+  }
+}
+
 TEST(Verdict, PrintsADeclaredTemperatureAsDeclared) {
   RunRecord run = touched_run("iso-14253-1");
   forget_temperatures(run);

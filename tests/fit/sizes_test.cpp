@@ -170,6 +170,20 @@ TEST(LocalSizes, AreThoseOfTheThreeLobedShaft) {
   EXPECT_NEAR(sizes.sq_mm, 0.001499276509, kDigits);
 }
 
+TEST(LocalSizes, OfATipThatLeavesNoSurfaceAreRefused) {
+  Section section;
+  for (int i = 0; i < 8; ++i) {
+    const double t = core::kTwoPi * i / 8.0;
+    section.points_mm.emplace_back(3.0 * std::cos(t), 3.0 * std::sin(t));
+  }
+  section.circle.radius_mm = 3.0;
+  const auto wrong = two_point_sizes({&section, 1}, {false, 25.0});
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, core::Code::kBadOption);
+  EXPECT_NE(wrong.error().what.find("-22.0000 mm"), std::string::npos) << wrong.error().what;
+  EXPECT_TRUE(two_point_sizes({&section, 1}, {true, 25.0})) << "a bore has a larger one";
+}
+
 TEST(LocalSizes, LosePairsToAKeyway) {
   const RankSizes sizes = ranks(without_row(test::w6(), 4), kBore);
   EXPECT_EQ(sizes.count, 14U);

@@ -107,6 +107,25 @@ std::optional<fit::Axis> circle_axis(const PreparedSurface& surface,
   // The circle of a row is so large that no point stands off its chord.
   if (chord_mm * chord_mm < 8.0 * circle->radius_mm * kOffCircle) return std::nullopt;
   return fit::Axis{surface.axis.point_mm + frame * circle->center_mm, surface.axis.direction};
+/// section_layers counts from the lowest layer; a file may number its layers as it likes.
+core::Result<void> check_ascending(const PreparedSurface& surface, const Sections& sections) {
+  double up = 1.0;  // of a plane heights are radii
+  if (surface.of->feature.shape != record::Shape::kPlane) {
+    Eigen::Index largest = 0;
+    surface.axis.direction.cwiseAbs().maxCoeff(&largest);
+    up = surface.axis.direction[largest] < 0.0 ? -1.0 : 1.0;
+  }
+  for (std::size_t i = 1; i < sections.size(); ++i) {
+    const SurfaceSection& below = sections[i - 1];
+    const SurfaceSection& above = sections[i];
+    if (below.layer == above.layer || up * above.height_mm > up * below.height_mm) continue;
+    return core::fail(
+        core::Code::kMeaning,
+        core::phrase("section_layers counts from the lowest layer, but layer {} lies below layer "
+                     "{}: number the layers of the file upwards",
+                     above.layer + 1, below.layer + 1));
+  }
+  return {};
 }
 
 }  // namespace
@@ -126,6 +145,7 @@ core::Result<Sections> asked_sections(const PreparedSurface& surface,
                       core::phrase("the points form no sections; give the file a column layer"));
   }
   if (indication.section != Indication::Section::kSCS) return all;
+  if (auto ascend = check_ascending(surface, all); !ascend) return core::fail(ascend.error());
   Sections out;
   for (const double number : indication.section_layers) {
     const auto found = std::ranges::find_if(
@@ -164,6 +184,12 @@ core::Result<std::vector<fit::Section>> projected(const PreparedSurface& surface
   for (const SurfaceSection& section : of) {
     std::vector<Eigen::Vector3d> points;
     for (const std::size_t i : section.points) points.push_back(surface.points_mm[i]);
+    if (points.size() < 3) {
+      return core::fail(core::Code::kTooFewPoints,
+                        core::phrase("layer {} has {} points, and a circle needs at least 3: touch "
+                                     "more",
+                                     section.layer + 1, points.size()));
+    }
     auto one = fit::sections_across(std::span(&points, 1), surface.axis);
     if (!one) return core::fail(in_layer(section, one.error()));
     out.push_back(std::move(one->front()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,8 @@ using record::WindowTask;
 using SurfacePoints = std::vector<Eigen::Vector3d>;
 
 constexpr double kThickestMm = 0.5;
+/// More outlying points next to each other are form, not points that missed the surface.
+constexpr std::size_t kMostNeighbours = 2;
 constexpr double kGuardMm = 0.5;
 /// An axis that leans more (60 deg) has no angle about part z.
 constexpr double kLeastUpright = 0.5;
@@ -190,6 +193,11 @@ class LayoutBuilder {
     const auto left =
         std::count_if(layers.begin(), layers.end(), [](const auto& layer) { return layer.second; });
     if (left >= 2) return {};
+    if (settings_.exclude.empty()) {
+      return core::fail(said(core::Code::kRank,
+                             core::phrase("all points lie in one layer, and an axis needs 2: "
+                                          "measure more layers, or make the feature a circle")));
+    }
     return core::fail(said(core::Code::kRank,
                            core::phrase("the windows leave {} of {} layers; 2 are needed: make "
                                         "them smaller, or plan more layers",
@@ -317,13 +325,7 @@ class LayoutBuilder {
       for (const std::size_t row : section.rows) {
         heights.push_back((tips_[row] - out_.axis.point_mm).dot(out_.axis.direction));
       }
-      const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-      if (*high - *low <= kThickestMm) continue;
-      return core::fail(said(
-          core::Code::kSampling,
-          core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
-                       "{:g} mm along the axis; give the file a column layer",
-                       section.layer + 1, *high - *low, kThickestMm)));
+      if (auto done = evaluation::check_thickness(section.layer, heights); !done) return done;
     }
     return {};
   }
@@ -352,7 +354,71 @@ class LayoutBuilder {
       out_.outlying.push_back(row);
       out_.off_mm.push_back(off);
     }
+    find_form();
     return {};
+  }
+
+  /// Outlying points that are neighbours round a section, a whole section, or neighbours of three
+  /// layers one above the other are form: a dent, a burr, a step, a groove.
+  void find_form() {
+    std::vector<bool> off(tips_.size(), false);
+    for (const std::size_t row : out_.outlying) off[row] = true;
+    std::vector<OutlyingPoint> far;
+    for (const SectionRows& section : out_.sections) {
+      std::vector<std::size_t> rows = section.rows;
+      std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+        return places_[a].angle_rad < places_[b].angle_rad;
+      });
+      std::vector<bool> by_angle;
+      for (const std::size_t row : rows) {
+        by_angle.push_back(off[row]);
+        const double spacing_rad = core::kTwoPi / static_cast<double>(rows.size());
+        if (off[row]) far.push_back({places_[row].angle_rad, spacing_rad, &section});
+      }
+      const std::size_t run = longest_run(by_angle);
+      if (run <= kMostNeighbours && (run == 0 || run < rows.size())) continue;
+      out_.form = said(
+          core::Code::kOutliers,
+          core::phrase("{} of {} points of layer {}, next to each other, lie more than five robust "
+                       "scales off: neighbours are form, and the outlier rule takes out single "
+                       "points only; leave outliers out, or state a window",
+                       run, rows.size(), section.layer + 1));
+      return;
+    }
+    find_groove(std::move(far));
+  }
+
+  struct OutlyingPoint {
+    double angle_rad = 0.0;
+    double spacing_rad = 0.0;  ///< Between the points of its section.
+    const SectionRows* section = nullptr;
+  };
+
+  void find_groove(std::vector<OutlyingPoint> far) {
+    std::sort(far.begin(), far.end(), [](const OutlyingPoint& a, const OutlyingPoint& b) {
+      return a.angle_rad < b.angle_rad;
+    });
+    const std::size_t count = far.size();
+    for (std::size_t i = 0; i < count; ++i) {  // once more round: a groove may lie at the seam
+      far.push_back(far[i]);
+      far.back().angle_rad += core::kTwoPi;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      // Of layers that are not aligned the nearest point is up to half a step away.
+      const double end_rad = far[i].angle_rad + 0.75 * far[i].spacing_rad;
+      std::set<int> layers;
+      for (std::size_t k = i; k < i + count && far[k].angle_rad <= end_rad; ++k) {
+        if (far[k].section->pass == far[i].section->pass) layers.insert(far[k].section->layer);
+      }
+      if (layers.size() <= kMostNeighbours) continue;
+      out_.form = said(
+          core::Code::kOutliers,
+          core::phrase("points of {} layers, one above the other at {:.1f} deg, lie more than five "
+                       "robust scales off: neighbours are form, and the outlier rule takes out "
+                       "single points only; leave outliers out, or state a window",
+                       layers.size(), core::degrees(far[i].angle_rad)));
+      return;
+    }
   }
 
   const FeatureResult& feature_;
@@ -450,6 +516,16 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
       said(core::Code::kMeaning, core::phrase("characteristics of a {} are not computed; make the "
                                               "feature a cylinder, a circle, a plane or a sphere",
                                               std::string(name_of(feature.feature.shape)))));
+}
+
+core::Result<void> check_thickness(int layer, std::span<const double> heights_mm) {
+  const auto [low, high] = std::minmax_element(heights_mm.begin(), heights_mm.end());
+  if (*high - *low <= kThickestMm) return {};
+  return core::fail(
+      said(core::Code::kSampling,
+           core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
+                        "{:g} mm along the axis; give the file a column layer",
+                        layer + 1, *high - *low, kThickestMm)));
 }
 
 SurfaceLayout layout_of(const FeatureResult& feature) {

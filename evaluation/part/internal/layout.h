@@ -40,6 +40,7 @@ struct SurfaceLayout {
   std::vector<std::size_t> outlying;      ///< Rows beyond five scales, farthest first.
   std::vector<double> off_mm;             ///< How far each of these is off.
   std::optional<core::Error> too_many;    ///< Why the outlier rule cannot be applied.
+  std::optional<core::Error> form;  ///< Why the outlying points are form: neighbours lie off.
   std::vector<core::Error> warnings;
 };
 
@@ -47,6 +48,10 @@ struct SurfaceLayout {
 
 /// Whether the layers of the cloud are known; a file without them is parted by heights.
 [[nodiscard]] bool has_layers(const FeatureResult& feature);
+/// Whether the points of a section lie in one plane across the axis to 0.5 mm.
+/// @pre Not empty.
+/// @return kSampling with the layer and its thickness.
+[[nodiscard]] core::Result<void> check_thickness(int layer, std::span<const double> heights_mm);
 
 /// Least-squares feature of some points: of a plane its normal, of a sphere part z through its
 /// centre.

@@ -114,8 +114,13 @@ core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Referenc
 }
 
 core::Result<Deviation> worst_section(const FeatureResult& result, Reference reference) {
-  if (result.layers.empty())
-    return core::fail(core::Code::kNoPoints, core::phrase("this feature has no sections"));
+  if (result.layers.empty()) {
+    return core::fail(core::Code::kNoPoints,
+                      result.feature.layers == 1
+                          ? core::phrase("all points lie in one layer, and an axis needs 2: "
+                                         "measure more layers, or make the feature a circle")
+                          : core::phrase("this feature has no sections"));
+  }
   Deviation out;
   fit::DeviationRange worst;
   bool unique = true;
