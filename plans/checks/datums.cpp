@@ -80,6 +80,13 @@ std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum)
   const bool together = asked.source.has_value() == feature.source.has_value() &&
                         (!files || (!clamping.empty() && clamping == clamping_of(plan, feature)));
   if (together) return {};
+  if (files && asked.source->file == feature.source->file) {
+    return fmt::format(
+        "{} and {} are of one file and of the clampings {} and {}, so nobody knows how they lie to "
+        "each other; measure both in one clamping, and give both the same \"clamping\"",
+        in_quotes(asked.id), in_quotes(feature.id), in_quotes(clamping),
+        in_quotes(clamping_of(plan, feature)));
+  }
   return files ? fmt::format(
                      "{} and {} are of different files, so nobody knows how they lie to "
                      "each other; give both sources the same \"clamping\" if they were "

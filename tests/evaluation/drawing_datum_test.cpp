@@ -949,6 +949,12 @@ TEST(DrawingDatums, OfAnotherFileNeedTheSameClampingName) {
   EXPECT_TRUE(coaxiality_of(named).has_value());
   named.features[1].settings = {test::text_setting("clamping", "vice")};
   EXPECT_FALSE(coaxiality_of(named).has_value());
+  for (auto& feature : named.features) feature.points_sha256 = "one";
+  const auto apart = coaxiality_of(named);
+  ASSERT_FALSE(apart.has_value()) << "one file, two clampings";
+  EXPECT_NE(apart.error().what.find("A was measured in clamping \"chuck\" and C in \"vice\""),
+            std::string::npos)
+      << apart.error().what;
   auto mixed = files("one", "one");
   mixed.features[1].strategy = record::Strategy::kGuided;
   EXPECT_FALSE(coaxiality_of(mixed).has_value());

@@ -30,6 +30,17 @@ std::string documented_plan() {
   return page.substr(at, page.find("```", at) - at);
 }
 
+/// Problems of that plan with one text replaced everywhere.
+std::string problems_with(const std::string& text, const std::string& other) {
+  std::string plan = documented_plan();
+  std::size_t at = plan.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  for (; at != std::string::npos; at = plan.find(text, at + other.size())) {
+    plan.replace(at, text.size(), other);
+  }
+  return lines_of(parse_plan(plan, shaft_folder(), "plan.json"));
+}
+
 /// A touched cylinder; `keys` and `characteristics` are spliced in.
 PlanOrProblems touched_cylinder(const std::string& characteristics, const std::string& keys = "") {
   return parse_plan(
@@ -62,6 +73,18 @@ TEST(PlanDrawing, TheShaftOfTheDocumentIsAPlan) {
   ASSERT_EQ(surface->exclude.size(), 1U);
   EXPECT_EQ(surface->exclude.front().to_deg, 95.0);
   EXPECT_FALSE(surface->exclude.front().guard_mm) << "absent is not 0";
+}
+
+TEST(PlanDrawing, RowsOfOneFileThatNameTwoClampingsAreNotRelated) {
+  const std::string seat = R"("feature": "C",)";
+  EXPECT_EQ(problems_with(seat, seat + R"("clamping": "one",)"), "") << "the others inherit it";
+  std::string plan = documented_plan();
+  plan.replace(plan.find(seat), seat.size(), seat + R"("clamping": "two",)");
+  const std::string journal = R"("feature": "A",)";
+  plan.replace(plan.find(journal), journal.size(), journal + R"("clamping": "one",)");
+  EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
+              ::testing::HasSubstr("\"seat C\" and \"journal A\" are of one file and of the "
+                                   "clampings \"two\" and \"one\""));
 }
 
 TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
