@@ -460,6 +460,13 @@ TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
     EXPECT_NEAR(normal->local[i].value_mm, expected[i][1], 1e-10);
   }
   EXPECT_EQ(normal->worst, 2U);
+  for (const double planned_deg : {-10.0, 8.9, 11.1, 75.0}) {
+    cone.feature.settings = {test::number_setting("half_angle_deg", planned_deg)};
+    const auto other = find(along(asked, Direction::kConical));
+    ASSERT_FALSE(other.has_value()) << planned_deg;
+    EXPECT_NE(other.error().what.find("show a half angle of 10.0"), std::string::npos)
+        << other.error().what;
+  }
   EXPECT_EQ(find(about(Form::kTotalRunOut, {"Z"})).error().what,
             "radial run-out is that of a cylinder; of a cone ask for \"conical\"");
   EXPECT_EQ(find(along(about(Form::kTotalRunOut, {"Z"}), Direction::kConical)).error().what,
