@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,10 +62,24 @@ tl::expected<std::vector<std::size_t>, std::string> features_of_datum(const Plan
   }
 }
 
+/// Whether two features take the same rows of a file.
+bool same_rows(const FeaturePlan& a, const FeaturePlan& b) {
+  const auto path = [](const FeaturePlan& f) {
+    return std::filesystem::path(f.source->file).lexically_normal();
+  };
+  return a.source && b.source && path(a) == path(b) && a.source->feature == b.source->feature;
+}
+
 /// Why a feature is no datum, or part of no common datum; empty where it is.
 std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum) {
   const FeaturePlan& feature = plan.features[datum];
   if (datum == owner) return "a feature is no datum of itself; name another";
+  if (same_rows(feature, plan.features[owner])) {
+    return fmt::format(
+        "{} and {} take the same rows of one file, and a feature is no datum of itself; name "
+        "another",
+        in_quotes(feature.id), in_quotes(plan.features[owner].id));
+  }
   switch (feature.type) {
     case Shape::kCylinder:
     case Shape::kCircle:

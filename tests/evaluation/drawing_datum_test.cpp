@@ -410,9 +410,23 @@ TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
 TEST(DrawingRunOut, AboutItsOwnCircumscribedAxisIsTheCylindricity) {
   DrawnPart part;
   part.cylinder("A", test::w1());
-  part.cylinder("C", test::w1());
+  Layers again = test::w1();
+  for (auto& layer : again) std::ranges::reverse(layer);
+  part.cylinder("C", again);
   EXPECT_NEAR(part.value(about(Form::kTotalRunOut, {"A"}, Association::kOneSided)), 0.014990571544,
               1e-8);
+}
+
+TEST(DrawingDatums, OfTheSamePointsUnderAnotherNameAreRefused) {
+  DrawnPart part;
+  part.cylinder("A", test::w1());
+  part.cylinder("C", test::w1());
+  for (const Form form : {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality}) {
+    EXPECT_EQ(
+        why_refused(part, about(form, {"A"})).what,
+        "datum \"A\": A and C have the same points, and a feature is no datum of itself; name "
+        "another, or give each its own points");
+  }
 }
 
 /// A surface as prepared() makes it of whole layers; for shapes whose fit is not of interest here.

@@ -87,6 +87,14 @@ TEST(PlanDrawing, RowsOfOneFileThatNameTwoClampingsAreNotRelated) {
                                    "clampings \"two\" and \"one\""));
 }
 
+TEST(PlanDrawing, AFeatureOfTheSameRowsIsNoDatum) {
+  std::string plan = documented_plan();
+  const std::string rows = R"("feature": "B")";
+  plan.replace(plan.find(rows), rows.size(), R"("feature": "C")");
+  EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
+              ::testing::HasSubstr("\"journal B\" and \"seat C\" take the same rows of one file"));
+}
+
 TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
   const std::string page = bytes_of(testing::source_dir() / "docs/drawing.md");
   for (const record::FormFacts& facts : record::kFormFacts) {
