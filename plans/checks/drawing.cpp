@@ -203,6 +203,12 @@ void check_size(const Asked& asked) {
   using Size = Indication::Size;
   const Indication& i = asked.task.indication;
   const Shape shape = asked.feature().type;
+  const std::string source = feature_pointer(asked.feature_index) + "/source";
+  if (asked.feature().source && asked.findings.sound(source) &&
+      !asked.feature().source->tip_diameter_mm) {
+    asked.refuse("form", "a size needs the tip that took the points; add source.tip_diameter_mm",
+                 Code::kMissingKey);
+  }
   if (i.size == Size::kLS) {
     return asked.refuse("size",
                         "spherical size needs an areal cloud, points all round each centre; ask "
