@@ -1,11 +1,15 @@
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/run/internal/run_head.h"
+#include "plans/schema/json_text.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -85,6 +89,26 @@ TEST(PlanDrawing, RowsOfOneFileThatNameTwoClampingsAreNotRelated) {
   EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
               ::testing::HasSubstr("\"seat C\" and \"journal A\" are of one file and of the "
                                    "clampings \"two\" and \"one\""));
+}
+
+TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "rows_without_a_feature";
+  std::filesystem::create_directories(folder);
+  std::string text = bytes_of(shaft_folder() / "shaft.csv");
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  const auto problems = [&](const std::string& rows) {
+    EXPECT_TRUE(record::write_file(folder / "shaft.csv", text + rows));
+    return lines_of(parse_plan(documented_plan(), folder, "plan.json"));
+  };
+  EXPECT_EQ(problems(""), "");
+  EXPECT_EQ(
+      problems("1,2,3,0,c\n1,2,3,0,\"C\"\n4,5,6,0,c\n"),
+      fmt::format("/features/0/source/feature: the file \"shaft.csv\" has rows that no feature "
+                  "of the plan takes: {} (2 rows from line {} on), {} (1 rows from line {} "
+                  "on); correct the names, which count letter by letter, plan a feature for "
+                  "them, or take them out [meaning]\n",
+                  in_quotes("c"), lines + 1, in_quotes("\"C\""), lines + 2));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(PlanDrawing, ASizeOfAFileNeedsItsTip) {
