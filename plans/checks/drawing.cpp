@@ -367,6 +367,13 @@ void check_filter(const Asked& asked) {
                  "this key is missing: the filter has no cut-off; give cutoff_upr, e.g. 50",
                  Code::kMissingKey);
   }
+  constexpr double kLeastCutoff_upr = 2.0;
+  if (i.cutoff_upr && *i.cutoff_upr < kLeastCutoff_upr && record::takes(form, "cutoff_upr")) {
+    asked.refuse("cutoff_upr",
+                 fmt::format("a cut-off of {} UPR leaves no form, which begins at 2; give at least "
+                             "2, e.g. 50",
+                             plain(*i.cutoff_upr)));
+  }
 }
 
 void check_of_surface(const Asked& asked) {

@@ -111,6 +111,13 @@ TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(PlanDrawing, ACutOffBelowTwoLeavesNoForm) {
+  EXPECT_EQ(problems_with(R"("cutoff_upr": 50)", R"("cutoff_upr": 2)"), "");
+  EXPECT_THAT(problems_with(R"("cutoff_upr": 50)", R"("cutoff_upr": 1.9)"),
+              ::testing::HasSubstr("/features/0/characteristics/3/cutoff_upr: a cut-off of 1.9 UPR "
+                                   "leaves no form"));
+}
+
 TEST(PlanDrawing, ASizeOfAFileNeedsItsTip) {
   const std::string problems = problems_with(R"(, "tip_diameter_mm": 2)", "");
   for (const std::string size : {"0", "1"}) {
