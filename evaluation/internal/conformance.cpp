@@ -169,6 +169,7 @@ struct Judged {
   core::Phrase reason = {};
   std::optional<RuleOutcome> outcome = {};
   std::optional<GlobalRisks> risks = {};
+  std::optional<double> tolerance_mm = {};  ///< Between both limits of the characteristic.
 };
 
 /// Applies a rule to a value between limits.
@@ -182,7 +183,9 @@ void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, J
     out.reason = core::phrase("reported only");
     return;
   }
-  KnownValue known{.measured_mm = out.value.value_mm(), .unit = out.value.unit()};
+  KnownValue known{.measured_mm = out.value.value_mm(),
+                   .unit = out.value.unit(),
+                   .tolerance_mm = out.tolerance_mm};
   if (const UncertaintyStatement* statement = out.value.statement()) known.statement = *statement;
   auto outcome = apply_rule(*rule, known, limits);
   if (!outcome) {
@@ -254,6 +257,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   }
   const auto finding = std::make_shared<const Finding>(*std::move(found.finding));
   out.finding = finding;
+  const record::Characteristic& asked = out.characteristic;
   std::optional<Judged> worst;
   for (std::size_t i = 0; i < finding->judged.size(); ++i) {
     const JudgedValue& value = finding->judged[i];
@@ -267,6 +271,9 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
     Judged judged{StatedValue(
         value.symbol, value.value_mm, std::move(how), found.interval.judged[i],
         by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
+    if (asked.lower_mm && asked.tolerance_mm) {
+      judged.tolerance_mm = *asked.tolerance_mm - *asked.lower_mm;
+    }
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
     if (!worst || severity(judged.verdict) > severity(worst->verdict)) worst = std::move(judged);
