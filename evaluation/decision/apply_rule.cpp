@@ -243,16 +243,32 @@ core::Phrase probability_sentence(const DecisionRule& rule, double p_1, Verdict 
   return core::phrase("{}, between {:g} % and {:g} %", value, reject, accept);
 }
 
-/// Why a value and its limits have no ratio N:1, or nothing. A form deviation lies between 0 and
-/// its tolerance.
-std::optional<core::Phrase> obstacle_to_ratio(const DecisionRule& rule, const Limits& limits,
-                                              double width_mm) {
-  if (!limits.upper_mm) {
+/// The tolerance of a value, or nothing: a form deviation lies between 0 and its limit, a size with
+/// one limit anywhere beyond it.
+std::optional<double> tolerance_of(const KnownValue& value, const Limits& limits) {
+  if (value.tolerance_mm) return value.tolerance_mm;
+  if (!limits.upper_mm) return std::nullopt;
+  if (limits.lower_mm) return *limits.upper_mm - *limits.lower_mm;
+  return value.unit == core::LengthUnit::kUm ? limits.upper_mm : std::nullopt;
+}
+
+/// Why a value and its limits have no ratio N:1, or nothing.
+std::optional<core::Phrase> obstacle_to_ratio(const DecisionRule& rule, const KnownValue& value,
+                                              const Limits& limits) {
+  const double width_mm = value.statement->high_mm - value.statement->low_mm;
+  const auto tolerance = tolerance_of(value, limits);
+  if (!tolerance && limits.upper_mm) {
+    return core::phrase(
+        "the rule {:g}:1 does not apply: one upper limit of a size leaves no tolerance to compare "
+        "with; plan both limits, or another rule",
+        rule.ratio);
+  }
+  if (!tolerance) {
     return core::phrase(
         "the rule {:g}:1 does not apply: one lower limit leaves no tolerance to compare with",
         rule.ratio);
   }
-  const double tolerance_mm = *limits.upper_mm - limits.lower_mm.value_or(0.0);
+  const double tolerance_mm = *tolerance;
   if (tolerance_mm >= rule.ratio * width_mm) return std::nullopt;
   return core::phrase(
       "the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
@@ -268,10 +284,7 @@ std::optional<core::Phrase> obstacle(const DecisionRule& rule, const KnownValue&
     return core::phrase("the rule {} needs the interval {}, which was not computed",
                         core::Phrase(name_of(rule.kind)), core::Phrase(name_of(rule.measurand)));
   }
-  if (rule.kind == DecisionRule::Kind::kNToOne) {
-    const double width_mm = value.statement->high_mm - value.statement->low_mm;
-    return obstacle_to_ratio(rule, limits, width_mm);
-  }
+  if (rule.kind == DecisionRule::Kind::kNToOne) return obstacle_to_ratio(rule, value, limits);
   if (rule.kind == DecisionRule::Kind::kJcgm106 &&
       !conformance(*value.statement, rule.prior, 0.0, limits)) {
     return rule.prior ? core::phrase(

@@ -84,6 +84,8 @@ struct KnownValue {
   double measured_mm = 0.0;  ///< Value of the points as read, not corrected.
   std::optional<UncertaintyStatement> statement = {};
   core::LengthUnit unit = core::LengthUnit::kUm;  ///< In sentences; of a size mm.
+  /// Between both limits of its characteristic, where the value is held against one of them only.
+  std::optional<double> tolerance_mm = {};
 };
 
 /// Probabilities over all parts of the stated prior, for this measurement.
@@ -118,7 +120,7 @@ struct RuleOutcome {
 ///   guard band         y <= T - a U conforms, y > T + r U does not, else undecided
 /// At a lower limit the same holds mirrored. With two limits a part conforms that conforms at both,
 /// and does not where it does not at one; P is the probability to lie between them, and N:1
-/// compares with their distance.
+/// compares with their distance. One limit of a size leaves N:1 no tolerance.
 /// Under every rule, a measured value beyond a limit does not conform unless corrected values are
 /// judged: the correction grows with the declared noise, and the party that benefits declares it.
 /// @param limits  At least one; the lower below the upper. T > 0.

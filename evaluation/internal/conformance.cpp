@@ -123,6 +123,41 @@ std::optional<core::Phrase> probe_fault(const record::RunRecord& record,
   return std::nullopt;
 }
 
+/// Least-squares radius of the tip centres of a feature that has one nominal diameter.
+std::optional<double> centre_radius_mm(const FeatureResult& result) {
+  if (result.ls_cylinder) return result.ls_cylinder->radius_mm;
+  if (result.ls_sphere) return result.ls_sphere->radius_mm;
+  const bool circle = result.feature.shape == record::Shape::kCircle;
+  if (circle && !result.layers.empty() && result.layers.front().ls) {
+    return result.layers.front().ls->radius_mm;
+  }
+  return std::nullopt;
+}
+
+/// Why points of a file are not those of the nominal: they lie more than 1 % and more than 1 mm off
+/// its diameter. Where the tip is unknown, one of up to 10 mm is allowed for.
+std::optional<core::Phrase> nominal_fault(const FeatureResult& result) {
+  constexpr double kShare = 0.01;
+  constexpr double kLeast_mm = 1.0;
+  constexpr double kUnknownTip_mm = 10.0;
+  const double nominal_mm = result.feature.nominal_diameter_mm;
+  const auto radius_mm = centre_radius_mm(result);
+  if (result.feature.strategy != record::Strategy::kPointsFile || !(nominal_mm > 0.0) ||
+      !radius_mm) {
+    return std::nullopt;
+  }
+  const fit::Material material{result.feature.side == record::Side::kInside,
+                               result.tip_radius_mm.value_or(0.0)};
+  const double found_mm = material.diameter_mm(*radius_mm);
+  const double allowed_mm =
+      std::max(kShare * nominal_mm, kLeast_mm) + (result.tip_radius_mm ? 0.0 : kUnknownTip_mm);
+  if (std::abs(found_mm - nominal_mm) <= allowed_mm) return std::nullopt;
+  return core::phrase(
+      "the points show a diameter of {:.4g} mm, nominal is {:g} mm: is the file in inches? Give "
+      "points in mm, or correct nominal.diameter_mm",
+      found_mm, nominal_mm);
+}
+
 /// Why a characteristic with a value is void all the same.
 std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
                                             const std::optional<fit::ProbeTip>& probe,
@@ -145,6 +180,7 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
   if (value.unseen_rad > 0.0 && !too_wide) {
     return unseen_words(value.unseen_rad);
   }
+  if (auto fault = nominal_fault(result)) return fault;
   if (record.ending != "finished") return core::phrase("the run did not finish");
   if (result.feature.strategy != record::Strategy::kPointsFile) {
     if (auto fault = probe_fault(record, probe)) return fault;
@@ -198,6 +234,7 @@ struct Judged {
   core::Phrase reason = {};
   std::optional<RuleOutcome> outcome = {};
   std::optional<GlobalRisks> risks = {};
+  std::optional<double> tolerance_mm = {};  ///< Between both limits of the characteristic.
 };
 
 /// Applies a rule to a value between limits.
@@ -211,7 +248,9 @@ void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, J
     out.reason = core::phrase("reported only");
     return;
   }
-  KnownValue known{.measured_mm = out.value.value_mm(), .unit = out.value.unit()};
+  KnownValue known{.measured_mm = out.value.value_mm(),
+                   .unit = out.value.unit(),
+                   .tolerance_mm = out.tolerance_mm};
   if (const UncertaintyStatement* statement = out.value.statement()) known.statement = *statement;
   auto outcome = apply_rule(*rule, known, limits);
   if (!outcome) {
@@ -291,6 +330,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   }
   const auto finding = std::make_shared<const Finding>(*std::move(found.finding));
   out.finding = finding;
+  const record::Characteristic& asked = out.characteristic;
   std::optional<Judged> worst;
   double nearest_mm = HUGE_VAL;
   for (std::size_t i = 0; i < finding->judged.size(); ++i) {
@@ -305,6 +345,9 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
     Judged judged{StatedValue(
         value.symbol, value.value_mm, std::move(how), found.interval.judged[i],
         by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
+    if (asked.lower_mm && asked.tolerance_mm) {
+      judged.tolerance_mm = *asked.tolerance_mm - *asked.lower_mm;
+    }
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
     const int more = worst ? severity(judged.verdict) - severity(worst->verdict) : 1;

@@ -39,8 +39,14 @@ core::Phrase why_apart(const FeatureResult& datum, const FeatureResult& to) {
         a.file ? second : first, a.file ? first : second);
   }
   if (a.file) {
-    const bool one_file = a.file == b.file && !a.file->empty();
-    if (one_file || (!a.name.empty() && a.name == b.name)) return {};
+    if (!a.name.empty() && !b.name.empty()) {
+      if (a.name == b.name) return {};
+      return core::phrase(
+          "{} was measured in clamping \"{}\" and {} in \"{}\": measure both in one clamping, and "
+          "give both the same source.clamping",
+          first, a.name, second, b.name);
+    }
+    if (a.file == b.file && !a.file->empty()) return {};
     return core::phrase(
         "{} and {} come from different points files: put both into one file with a column "
         "\"feature\", or give both the same source.clamping if the part was not moved in between",

@@ -100,6 +100,12 @@ core::Result<std::vector<std::size_t>> features_of(std::span<const MeasuredSurfa
   return out;
 }
 
+/// Whether two features have the same points, under two names.
+bool same_points(const MeasuredSurface& a, const MeasuredSurface& b) {
+  return !a.of->cloud.empty() &&
+         std::ranges::equal(a.of->cloud, b.of->cloud, {}, &CloudPoint::tip_mm, &CloudPoint::tip_mm);
+}
+
 core::Result<NamedDatum> named_datum(std::span<const MeasuredSurface> part, const Letters& letters,
                                      std::size_t toleranced, const std::string& text) {
   auto features = features_of(part, letters, text);
@@ -110,6 +116,13 @@ core::Result<NamedDatum> named_datum(std::span<const MeasuredSurface> part, cons
     if (i == toleranced) {
       return core::fail(core::Code::kMeaning,
                         core::phrase("datum \"{}\": a feature is no datum of itself", text));
+    }
+    if (same_points(part[i], part[toleranced])) {
+      return core::fail(
+          core::Code::kMeaning,
+          core::phrase("datum \"{}\": {} and {} have the same points, and a feature is no datum of "
+                       "itself; name another, or give each its own points",
+                       text, feature.id, part[toleranced].of->feature.id));
     }
     out.plane = feature.shape == Shape::kPlane;
     if (out.plane && out.features.size() > 1) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/phrase.h"
@@ -72,9 +73,10 @@ core::Result<void> check_turned(const PreparedSurface& surface,
   return {};
 }
 
-/// Conical: normal to the surface, by the nominal half angle.
-core::Result<double> share_of(const PreparedSurface& surface, const record::Indication& asked) {
-  if (asked.direction != Direction::kConical) return 1.0;
+/// The nominal half angle, by which conical run-out is normal to the surface; none otherwise.
+core::Result<std::optional<double>> half_angle_deg(const PreparedSurface& surface,
+                                                   const record::Indication& asked) {
+  if (asked.direction != Direction::kConical) return std::nullopt;
   const auto settings = record::task_of<record::SurfaceSettings>(surface.of->feature.settings);
   if (!settings) return core::fail(settings.error());
   if (!settings->half_angle_deg) {
@@ -83,7 +85,34 @@ core::Result<double> share_of(const PreparedSurface& surface, const record::Indi
                                    "nominal.half_angle_deg",
                                    surface.of->feature.id));
   }
-  return std::cos(*settings->half_angle_deg * core::kDegree);
+  return settings->half_angle_deg;
+}
+
+/// Refuses a planned half angle that is not that of the points: the value would be of another cone.
+core::Result<void> check_half_angle(const Turned& turned, double planned_deg) {
+  constexpr double kFarthest_deg = 1.0;
+  const auto count = static_cast<double>(turned.radius.size());
+  const Eigen::Vector3d mean = fit::mean_point(turned.surface.points_mm);
+  const double mean_radius =
+      std::accumulate(turned.radius.begin(), turned.radius.end(), 0.0) / count;
+  double square = 0.0;
+  double product = 0.0;
+  for (std::size_t i = 0; i < turned.radius.size(); ++i) {
+    const double height = (turned.surface.points_mm[i] - mean).dot(turned.axis.direction);
+    square += height * height;
+    product += height * (turned.radius[i] - mean_radius);
+  }
+  // The lowest layer is the first, whichever way the axis points.
+  const Sections& sections = turned.surface.sections;
+  const bool down = !sections.empty() && sections.back().height_mm < sections.front().height_mm;
+  const double found_deg = std::atan((down ? -product : product) / square) / core::kDegree;
+  if (std::abs(found_deg - planned_deg) <= kFarthest_deg) return {};  // written to refuse no number
+  return core::fail(
+      core::Code::kMeaning,
+      core::phrase("the points of {} show a half angle of {:.2f} deg, "
+                   "nominal.half_angle_deg is {:g}: more than {:g} deg apart; correct "
+                   "the plan, > 0 opens upwards",
+                   turned.surface.of->feature.id, found_deg, planned_deg, kFarthest_deg));
 }
 
 core::Result<Turned> turned_about(const PreparedSurface& surface, const record::Indication& asked,
@@ -91,9 +120,10 @@ core::Result<Turned> turned_about(const PreparedSurface& surface, const record::
   if (auto checked = fit::check_points(surface.points_mm); !checked) {
     return core::fail(checked.error());
   }
-  const auto share = share_of(surface, asked);
-  if (!share) return core::fail(share.error());
-  Turned out{surface, datum, asked.direction == Direction::kAxial, *share, {}, {}};
+  const auto half_deg = half_angle_deg(surface, asked);
+  if (!half_deg) return core::fail(half_deg.error());
+  const double share = *half_deg ? std::cos(**half_deg * core::kDegree) : 1.0;
+  Turned out{surface, datum, asked.direction == Direction::kAxial, share, {}, {}};
   if (out.axis.direction.dot(surface.axis.direction) < 0.0) {
     out.axis.direction = -out.axis.direction;
   }
@@ -101,6 +131,11 @@ core::Result<Turned> turned_about(const PreparedSurface& surface, const record::
     out.radius.push_back(fit::distance_mm(out.axis, p));
     const double height = (p - surface.points_mm.front()).dot(out.axis.direction);
     out.measure.push_back(out.axial ? height : out.share * out.radius.back());
+  }
+  if (*half_deg) {
+    if (auto checked = check_half_angle(out, **half_deg); !checked) {
+      return core::fail(checked.error());
+    }
   }
   return out;
 }

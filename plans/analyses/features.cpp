@@ -46,12 +46,16 @@ std::vector<record::Characteristic> characteristics_of(const Plan& plan,
 
 std::string clamping_of(const Plan& plan, const FeaturePlan& feature) {
   if (!feature.source || analysis_kind(feature.type) != nullptr) return {};
+  if (!feature.source->clamping.empty()) return feature.source->clamping;
   std::size_t sharing = 0;
   std::string named;
   for (const FeaturePlan& other : plan.features) {
     if (!other.source || other.source->file != feature.source->file) continue;
     ++sharing;
-    if (named.empty()) named = other.source->clamping;
+    const std::string& own = other.source->clamping;
+    // A file of several clampings says of no other row where the part stood.
+    if (!named.empty() && !own.empty() && own != named) return feature.source->file;
+    if (named.empty()) named = own;
   }
   return named.empty() && sharing > 1 ? feature.source->file : named;
 }

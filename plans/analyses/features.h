@@ -24,8 +24,9 @@ namespace rondure::plans {
 /// them.
 [[nodiscard]] std::vector<record::Characteristic> characteristics_of(const Plan& plan,
                                                                      const FeaturePlan& feature);
-/// Name of the clamping in which the points of a file were measured: as a feature of that file
-/// names it, else the file where several features share it, else empty.
+/// Name of the clamping in which the points of a feature were measured: as it names it, else as the
+/// other features of its file name it, where they agree; else the file where several features share
+/// it, else empty.
 [[nodiscard]] std::string clamping_of(const Plan& plan, const FeaturePlan& feature);
 
 }  // namespace rondure::plans

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,10 +62,24 @@ tl::expected<std::vector<std::size_t>, std::string> features_of_datum(const Plan
   }
 }
 
+/// Whether two features take the same rows of a file.
+bool same_rows(const FeaturePlan& a, const FeaturePlan& b) {
+  const auto path = [](const FeaturePlan& f) {
+    return std::filesystem::path(f.source->file).lexically_normal();
+  };
+  return a.source && b.source && path(a) == path(b) && a.source->feature == b.source->feature;
+}
+
 /// Why a feature is no datum, or part of no common datum; empty where it is.
 std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum) {
   const FeaturePlan& feature = plan.features[datum];
   if (datum == owner) return "a feature is no datum of itself; name another";
+  if (same_rows(feature, plan.features[owner])) {
+    return fmt::format(
+        "{} and {} take the same rows of one file, and a feature is no datum of itself; name "
+        "another",
+        in_quotes(feature.id), in_quotes(plan.features[owner].id));
+  }
   switch (feature.type) {
     case Shape::kCylinder:
     case Shape::kCircle:
@@ -80,6 +95,13 @@ std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum)
   const bool together = asked.source.has_value() == feature.source.has_value() &&
                         (!files || (!clamping.empty() && clamping == clamping_of(plan, feature)));
   if (together) return {};
+  if (files && asked.source->file == feature.source->file) {
+    return fmt::format(
+        "{} and {} are of one file and of the clampings {} and {}, so nobody knows how they lie to "
+        "each other; measure both in one clamping, and give both the same \"clamping\"",
+        in_quotes(asked.id), in_quotes(feature.id), in_quotes(clamping),
+        in_quotes(clamping_of(plan, feature)));
+  }
   return files ? fmt::format(
                      "{} and {} are of different files, so nobody knows how they lie to "
                      "each other; give both sources the same \"clamping\" if they were "

@@ -203,6 +203,12 @@ void check_size(const Asked& asked) {
   using Size = Indication::Size;
   const Indication& i = asked.task.indication;
   const Shape shape = asked.feature().type;
+  const std::string source = feature_pointer(asked.feature_index) + "/source";
+  if (asked.feature().source && asked.findings.sound(source) &&
+      !asked.feature().source->tip_diameter_mm) {
+    asked.refuse("form", "a size needs the tip that took the points; add source.tip_diameter_mm",
+                 Code::kMissingKey);
+  }
   if (i.size == Size::kLS) {
     return asked.refuse("size",
                         "spherical size needs an areal cloud, points all round each centre; ask "
@@ -360,6 +366,13 @@ void check_filter(const Asked& asked) {
     asked.refuse("cutoff_upr",
                  "this key is missing: the filter has no cut-off; give cutoff_upr, e.g. 50",
                  Code::kMissingKey);
+  }
+  constexpr double kLeastCutoff_upr = 2.0;
+  if (i.cutoff_upr && *i.cutoff_upr < kLeastCutoff_upr && record::takes(form, "cutoff_upr")) {
+    asked.refuse("cutoff_upr",
+                 fmt::format("a cut-off of {} UPR leaves no form, which begins at 2; give at least "
+                             "2, e.g. 50",
+                             plain(*i.cutoff_upr)));
   }
 }
 

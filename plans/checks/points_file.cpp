@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -43,6 +45,38 @@ void check_without_layers(const FeaturePlan& feature, std::size_t index, Finding
   }
 }
 
+/// Refuses rows that no feature of the plan takes: a misspelt name is a defect left out. Said once
+/// a file, at the first feature that takes rows of it.
+void check_other_rows(const Plan& plan, std::size_t index,
+                      const std::vector<record::OtherRows>& others, Findings& findings) {
+  const auto path = [](const FeaturePlan& f) {
+    return std::filesystem::path(f.source->file).lexically_normal();
+  };
+  const FeaturePlan& own = plan.features[index];
+  constexpr std::size_t kMostNamed = 5;
+  std::size_t lost = 0;
+  std::string names;
+  for (const record::OtherRows& rows : others) {
+    bool taken = false;
+    for (std::size_t k = 0; k < plan.features.size(); ++k) {
+      const FeaturePlan& other = plan.features[k];
+      if (!other.source || path(other) != path(own)) continue;
+      if (k < index && !other.source->feature.empty()) return;
+      taken = taken || other.source->feature == rows.feature;
+    }
+    if (taken || ++lost > kMostNamed) continue;
+    names += fmt::format("{}{} ({} rows from line {} on)", names.empty() ? "" : ", ",
+                         in_quotes(rows.feature), rows.count, rows.first_line);
+  }
+  if (lost == 0) return;
+  if (lost > kMostNamed) names += fmt::format(" and {} more", lost - kMostNamed);
+  findings.meaning(
+      Code::kMeaning, feature_pointer(index) + "/source/feature",
+      fmt::format("the file {} has rows that no feature of the plan takes: {}; correct the names, "
+                  "which count letter by letter, plan a feature for them, or take them out",
+                  in_quotes(own.source->file), names));
+}
+
 }  // namespace
 
 void check_points_file(const Plan& plan, std::size_t index, Findings& findings) {
@@ -59,6 +93,7 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
     const std::string key = feature_pointer(index) + "/source/feature";
     return findings.meaning(error.code, of_key ? key : error.where, error.what);
   }
+  check_other_rows(plan, index, table->others, findings);
   const bool circle = feature.type == record::Shape::kCircle;
   if (!circle && table->dimensions != 3) {
     return findings.meaning(Code::kMeaning, where,

@@ -235,6 +235,7 @@ struct Rows {
   std::vector<Eigen::Vector3d> values;
   std::vector<int> layers = {};                 ///< Empty without that column.
   std::vector<std::string_view> features = {};  ///< In the text; empty without that column.
+  std::vector<std::size_t> lines = {};          ///< Of each row, from 1; as many as features.
 };
 
 core::Result<Rows> parse(std::string_view text, std::string_view name, const Format& format) {
@@ -256,9 +257,10 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
     plain_rows = !columns.has(kLayer) && !columns.has(kFeature);
     return {};
   };
-  const auto row = [&](std::string_view line, std::size_t) -> core::Result<void> {
+  const auto row = [&](std::string_view line, std::size_t number) -> core::Result<void> {
     if (!read_row(line, columns, values)) return core::fail(explain(line, columns));
     add_row(line.size() + 1);
+    if (columns.has(kFeature)) out.lines.push_back(number);
     return {};
   };
   const auto plain = [&](std::string_view rest) {
@@ -293,6 +295,14 @@ std::string names_in(const std::vector<std::string_view>& features) {
   return out;
 }
 
+/// Counts a row of another feature.
+void count_other(std::string_view feature, std::size_t line, std::vector<OtherRows>& others) {
+  auto at = std::find_if(others.begin(), others.end(),
+                         [&](const OtherRows& rows) { return rows.feature == feature; });
+  if (at == others.end()) at = others.insert(at, {std::string(feature), 0, line});
+  ++at->count;
+}
+
 /// How many points each layer has, layer 0 first.
 std::vector<int> points_of_layers(const std::vector<int>& layers) {
   std::vector<int> out;
@@ -315,7 +325,7 @@ int PointTable::least_points_per_layer() const {
 core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
   auto rows = parse(text, name, kPointFormat);
   if (!rows) return core::fail(rows.error());
-  return PointTable{static_cast<int>(rows->columns.count), std::move(rows->values)};
+  return PointTable{static_cast<int>(rows->columns.count), std::move(rows->values), {}, {}};
 }
 
 core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_view name,
@@ -335,13 +345,16 @@ core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_vi
                                   "column, or name no feature",
                                   quoted_text(feature)));
   }
-  PointTable out{rows->columns.has(2) ? 3 : 2, {}, {}};
+  PointTable out{rows->columns.has(2) ? 3 : 2, {}, {}, {}};
   if (rows->features.empty()) {
     out.points_mm = std::move(rows->values);
     out.layers = std::move(rows->layers);
   }
   for (std::size_t i = 0; i < rows->features.size(); ++i) {
-    if (rows->features[i] != feature) continue;
+    if (rows->features[i] != feature) {
+      count_other(rows->features[i], rows->lines[i], out.others);
+      continue;
+    }
     out.points_mm.push_back(rows->values[i]);
     if (!rows->layers.empty()) out.layers.push_back(rows->layers[i]);
   }

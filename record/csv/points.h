@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,11 +12,19 @@
 
 namespace rondure::record {
 
+/// Rows of a file that are of another feature than the one asked for.
+struct OtherRows {
+  std::string feature;
+  std::size_t count = 0;
+  std::size_t first_line = 0;  ///< In the file, from 1.
+};
+
 /// Points of a CSV file. z is 0 for a file with the columns x,y.
 struct PointTable {
   int dimensions = 3;  ///< 2 for "x,y", 3 for "x,y,z".
   std::vector<Eigen::Vector3d> points_mm;
-  std::vector<int> layers = {};  ///< Layer of each point, from 0; empty: the file says none.
+  std::vector<int> layers = {};        ///< Layer of each point, from 0; empty: the file says none.
+  std::vector<OtherRows> others = {};  ///< In the order of their first rows.
 
   /// Number of layers; 0 where the file says none.
   [[nodiscard]] int layer_count() const;

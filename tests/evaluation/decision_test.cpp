@@ -334,6 +334,24 @@ TEST(DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
   EXPECT_THAT(outcome.error().what, HasSubstr("the rule 10:1 does not apply"));
 }
 
+TEST(DecisionRule, NToOneComparesWithBothLimitsOfASizeOrNotAtAll) {
+  evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
+  rule.ratio = 4.0;
+  evaluation::KnownValue size = known(29.999, error_sample());  // the interval is 1.95 um wide
+  size.unit = core::LengthUnit::kMm;
+  const Limits upper{.lower_mm = {}, .upper_mm = 30.0};
+  const Limits lower{.lower_mm = 29.98, .upper_mm = {}};
+  for (const Limits& one : {upper, lower}) {
+    const auto alone = apply_rule(rule, size, one);
+    ASSERT_FALSE(alone);
+    EXPECT_THAT(alone.error().what, HasSubstr("leaves no tolerance to compare with"));
+  }
+  size.tolerance_mm = 20e-3;
+  for (const Limits& one : {upper, lower}) EXPECT_TRUE(apply_rule(rule, size, one));
+  size.tolerance_mm = 7e-3;
+  for (const Limits& one : {upper, lower}) EXPECT_FALSE(apply_rule(rule, size, one));
+}
+
 TEST(DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
   const auto errors = error_sample();
   evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);

@@ -412,9 +412,23 @@ TEST(DrawingDatums, OfAPerfectTaperHaveAnEqualisedAxis) {
 TEST(DrawingRunOut, AboutItsOwnCircumscribedAxisIsTheCylindricity) {
   DrawnPart part;
   part.cylinder("A", test::w1());
-  part.cylinder("C", test::w1());
+  Layers again = test::w1();
+  for (auto& layer : again) std::ranges::reverse(layer);
+  part.cylinder("C", again);
   EXPECT_NEAR(part.value(about(Form::kTotalRunOut, {"A"}, Association::kOneSided)), 0.014990571544,
               1e-8);
+}
+
+TEST(DrawingDatums, OfTheSamePointsUnderAnotherNameAreRefused) {
+  DrawnPart part;
+  part.cylinder("A", test::w1());
+  part.cylinder("C", test::w1());
+  for (const Form form : {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality}) {
+    EXPECT_EQ(
+        why_refused(part, about(form, {"A"})).what,
+        "datum \"A\": A and C have the same points, and a feature is no datum of itself; name "
+        "another, or give each its own points");
+  }
 }
 
 /// A surface as prepared() makes it of whole layers; for shapes whose fit is not of interest here.
@@ -462,6 +476,13 @@ TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
     EXPECT_NEAR(normal->local[i].value_mm, expected[i][1], 1e-10);
   }
   EXPECT_EQ(normal->worst, 2U);
+  for (const double planned_deg : {-10.0, 8.9, 11.1, 75.0}) {
+    cone.feature.settings = {test::number_setting("half_angle_deg", planned_deg)};
+    const auto other = find(along(asked, Direction::kConical));
+    ASSERT_FALSE(other.has_value()) << planned_deg;
+    EXPECT_NE(other.error().what.find("show a half angle of 10.0"), std::string::npos)
+        << other.error().what;
+  }
   EXPECT_EQ(find(about(Form::kTotalRunOut, {"Z"})).error().what,
             "radial run-out is that of a cylinder; of a cone ask for \"conical\"");
   EXPECT_EQ(find(along(about(Form::kTotalRunOut, {"Z"}), Direction::kConical)).error().what,
@@ -1015,6 +1036,12 @@ TEST(DrawingDatums, OfAnotherFileNeedTheSameClampingName) {
   EXPECT_TRUE(coaxiality_of(named).has_value());
   named.features[1].settings = {test::text_setting("clamping", "vice")};
   EXPECT_FALSE(coaxiality_of(named).has_value());
+  for (auto& feature : named.features) feature.points_sha256 = "one";
+  const auto apart = coaxiality_of(named);
+  ASSERT_FALSE(apart.has_value()) << "one file, two clampings";
+  EXPECT_NE(apart.error().what.find("A was measured in clamping \"chuck\" and C in \"vice\""),
+            std::string::npos)
+      << apart.error().what;
   auto mixed = files("one", "one");
   mixed.features[1].strategy = record::Strategy::kGuided;
   EXPECT_FALSE(coaxiality_of(mixed).has_value());

@@ -504,6 +504,11 @@ TEST(SurfaceFilter, IsRefusedWithTheNumbersThatAreThere) {
   EXPECT_THAT(gap.error().what, HasSubstr("largest gap between angles"));
   EXPECT_EQ(prepared_of(cylinder_of(w8()), gaussian(std::nullopt)).error().code,
             core::Code::kMissingKey);
+  for (const double upr : {0.001, 1.0, 1.99}) {
+    const auto eaten = prepared_of(cylinder_of(w8()), gaussian(upr));
+    ASSERT_FALSE(eaten) << upr;
+    EXPECT_THAT(eaten.error().what, HasSubstr("leaves no form"));
+  }
 }
 
 TEST(SurfaceFilter, WarnsOfAliasingThatItSees) {

@@ -272,5 +272,23 @@ TEST(References, ThreePointsHaveNoRoundnessAboutAny) {
   }
 }
 
+TEST(PointsOfAFile, FarOffTheNominalDiameterHaveNoVerdict) {
+  auto run = points_run(rough_part(3, 4, 40, core::kTwoPi), 4);
+  const auto reasons = [&](double nominal_mm) {
+    run.features.front().nominal_diameter_mm = nominal_mm;
+    std::string out;
+    for (const auto& asked : evaluated(run).features.front().characteristics) {
+      if (asked.reason.english().find("is the file in inches?") == std::string::npos) continue;
+      EXPECT_EQ(asked.verdict, Verdict::kVoid);
+      out = asked.reason.english();
+    }
+    return out;
+  };
+  const double radius_mm = evaluated(run).features.front().ls_cylinder->radius_mm - 1.5;  // tip
+  EXPECT_EQ(reasons(2.0 * radius_mm + 0.9), "");
+  EXPECT_THAT(reasons(2.0 * radius_mm + 1.1), HasSubstr("the points show a diameter of"));
+  EXPECT_THAT(reasons(2.0 * radius_mm * 25.4), HasSubstr("is the file in inches?"));
+}
+
 }  // namespace
 }  // namespace rondure::reports

@@ -1,11 +1,15 @@
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/run/internal/run_head.h"
+#include "plans/schema/json_text.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -28,6 +32,17 @@ std::string documented_plan() {
   const std::string fence = "```json\n";
   const std::size_t at = page.find(fence) + fence.size();
   return page.substr(at, page.find("```", at) - at);
+}
+
+/// Problems of that plan with one text replaced everywhere.
+std::string problems_with(const std::string& text, const std::string& other) {
+  std::string plan = documented_plan();
+  std::size_t at = plan.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  for (; at != std::string::npos; at = plan.find(text, at + other.size())) {
+    plan.replace(at, text.size(), other);
+  }
+  return lines_of(parse_plan(plan, shaft_folder(), "plan.json"));
 }
 
 /// A touched cylinder; `keys` and `characteristics` are spliced in.
@@ -62,6 +77,61 @@ TEST(PlanDrawing, TheShaftOfTheDocumentIsAPlan) {
   ASSERT_EQ(surface->exclude.size(), 1U);
   EXPECT_EQ(surface->exclude.front().to_deg, 95.0);
   EXPECT_FALSE(surface->exclude.front().guard_mm) << "absent is not 0";
+}
+
+TEST(PlanDrawing, RowsOfOneFileThatNameTwoClampingsAreNotRelated) {
+  const std::string seat = R"("feature": "C",)";
+  EXPECT_EQ(problems_with(seat, seat + R"("clamping": "one",)"), "") << "the others inherit it";
+  std::string plan = documented_plan();
+  plan.replace(plan.find(seat), seat.size(), seat + R"("clamping": "two",)");
+  const std::string journal = R"("feature": "A",)";
+  plan.replace(plan.find(journal), journal.size(), journal + R"("clamping": "one",)");
+  EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
+              ::testing::HasSubstr("\"seat C\" and \"journal A\" are of one file and of the "
+                                   "clampings \"two\" and \"one\""));
+}
+
+TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "rows_without_a_feature";
+  std::filesystem::create_directories(folder);
+  std::string text = bytes_of(shaft_folder() / "shaft.csv");
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  const auto problems = [&](const std::string& rows) {
+    EXPECT_TRUE(record::write_file(folder / "shaft.csv", text + rows));
+    return lines_of(parse_plan(documented_plan(), folder, "plan.json"));
+  };
+  EXPECT_EQ(problems(""), "");
+  EXPECT_EQ(
+      problems("1,2,3,0,c\n1,2,3,0,\"C\"\n4,5,6,0,c\n"),
+      fmt::format("/features/0/source/feature: the file \"shaft.csv\" has rows that no feature "
+                  "of the plan takes: {} (2 rows from line {} on), {} (1 rows from line {} "
+                  "on); correct the names, which count letter by letter, plan a feature for "
+                  "them, or take them out [meaning]\n",
+                  in_quotes("c"), lines + 1, in_quotes("\"C\""), lines + 2));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PlanDrawing, ACutOffBelowTwoLeavesNoForm) {
+  EXPECT_EQ(problems_with(R"("cutoff_upr": 50)", R"("cutoff_upr": 2)"), "");
+  EXPECT_THAT(problems_with(R"("cutoff_upr": 50)", R"("cutoff_upr": 1.9)"),
+              ::testing::HasSubstr("/features/0/characteristics/3/cutoff_upr: a cut-off of 1.9 UPR "
+                                   "leaves no form"));
+}
+
+TEST(PlanDrawing, ASizeOfAFileNeedsItsTip) {
+  const std::string problems = problems_with(R"(, "tip_diameter_mm": 2)", "");
+  for (const std::string size : {"0", "1"}) {
+    EXPECT_THAT(problems, ::testing::HasSubstr("/features/0/characteristics/" + size +
+                                               "/form: a size needs the tip that took the points"));
+  }
+}
+
+TEST(PlanDrawing, AFeatureOfTheSameRowsIsNoDatum) {
+  std::string plan = documented_plan();
+  const std::string rows = R"("feature": "B")";
+  plan.replace(plan.find(rows), rows.size(), R"("feature": "C")");
+  EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
+              ::testing::HasSubstr("\"journal B\" and \"seat C\" take the same rows of one file"));
 }
 
 TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {

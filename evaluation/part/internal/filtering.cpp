@@ -392,6 +392,14 @@ core::Result<void> check_filter(const PreparedSurface& surface,
         error_of(core::Code::kMissingKey,
                  core::phrase("the filter has no cut-off; give cutoff_upr, e.g. 50")));
   }
+  constexpr double kLeastCutoff_upr = 2.0;
+  if (indication.cutoff_upr && !(*indication.cutoff_upr >= kLeastCutoff_upr)) {
+    return core::fail(error_of(
+        core::Code::kMeaning,
+        core::phrase("a cut-off of {:g} UPR leaves no form, which begins at 2; give cutoff_upr of "
+                     "at least 2, e.g. 50",
+                     *indication.cutoff_upr)));
+  }
   if (*indication.filter == Filter::kGaussian) return {};
   if (indication.cutoff_mm && shape == record::Shape::kCylinder) {
     return core::fail(error_of(
