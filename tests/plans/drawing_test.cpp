@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "evaluation/results/finding.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/run/internal/run_head.h"
+#include "random_inspection.h"
 #include "record/tasks/form_facts.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -22,11 +24,12 @@ using testing::lines_of;
 
 std::filesystem::path shaft_folder() { return testing::source_dir() / "tests/data/shaft_drawing"; }
 
-/// The plan at the end of docs/drawing.md.
-std::string documented_plan() {
+/// The plans of docs/drawing.md: of points from a file, and of touches.
+std::string documented_plan(int number = 0) {
   const std::string page = bytes_of(testing::source_dir() / "docs/drawing.md");
   const std::string fence = "```json\n";
-  const std::size_t at = page.find(fence) + fence.size();
+  std::size_t at = page.find(fence) + fence.size();
+  for (int k = 0; k < number; ++k) at = page.find(fence, at) + fence.size();
   return page.substr(at, page.find("```", at) - at);
 }
 
@@ -62,6 +65,21 @@ TEST(PlanDrawing, TheShaftOfTheDocumentIsAPlan) {
   ASSERT_EQ(surface->exclude.size(), 1U);
   EXPECT_EQ(surface->exclude.front().to_deg, 95.0);
   EXPECT_FALSE(surface->exclude.front().guard_mm) << "absent is not 0";
+}
+
+TEST(PlanDrawing, TheTouchedShaftOfTheDocumentIsMeasured) {
+  const auto plan = parse_plan(documented_plan(1), "", "plan.json");
+  ASSERT_TRUE(plan) << lines_of(plan);
+  const auto run = test::inspect(*plan);
+  const auto& a = run.evaluation.features.front().characteristics;
+  ASSERT_EQ(a.size(), 2U);
+  ASSERT_TRUE(a.front().finding);
+  EXPECT_NEAR(a.front().finding->judged.front().value_mm, 29.994, 1e-6);
+  EXPECT_EQ(a.front().finding->left_out.size(), 1U) << "one touch lies in the keyway";
+  const auto& c = run.evaluation.features.back().characteristics;
+  ASSERT_EQ(c.size(), 2U);
+  ASSERT_TRUE(c.back().finding);
+  EXPECT_NEAR(c.back().finding->judged.front().value_mm, 0.008, 1e-5) << "twice the offset";
 }
 
 TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
