@@ -232,7 +232,8 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
     return none("its points come from a file: a run states the interval at once");
   }
   if (asked.form != record::Form::kCylindricity && asked.form != record::Form::kRoundness) {
-    return none("intervals are computed of CYLt and RONt only");
+    return none(
+        "only intervals of CYLt and RONt are predicted; the run computes those of the others");
   }
   if (auto why = why_no_interval(expected, of)) return none(*std::move(why));
   auto rehearsal = TrialInspection::of(expected, feature);

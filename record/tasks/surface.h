@@ -73,8 +73,10 @@ void describe(Visitor& v, SamplingSettings& p) {
 
 template <class Visitor>
 void describe(Visitor& v, WindowTask& p) {
-  const NumberSpec angle = within(
-      360.0, "Counter-clockwise from the first to the second; both left out: the whole turn.");
+  const NumberSpec angle =
+      within(360.0,
+             "From part x about the axis of the surface, counter-clockwise from "
+             "the first to the second; both left out: the whole turn.");
   const NumberSpec height =
       within(10'000.0, "Part z, of a plane the radius; left out: to the end of the surface.");
   v.text("name", p.name, {.required = true, .empty_allowed = false, .meaning = "e.g. keyway."});
@@ -84,7 +86,8 @@ void describe(Visitor& v, WindowTask& p) {
   v.number("to_mm", p.to_mm, height);
   v.number("guard_mm", p.guard_mm,
            range(0.0, 100.0,
-                 "Widens the window on all sides; left out: 0.5 mm and the radius of the tip."));
+                 "Widens the window on all sides: the window itself is stated without "
+                 "it. Left out: 0.5 mm and the radius of the tip."));
   v.number("found_beyond_um", p.found_beyond_um,
            above(0.0, 10'000.0,
                  "Leaves out only the points of the window that lie farther than this from the "

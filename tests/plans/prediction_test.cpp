@@ -405,6 +405,8 @@ TEST(Prediction, SaysWhyThereIsNone) {
   plan.uncertainty->form_spectrum->terms.clear();
   EXPECT_THAT(why(plan), HasSubstr("do not tell the form between them"));
   record::RunRecord record = expected(small(0.5, 2));
+  record.features[0].characteristics[0].form = record::Form::kDiameter;
+  EXPECT_THAT(predicted(record, few()).why, HasSubstr("the run computes those of the others"));
   record.features[0].strategy = record::Strategy::kPointsFile;
   EXPECT_THAT(predicted(record, few()).why, HasSubstr("come from a file"));
   record.features[0].shape = record::Shape::kWheel;

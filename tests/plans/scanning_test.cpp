@@ -132,6 +132,29 @@ TEST(Scanning, KeywayAndBurrAreSeen) {
   EXPECT_NEAR(zone_mm(test::inspect(plan)), 0.3, 0.01);
 }
 
+TEST(Scanning, AKeywayDeeperThanTheSearchIsNamedWithItsWindow) {
+  Plan plan = perfect_plan("scan");
+  plan.machine->search_mm = 3.0;
+  FeaturePlan& feature = plan.features.front();
+  feature.sampling.points_per_layer = 180;
+  feature.sampling.start_deg = 0.0;  // the touches that locate are at multiples of 60 deg
+  plan.simulation->part.keyways = {{90.0, 0.0, 8.0, 200.0, 8.0}};
+  record::WindowTask slot;
+  slot.name = "slot";
+  slot.from_deg = 80.0;
+  slot.to_deg = 100.0;
+  feature.exclude = {slot};
+  const fs::path root = fs::temp_directory_path() / ("rondure-slot-" + std::to_string(getpid()));
+  fs::remove_all(root);
+  const auto run = run_plan(plan, options_for(root / "run"));
+  ASSERT_TRUE(run && run->failure);
+  const std::string& what = run->failure->what;
+  EXPECT_EQ(run->failure->code, core::Code::kNoTouch) << what;
+  EXPECT_NE(what.find("the window slot crosses this layer"), std::string::npos) << what;
+  EXPECT_NE(what.find("machine.search_mm (3 mm)"), std::string::npos) << what;
+  fs::remove_all(root);
+}
+
 TEST(Temperature, SizesAreBroughtToTwentyDegrees) {
   Plan plan = perfect_plan("touch");
   plan.environment.emplace().max_degC = 25.0;

@@ -47,8 +47,10 @@ struct SharedLines {
 /// The datums of a characteristic, in their order.
 /// @param part   As in find(); windows of the datum features are left out, nothing is filtered.
 /// @param proof  kNone: without the equalised one and the play beside a one-sided datum.
-[[nodiscard]] core::Result<std::vector<DatumResult>> datums_of(
-    const PartState& part, std::size_t feature, const record::Characteristic& asked, Proof proof);
+[[nodiscard]] core::Result<std::vector<DatumResult>> datums_of(const PartState& part,
+                                                               std::size_t feature,
+                                                               const record::Characteristic& asked,
+                                                               Proof proof);
 /// Whether a characteristic needs a place, an axis; the others need a direction only.
 [[nodiscard]] bool needs_datum_axis(record::Form form);
 

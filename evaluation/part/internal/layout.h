@@ -40,7 +40,7 @@ struct SurfaceLayout {
   std::vector<std::size_t> outlying;      ///< Rows beyond five scales, farthest first.
   std::vector<double> off_mm;             ///< How far each of these is off.
   std::optional<core::Error> too_many;    ///< Why the outlier rule cannot be applied.
-  std::optional<core::Error> form;  ///< Why the outlying points are form: neighbours lie off.
+  std::optional<core::Error> form;        ///< Why the outlying points are form: neighbours lie off.
   std::vector<core::Error> warnings;
 };
 

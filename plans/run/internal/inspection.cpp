@@ -12,6 +12,42 @@
 #include "plans/checks/internal/merged_reach.h"
 
 namespace rondure::plans {
+namespace {
+
+/// The window in which a point lies; of a scan, one that crosses its layer.
+const record::WindowTask* window_at(const FeaturePlan& feature, const Target& target) {
+  if (feature.type == record::Shape::kPlane) return nullptr;  // its windows are of radii
+  const bool scan = feature.sampling.method == record::SamplingMethod::kScan;
+  for (const record::WindowTask& window : feature.exclude) {
+    if (target.z_mm < window.from_mm.value_or(target.z_mm)) continue;
+    if (target.z_mm > window.to_mm.value_or(target.z_mm)) continue;
+    if (scan || !window.from_deg || !window.to_deg) return &window;
+    const auto turned_deg = [&](double to_deg) {
+      const double turn = std::fmod(to_deg - *window.from_deg, 360.0);
+      return turn < 0.0 ? turn + 360.0 : turn;
+    };
+    if (turned_deg(core::degrees(target.theta_rad)) <= turned_deg(*window.to_deg)) return &window;
+  }
+  return nullptr;
+}
+
+/// A window leaves points out of the evaluation, not out of the path.
+std::string window_advice(const Plan& plan, const FeaturePlan& feature, const Target& target) {
+  const record::WindowTask* window = window_at(feature, target);
+  if (window == nullptr) return {};
+  if (feature.sampling.method == record::SamplingMethod::kScan) {
+    return fmt::format(
+        "; the window {} crosses this layer, and a scan goes through windows, too: where one is "
+        "deeper than machine.search_mm ({:g} mm), raise search_mm, or plan the layers beside it",
+        window->name, plan.machine->search_mm);
+  }
+  return fmt::format(
+      "; the point lies in the window {}, and points in windows are touched, too: where one is "
+      "deeper than machine.search_mm ({:g} mm), raise search_mm, or turn sampling.start_deg",
+      window->name, plan.machine->search_mm);
+}
+
+}  // namespace
 
 FeatureSession::FeatureSession(RunContext& context, int feature_index, std::vector<Target> targets)
     : context_(context),
@@ -44,6 +80,7 @@ tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
         "; check that the part of the plan is clamped where the plan says "
         "(location_uncertainty_mm)";
   }
+  if (error.code == core::Code::kNoTouch) advice += window_advice(context_.plan, feature_, target);
   if (error.code == core::Code::kCollision)
     advice += ", and move the tip clear by hand before the next run";
   return core::fail(

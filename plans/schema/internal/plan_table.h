@@ -61,8 +61,9 @@ void describe(Visitor& v, PartPlan& p) {
   v.number("expansion_uncertainty_per_K", p.expansion_uncertainty_per_K,
            range(0.0, 1e-4, "Its standard uncertainty."));
   v.list("sections", p.sections,
-         {.meaning = "The part beside the inspected surfaces: shoulders, necks, neighbours. The "
-                     "path of the tip keeps clear of them."});
+         {.meaning = "The part beside the inspected surfaces: shoulders, necks, "
+                     "neighbours. The path of the tip keeps clear of them, and of the "
+                     "touched outside surfaces by itself."});
 }
 
 /// Settings of the server for the driver "ippdme".
@@ -108,7 +109,9 @@ void describe(Visitor& v, MachinePlan& p) {
   v.number("approach_mm", p.approach_mm,
            above(0.0, 100.0, "The slow search starts this far before the expected contact."));
   v.number("search_mm", p.search_mm,
-           above(0.0, 100.0, "The slow search gives up this far behind the expected contact."));
+           above(0.0, 100.0,
+                 "The slow search gives up this far behind the expected contact; a "
+                 "deeper keyway ends the scan or the touch in it."));
   v.number("clearance_mm", p.clearance_mm,
            above(0.0, 500.0, "Distance kept from part, fixture and table while travelling."));
   v.number("travel_speed_mm_s", p.travel_speed_mm_s, above(0.0, 1000.0, "Speed between touches."));
@@ -303,8 +306,9 @@ void describe(Visitor& v, NominalPlan& p) {
            within(85.0, "Of a cone: half of its angle; > 0: it opens along part z."));
   v.number("z_mm", p.z_mm, within(kMaxCoordinate_mm, "Of a plane: its place, part z."));
   v.text("faces", p.faces,
-         {.meaning = "Of a plane: the side to which it faces, out of the material; up is along "
-                     "part z. Needed where it is touched, is a datum or has a run-out."});
+         {.meaning = "Of a plane: the side to which it faces, out of the material; up is "
+                     "along part z, in a file toward greater z. Needed where it is touched, is a "
+                     "datum or has a run-out."});
   const auto edge = [](std::string_view meaning) { return range(0.0, 1000.0, meaning); };
   v.number("from_diameter_mm", p.from_diameter_mm, edge("Of a plane: its inner edge."));
   v.number("to_diameter_mm", p.to_diameter_mm, edge("Of a plane: its outer edge."));
@@ -320,15 +324,21 @@ void describe(Visitor& v, SamplingPlan& p) {
                   "then hundreds of points a layer cost seconds."});
   v.whole("layers", p.layers,
           range(1, 1000,
-                "Sections along the axis: at least 2 for a cylinder; 1 for a circle, also "
-                "when left out."));
+                "Sections along the axis: at least 2 for a cylinder; 1 for a circle, "
+                "also when left out. Of a plane: circles, the innermost first."));
   v.whole("points_per_layer", p.points_per_layer,
-          range(3, 100'000, "Equispaced points of every section; at least 4 for a circle."));
+          range(3, 100'000,
+                "Equispaced points of every section; at least 4 for a circle. Of a "
+                "scan: the points of one turn, at least 7 per undulation of the "
+                "filter, e.g. 360 at 50 UPR."));
   v.number("margin_mm", p.margin_mm,
            range(0.0, kMaxCoordinate_mm,
-                 "Distance of the first and the last layer from the ends of the surface."));
+                 "Distance of the first and the last layer from the ends of the "
+                 "surface; of a plane radial, from its edges."));
   v.number("start_deg", p.start_deg,
-           within(360.0, "Angle of the first point of the lowest layer."));
+           within(360.0,
+                  "Angle of the first point of the lowest layer: from part x, "
+                  "counter-clockwise seen against part z."));
   v.number("stagger", p.stagger,
            range(0.0, 1.0,
                  "Shift of the angles from layer to layer: 0, every layer starts alike; 1, "
@@ -390,7 +400,9 @@ void describe(Visitor& v, PoseSearchPlan& p) {
   v.whole("max_poses", p.max_poses,
           range(1, 100, "Levelling gives up after so many poses (guided)."));
   v.whole("repeats", p.repeats,
-          range(1, 1000, "Touches of every point of the final cloud; their mean is evaluated."));
+          range(1, 1000,
+                "Touches of every point of the final cloud; their mean is evaluated. "
+                "A scan is repeated as often, too: 1 is usual for it."));
 }
 
 template <class Visitor>
@@ -409,7 +421,8 @@ void describe(Visitor& v, SourcePlan& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z, beside them "
-                     "layer (whole numbers from 0, the lowest) and feature (a name); for a "
+                     "layer (whole numbers from 0, the lowest; of a plane its circles) and "
+                     "feature (a name); for a "
                      "spindle, of readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
@@ -456,7 +469,8 @@ void describe(Visitor& v, FeaturePlan& p) {
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("exclude", p.exclude,
-         {.meaning = "Windows that are left out of the surface: a keyway, an oil hole."});
+         {.meaning = "Windows that are left out of the surface: a keyway, an oil hole. The "
+                     "machine touches and scans them all the same."});
   v.object("defaults", p.defaults,
            {.meaning = "For the characteristics of this feature that do not give these keys."});
   v.object("decision_rule", p.decision_rule,
