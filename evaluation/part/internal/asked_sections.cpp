@@ -107,26 +107,28 @@ std::optional<fit::Axis> circle_axis(const PreparedSurface& surface,
   // The circle of a row is so large that no point stands off its chord.
   if (chord_mm * chord_mm < 8.0 * circle->radius_mm * kOffCircle) return std::nullopt;
   return fit::Axis{surface.axis.point_mm + frame * circle->center_mm, surface.axis.direction};
-  /// section_layers counts from the lowest layer; a file may number its layers as it likes.
-  core::Result<void> check_ascending(const PreparedSurface& surface, const Sections& sections) {
-    double up = 1.0;  // of a plane heights are radii
-    if (surface.of->feature.shape != record::Shape::kPlane) {
-      Eigen::Index largest = 0;
-      surface.axis.direction.cwiseAbs().maxCoeff(&largest);
-      up = surface.axis.direction[largest] < 0.0 ? -1.0 : 1.0;
-    }
-    for (std::size_t i = 1; i < sections.size(); ++i) {
-      const SurfaceSection& below = sections[i - 1];
-      const SurfaceSection& above = sections[i];
-      if (below.layer == above.layer || up * above.height_mm > up * below.height_mm) continue;
-      return core::fail(
-          core::Code::kMeaning,
-          core::phrase("section_layers counts from the lowest layer, but layer {} lies below layer "
-                       "{}: number the layers of the file upwards",
-                       above.layer + 1, below.layer + 1));
-    }
-    return {};
+}
+
+/// section_layers counts from the lowest layer; a file may number its layers as it likes.
+core::Result<void> check_ascending(const PreparedSurface& surface, const Sections& sections) {
+  double up = 1.0;  // of a plane heights are radii
+  if (surface.of->feature.shape != record::Shape::kPlane) {
+    Eigen::Index largest = 0;
+    surface.axis.direction.cwiseAbs().maxCoeff(&largest);
+    up = surface.axis.direction[largest] < 0.0 ? -1.0 : 1.0;
   }
+  for (std::size_t i = 1; i < sections.size(); ++i) {
+    const SurfaceSection& below = sections[i - 1];
+    const SurfaceSection& above = sections[i];
+    if (below.layer == above.layer || up * above.height_mm > up * below.height_mm) continue;
+    return core::fail(
+        core::Code::kMeaning,
+        core::phrase("section_layers counts from the lowest layer, but layer {} lies below layer "
+                     "{}: number the layers of the file upwards",
+                     above.layer + 1, below.layer + 1));
+  }
+  return {};
+}
 
 }  // namespace
 
