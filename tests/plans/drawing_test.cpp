@@ -135,36 +135,37 @@ TEST(PlanDrawing, AFeatureOfTheSameRowsIsNoDatum) {
   plan.replace(plan.find(rows), rows.size(), R"("feature": "C")");
   EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
               ::testing::HasSubstr("\"journal B\" and \"seat C\" take the same rows of one file"));
-  TEST(PlanDrawing, TheTouchedShaftOfTheDocumentIsMeasured) {
-    const auto plan = parse_plan(documented_plan(1), "", "plan.json");
-    ASSERT_TRUE(plan) << lines_of(plan);
-    const auto run = test::inspect(*plan);
-    const auto& a = run.evaluation.features.front().characteristics;
-    ASSERT_EQ(a.size(), 2U);
-    ASSERT_TRUE(a.front().finding);
-    EXPECT_NEAR(a.front().finding->judged.front().value_mm, 29.994, 1e-6);
-    EXPECT_EQ(a.front().finding->left_out.size(), 1U) << "one touch lies in the keyway";
-    const auto& c = run.evaluation.features.back().characteristics;
-    ASSERT_EQ(c.size(), 2U);
-    ASSERT_TRUE(c.back().finding);
-    EXPECT_NEAR(c.back().finding->judged.front().value_mm, 0.008, 1e-5) << "twice the offset";
-  }
+}
 
-  TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
-    const std::string page = bytes_of(testing::source_dir() / "docs/drawing.md");
-    for (const record::FormFacts& facts : record::kFormFacts) {
-      const bool of_surface =
-          facts.shapes.contains(Shape::kCylinder) || facts.shapes.contains(Shape::kPlane);
-      if (!of_surface) continue;
-      EXPECT_THAT(page, ::testing::HasSubstr(std::string(name_of(facts.form))));
-    }
-  }
+TEST(PlanDrawing, TheTouchedShaftOfTheDocumentIsMeasured) {
+  const auto plan = parse_plan(documented_plan(1), "", "plan.json");
+  ASSERT_TRUE(plan) << lines_of(plan);
+  const auto run = test::inspect(*plan);
+  const auto& a = run.evaluation.features.front().characteristics;
+  ASSERT_EQ(a.size(), 2U);
+  ASSERT_TRUE(a.front().finding);
+  EXPECT_NEAR(a.front().finding->judged.front().value_mm, 29.994, 1e-6);
+  EXPECT_EQ(a.front().finding->left_out.size(), 1U) << "one touch lies in the keyway";
+  const auto& c = run.evaluation.features.back().characteristics;
+  ASSERT_EQ(c.size(), 2U);
+  ASSERT_TRUE(c.back().finding);
+  EXPECT_NEAR(c.back().finding->judged.front().value_mm, 0.008, 1e-5) << "twice the offset";
+}
 
-  TEST(PlanDrawing, TouchedCylindersMayHaveEachFormThatNeedsNoDatum) {
-    const std::string sampling =
-        R"("sampling": {"layers": 4, "points_per_layer": 8, "stagger": 0},)";
-    const auto plan = touched_cylinder(
-        R"({"id": "1", "form": "diameter", "size": "GN", "lower_um": -13, "upper_um": 0},
+TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
+  const std::string page = bytes_of(testing::source_dir() / "docs/drawing.md");
+  for (const record::FormFacts& facts : record::kFormFacts) {
+    const bool of_surface =
+        facts.shapes.contains(Shape::kCylinder) || facts.shapes.contains(Shape::kPlane);
+    if (!of_surface) continue;
+    EXPECT_THAT(page, ::testing::HasSubstr(std::string(name_of(facts.form))));
+  }
+}
+
+TEST(PlanDrawing, TouchedCylindersMayHaveEachFormThatNeedsNoDatum) {
+  const std::string sampling = R"("sampling": {"layers": 4, "points_per_layer": 8, "stagger": 0},)";
+  const auto plan = touched_cylinder(
+      R"({"id": "1", "form": "diameter", "size": "GN", "lower_um": -13, "upper_um": 0},
          {"id": "2", "form": "diameter", "requirement": "envelope", "lower_um": -13,
           "upper_um": 0},
          {"id": "3", "form": "straightness", "reference": "ls", "tolerance_um": 2},
@@ -172,65 +173,65 @@ TEST(PlanDrawing, AFeatureOfTheSameRowsIsNoDatum) {
          {"id": "5", "form": "taper"}, {"id": "6", "form": "generatrix-parallelism"},
          {"id": "7", "form": "cylindricity", "parameter": "rms", "tolerance_um": 2},
          {"id": "8", "form": "diameter", "rank": "SR", "tolerance_um": 5})",
-        sampling);
-    ASSERT_TRUE(plan) << lines_of(plan);
-    const record::RunRecord head = run_head(*plan, {}, 0);
-    const record::Feature& feature = head.features.front();
-    EXPECT_EQ(feature.characteristics[6].reference, record::Reference::kLeastSquares);
-    EXPECT_DOUBLE_EQ(feature.characteristics[7].tolerance_mm.value(), 0.005);
-    const auto surface = record::task_of<record::SurfaceSettings>(feature.settings);
-    ASSERT_TRUE(surface);
-    EXPECT_EQ(surface->first_layer_mm, -35.0);
-  }
+      sampling);
+  ASSERT_TRUE(plan) << lines_of(plan);
+  const record::RunRecord head = run_head(*plan, {}, 0);
+  const record::Feature& feature = head.features.front();
+  EXPECT_EQ(feature.characteristics[6].reference, record::Reference::kLeastSquares);
+  EXPECT_DOUBLE_EQ(feature.characteristics[7].tolerance_mm.value(), 0.005);
+  const auto surface = record::task_of<record::SurfaceSettings>(feature.settings);
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->first_layer_mm, -35.0);
+}
 
-  TEST(PlanDrawing, ADatumMayBeTouched) {
-    const auto plan = parse_plan(
-        R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
+TEST(PlanDrawing, ADatumMayBeTouched) {
+  const auto plan = parse_plan(
+      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
           "machine": {}, "fixture": {}, "probe": {},
           "simulation": {}, "features": [
           {"id": "low-end", "type": "cylinder",
            "nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 0}},
           {"id": "B", "type": "cylinder", "nominal": {"diameter_mm": 50, "from_mm": 10, "to_mm": 40},
            "characteristics": [{"id": "1", "form": "coaxiality", "datum": ["low-end"]}]}]})",
-        "", "plan.json");
-    EXPECT_TRUE(plan) << lines_of(plan) << "an id may hold a hyphen";
-  }
+      "", "plan.json");
+  EXPECT_TRUE(plan) << lines_of(plan) << "an id may hold a hyphen";
+}
 
-  TEST(PlanDrawing, ARuleOfACharacteristicIsCheckedAsThatOfThePlan) {
-    const auto plan = touched_cylinder(R"({"id": "1", "form": "cylindricity", "reference": "mz",
+TEST(PlanDrawing, ARuleOfACharacteristicIsCheckedAsThatOfThePlan) {
+  const auto plan = touched_cylinder(R"({"id": "1", "form": "cylindricity", "reference": "mz",
       "tolerance_um": 4, "decision_rule": {"rule": "n-to-1", "guard_factor": 2}})");
-    ASSERT_FALSE(plan);
-    std::vector<std::string> places;
-    for (const core::Error& problem : plan.error()) places.push_back(problem.where);
-    const std::string rule = "/features/0/characteristics/0/decision_rule/";
-    EXPECT_THAT(places, ::testing::IsSupersetOf(
-                            {rule + "zones", rule + "guard_factor", std::string("/uncertainty")}));
-  }
+  ASSERT_FALSE(plan);
+  std::vector<std::string> places;
+  for (const core::Error& problem : plan.error()) places.push_back(problem.where);
+  const std::string rule = "/features/0/characteristics/0/decision_rule/";
+  EXPECT_THAT(places, ::testing::IsSupersetOf(
+                          {rule + "zones", rule + "guard_factor", std::string("/uncertainty")}));
+}
 
-  TEST(PlanDrawing, APriorIsNotOfSizes) {
-    const std::string rule =
-        R"("decision_rule": {"prior": {"mean_um": 3, "standard_deviation_um": 1}},)";
-    const auto plan =
-        touched_cylinder(R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4})", rule);
-    ASSERT_FALSE(plan);
-    EXPECT_THAT(plan.error().front().what, ::testing::HasSubstr("the prior describes form"));
-    EXPECT_TRUE(touched_cylinder(
-        R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4, "decision_rule": {}})",
-        rule));
-  }
+TEST(PlanDrawing, APriorIsNotOfSizes) {
+  const std::string rule =
+      R"("decision_rule": {"prior": {"mean_um": 3, "standard_deviation_um": 1}},)";
+  const auto plan =
+      touched_cylinder(R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4})", rule);
+  ASSERT_FALSE(plan);
+  EXPECT_THAT(plan.error().front().what, ::testing::HasSubstr("the prior describes form"));
+  EXPECT_TRUE(touched_cylinder(
+      R"({"id": "1", "form": "diameter", "size": "GG", "upper_um": 4, "decision_rule": {}})",
+      rule));
+}
 
-  TEST(FormFacts, AgreeWithTheAnalyses) {
-    for (const auto& shape : words_of(Shape{})) {
-      const AnalysisKind* const kind = analysis_kind(shape.value);
-      if (kind == nullptr) continue;
-      for (const record::FormFacts& facts : record::kFormFacts) {
-        const bool listed =
-            std::find(kind->forms.begin(), kind->forms.end(), facts.form) != kind->forms.end();
-        EXPECT_EQ(facts.shapes.contains(shape.value), listed)
-            << shape.text << " " << name_of(facts.form);
-      }
+TEST(FormFacts, AgreeWithTheAnalyses) {
+  for (const auto& shape : words_of(Shape{})) {
+    const AnalysisKind* const kind = analysis_kind(shape.value);
+    if (kind == nullptr) continue;
+    for (const record::FormFacts& facts : record::kFormFacts) {
+      const bool listed =
+          std::find(kind->forms.begin(), kind->forms.end(), facts.form) != kind->forms.end();
+      EXPECT_EQ(facts.shapes.contains(shape.value), listed)
+          << shape.text << " " << name_of(facts.form);
     }
   }
+}
 
 }  // namespace
 }  // namespace rondure::plans
