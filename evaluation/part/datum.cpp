@@ -11,6 +11,7 @@
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/clamping.h"
 #include "evaluation/part/internal/families.h"
+#include "evaluation/part/part_state.h"
 #include "fit/datums/datum_axis.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/circle.h"

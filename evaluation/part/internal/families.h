@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/result.h"
-#include "evaluation/part/part_state.h"
 #include "evaluation/part/surface.h"
 #include "evaluation/results/finding.h"
 #include "fit/profiles/generatrix.h"
@@ -16,6 +15,8 @@
 // `asked`, the numbers and the local values; find() adds what the prepared surface knows.
 
 namespace rondure::evaluation {
+
+class PartState;
 
 /// diameter.
 [[nodiscard]] core::Result<Finding> find_size(const PreparedSurface& surface,

@@ -215,9 +215,7 @@ std::string normals_of(const evaluation::FeatureResult& feature, const fit::Axis
 /// Writes the evaluated points: means of repeated touches, as tip centres where the tip is known,
 /// with normals out of the material, and with deviations where there is a zone.
 /// @return The id of the set; none without points.
-std::optional<int> add_points(QifDraft& draft, const evaluation::FeatureResult& measured) {
-  const auto outside = evaluation::outside_windows(measured);
-  const evaluation::FeatureResult& feature = outside ? *outside : measured;
+std::optional<int> add_points(QifDraft& draft, const evaluation::FeatureResult& feature) {
   if (feature.cloud.empty()) return {};
   const auto axis = zone_axis(feature);
   pugi::xml_node node = add(draft.lists.point_sets, "MeasuredPointSet");
@@ -248,7 +246,9 @@ std::optional<int> add_points(QifDraft& draft, const evaluation::FeatureResult& 
 
 }  // namespace
 
-QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& feature) {
+QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& measured) {
+  const auto outside = evaluation::outside_windows(measured);
+  const evaluation::FeatureResult& feature = outside ? *outside : measured;
   const record::Feature& asked = feature.feature;
   QifFeature out;
   if (record::is_analysis(asked.shape)) return out;
