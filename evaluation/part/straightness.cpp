@@ -280,7 +280,7 @@ core::Result<Finding> find_median_line(const PreparedSurface& surface,
     if (!line) return core::fail(line.error());
     value_mm = line->deviation_mm;
   } else {
-    const auto line = fit::min_zone_line(out.centers_mm);
+    const auto line = fit::min_zone_line(out.centers_mm, proof);
     if (!line) return core::fail(line.error());
     value_mm = line->diameter_mm;
     // Centres on one line to a picometre leave a certificate nothing to hold on to.

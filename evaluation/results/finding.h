@@ -11,13 +11,13 @@
 #include "core/phrase.h"
 #include "evaluation/decision/decision.h"
 #include "fit/geometry/axis.h"
+#include "fit/proof/certificate.h"
 #include "record/indication.h"
 
 namespace rondure::evaluation {
 
-/// What a finding is needed for. A trial of the uncertainty takes the optimum next to the
-/// least-squares feature without its proof, and no notes for a verdict.
-enum class Proof { kFull, kNone };
+/// Of a finding, kNone leaves out the notes for a verdict, too.
+using fit::Proof;
 
 /// A value with the limits that it is held against. Most characteristics have one; the envelope
 /// requirement and two-point sizes without a rank have two, one for each limit.
