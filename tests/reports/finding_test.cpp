@@ -1,7 +1,10 @@
 // What a drawing asks beside unfiltered peak-to-valley form, in each file and on the terminal.
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +14,7 @@
 #include "core/units.h"
 #include "evaluation/factors/study.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
 #include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/data/json.h"
@@ -209,6 +213,26 @@ TEST(FindingSummary, SaysLimitsWorstSectionDatumAndWhatIsLeftOut) {
                           HasSubstr("datum A-B rocks by 7.800 um"),
                           HasSubstr("11.300 um about the equalised"),
                           HasSubstr("3 points: keyway 2, outlier rule 1")));
+}
+
+TEST(FindingSummary, SaysOnceThatTheScanOfAFeatureIsUnfiltered) {
+  Case made = drawing_case();
+  auto& results = made.evaluation.features[0].characteristics;
+  for (const std::size_t i : {2U, 3U}) {
+    evaluation::Finding finding = *results[i].finding;
+    finding.warnings = {{core::Code::kUnfiltered, "of dense points"},
+                        {core::Code::kOutliers, "of one point"}};
+    results[i].finding = std::make_shared<const evaluation::Finding>(std::move(finding));
+  }
+  const std::string text =
+      write_summary(made.record, made.evaluation, SketchStyle::kAscii, Language::kEnglish);
+  const auto times = [&](std::string_view words) {
+    std::size_t out = 0;
+    for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; ++at) ++out;
+    return out;
+  };
+  EXPECT_EQ(times("of dense points"), 1U);
+  EXPECT_EQ(times("of one point"), 2U);
 }
 
 TEST(FindingSummary, ASizeIsStatedInChinese) {
