@@ -106,10 +106,10 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
   verb->footer(
       "\nExample: rondure plan plans/examples/01_spool_simulated.json --svg path.svg\n"
       "         rondure plan plans/examples/01_spool_simulated.json --target-U 1um\n"
-      "With a section \"uncertainty\" the interval of each characteristic is predicted: what the "
-      "run\nwould state, for parts of the declared form. --target-U tries layers, points and "
-      "repeats,\ntells time and U of each, and what to change in the plan; exit status 2 when none "
-      "meets it.\n"
+      "With a section \"uncertainty\" the intervals of CYLt and RONt are predicted: what the run\n"
+      "would state, for parts of the declared form. --target-U tries layers, points and repeats,\n"
+      "tells time and U of each, and what to change in the plan; exit status 2 when none meets "
+      "it.\n"
       "The run follows the same path. Targets out of reach are named with the reason and what "
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the pictures of README and docs: the way of the tip of example plan 01, and its report on a screen, in dark,
-# narrow, in Chinese and on paper, each below 300 kB. Needs a release build and the packages of the browser tests
-# (tests/browser/README.md), imagemagick, poppler-utils and, for Chinese, fonts-noto-cjk.
+# Makes the pictures of README and docs: the way of the tip of example plan 01, its report on a screen, in dark, narrow,
+# in Chinese and on paper, and call-outs of example plan 15, each below 300 kB. Needs a release build and the packages of
+# the browser tests (tests/browser/README.md), imagemagick, poppler-utils and, for Chinese, fonts-noto-cjk.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/images/planning.svg >/dev/null
@@ -14,7 +14,7 @@ tests/browser/run.sh "$PWD/build/release/tests/browser/packages" ../../docs/pict
 mkdir -p docs/pictures
 pdftoppm -r 60 -png -f 1 -l 4 "$work/print.pdf" "$work/page"
 montage "$work"/page-*.png -tile 4x1 -geometry +10+10 -background '#c8ced4' "$work/print.png"
-for picture in screen dark narrow chinese solid map print; do
+for picture in screen dark narrow chinese solid map drawing print; do
   convert "$work/$picture.png" -strip -colors 96 "PNG8:docs/pictures/$picture.png"
 done
 cp docs/pictures/screen.png docs/images/report.png

@@ -50,7 +50,7 @@ void describe_reference(Visitor& v, Keys& p) {
   v.text("reference", p.reference,
          {.meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
                      "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
-                     "(a plug gauge in a bore). Needed with a tolerance."});
+                     "(a plug gauge in a bore). Needed with a form tolerance."});
 }
 
 template <class Visitor>
@@ -94,8 +94,8 @@ void describe(Visitor& v, CharacteristicTask& p) {
   describe_reference(v, p);
   v.number("tolerance_um", p.tolerance_um,
            above(0.0, 10'000.0,
-                 "Upper limit on the drawing, of everything but a diameter; without a limit the "
-                 "value is reported, not judged."));
+                 "Upper limit on the drawing, of everything but a diameter (of that with rank SR "
+                 "or SQ); without a limit the value is reported, not judged."));
   const NumberSpec deviation = within(
       10'000.0,
       "Of a diameter: limit on the drawing as deviation from nominal.diameter_mm; of h6 at 30 mm "

@@ -37,7 +37,7 @@ std::string number_entry(const evaluation::NamedNumber& number,
                          const evaluation::StatedValue& value) {
   static constexpr auto kWords = std::to_array<NumberWords>(
       {{"pairs", translatable("Opposite pairs")},
-       {"lost pairs", translatable("Pairs without an opposite point")},
+       {"lost pairs", translatable("Lost pairs: an opposite point is missing")},
        {"diameter change over length", translatable("Change of the mean diameter over the length")},
        {"cone_angle_deg", translatable("Cone angle"), "°", 5},
        {"datum_length_mm", translatable("Length of the datum"), " mm", 3},

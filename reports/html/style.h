@@ -169,7 +169,8 @@ td{padding-top:3px;padding-bottom:3px}footer{margin-top:6px;padding-top:0;border
 /// What a page with characteristics of a drawing needs beside kStyle.
 inline constexpr std::string_view kDrawingStyle = R"css(
 .frame-box .deviations{display:inline-flex;flex-direction:column;font-size:9.5px;line-height:1.15;margin-left:4px}
-.frame-box{white-space:nowrap}.frame-box.size{vertical-align:-9px}
+.frame-box{white-space:nowrap}.results .frame-box,.results .frame-box.size{vertical-align:middle}
+.results .id{display:inline-block;vertical-align:middle;margin:2px 0}
 .frame-box .modifier{border:1.1px solid var(--ink);border-radius:9px;font-size:10px;line-height:1;padding:2px 4px;
 margin-left:5px;min-width:16px;text-align:center}
 .side-by-side{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:0 28px;align-items:start}
@@ -180,7 +181,8 @@ details{margin:8px 0}summary{cursor:pointer;font-size:13.5px}
 .window{fill:var(--soft);fill-opacity:.22;stroke:none}
 svg.face{max-width:520px}.face .label{paint-order:stroke;stroke:var(--paper);stroke-width:3px}
 @media screen and (max-width:640px){.side-by-side{grid-template-columns:1fr}}
-@media print{details{break-inside:avoid}.side-by-side{gap:0 20px}}
+@media print{details{break-inside:avoid}.side-by-side{gap:0 20px}
+.results tr:not(.words),h2+p,h2+p+p,h3+p+p,h3~.warnings{break-after:avoid}}
 )css";
 
 /// The colours of the dark theme: every text and every mark has the contrast required by WCAG 2.1
