@@ -98,8 +98,8 @@ core::Result<std::optional<double>> half_angle_deg(const PreparedSurface& surfac
   return settings->half_angle_deg;
 }
 
-/// Brings touches of a cone to one height along the planned cone. Refuses a planned half angle that
-/// is not that of the points: the value would be of another cone.
+/// Brings touches of a cone to one height along the cone that they show. Refuses a planned half
+/// angle that is not that of the points: the value would be of another cone.
 core::Result<void> bring_to_one_height(Turned& turned, double planned_deg) {
   constexpr double kFarthest_deg = 1.0;
   const auto count = static_cast<double>(turned.radius.size());
@@ -110,16 +110,21 @@ core::Result<void> bring_to_one_height(Turned& turned, double planned_deg) {
   const Sections& sections = turned.surface.sections;
   const bool down = !sections.empty() && sections.back().height_mm < sections.front().height_mm;
   const Eigen::Vector3d up = down ? -turned.axis.direction : turned.axis.direction;
-  const double widens = is_touched(turned.surface) ? std::tan(planned_deg * core::kDegree) : 0.0;
   double square = 0.0;
   double product = 0.0;
   for (std::size_t i = 0; i < turned.radius.size(); ++i) {
     const double height = (turned.surface.points_mm[i] - mean).dot(up);
     square += height * height;
     product += height * (turned.radius[i] - mean_radius);
-    turned.measure[i] -= turned.share * widens * height;
   }
-  const double found_deg = std::atan(product / square) / core::kDegree;
+  const double widens = product / square;
+  if (is_touched(turned.surface)) {
+    for (std::size_t i = 0; i < turned.radius.size(); ++i) {
+      const double height = (turned.surface.points_mm[i] - mean).dot(up);
+      turned.measure[i] -= turned.share * widens * height;
+    }
+  }
+  const double found_deg = std::atan(widens) / core::kDegree;
   if (std::abs(found_deg - planned_deg) <= kFarthest_deg) return {};  // written to refuse no number
   return core::fail(
       core::Code::kMeaning,

@@ -138,19 +138,28 @@ std::string side_view(const evaluation::CharacteristicResult& result, const fit:
   marks.marks_only = true;
   curves.push_back(std::move(line));
   curves.push_back(std::move(marks));
-  return scrolling(line_chart(seen, datum ? tr("height along the datum / mm") : tr("height / mm"),
-                              tr("offset / µm"), curves));
+  return scrolling(line_chart(
+      seen, datum ? tr("height along the datum / mm") : tr("height above the first section / mm"),
+      tr("offset / µm"), curves));
 }
 
-/// The median line seen from two sides, its offsets enlarged.
+/// The median line seen from two sides, along the two machine axes that lie across it, its offsets
+/// enlarged.
 std::string median_chart(const evaluation::CharacteristicResult& result) {
   const Finding& finding = *result.finding;
   if (finding.centers_mm.size() < 2) return {};
   if (!finding.datums.empty() && finding.datums.front().plane) return {};
   const fit::Axis axis = median_axis(finding);
-  const auto across = fit::across(axis.direction);
-  return side_view(result, axis, across.col(0), tr("Side view: offset along x")) +
-         side_view(result, axis, across.col(1), tr("Side view: offset along y"));
+  Eigen::Index along = 0;
+  axis.direction.cwiseAbs().maxCoeff(&along);
+  std::string html;
+  for (const Eigen::Index c : {0, 1, 2}) {
+    if (c == along) continue;
+    const Eigen::Vector3d across = Eigen::Vector3d::Unit(c) - axis.direction * axis.direction(c);
+    html +=
+        side_view(result, axis, across.normalized(), trf("Side view: offset along {}", "xyz"[c]));
+  }
+  return html;
 }
 
 }  // namespace

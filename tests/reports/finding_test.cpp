@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -311,6 +312,32 @@ TEST(FindingPage, SectionsAreDrawnWithoutThePointsInWindows) {
   EXPECT_THAT(page_of(made),
               AllOf(HasSubstr("2 of 28 points lie in windows"), HasSubstr("class=\"window\"")));
   EXPECT_FALSE(evaluation::outside_windows(made.evaluation.features.back()));
+}
+
+TEST(FindingPage, SeesTheMedianLineAlongTheAxesThatItNames) {
+  Case made = drawing_case();
+  auto& shown = made.evaluation.features.front().characteristics[2].finding;
+  evaluation::Finding mean = *shown;
+  // It leans by 5 mrad toward x and bends by 4 um toward x alone.
+  mean.centers_mm = {{0.0, 0.0, 0.0}, {0.054, 0.0, 10.0}, {0.1, 0.0, 20.0}};
+  shown = std::make_shared<const evaluation::Finding>(std::move(mean));
+  const std::string page = page_of(made);
+  const auto is_flat = [&](const std::string& seen) {
+    const std::size_t view = page.find("aria-label=\"" + seen);
+    const std::string start = "class=\"profile\" d=\"M";
+    const std::size_t profile = page.find(start, view);
+    EXPECT_NE(profile, std::string::npos) << seen;
+    std::istringstream path(page.substr(profile + start.size(), 60));
+    double x = 0.0;
+    double first = 0.0;
+    double second = 0.0;
+    char to = ' ';
+    path >> x >> first >> to >> x >> second;
+    EXPECT_EQ(to, 'L') << seen;
+    return first == second;
+  };
+  EXPECT_FALSE(is_flat("Side view: offset along x"));
+  EXPECT_TRUE(is_flat("Side view: offset along y"));
 }
 
 TEST(FindingPage, IsBalancedInBothLanguages) {
