@@ -33,10 +33,9 @@ struct Turned {
   const PreparedSurface& surface;
   fit::Axis axis;  ///< Out of the face, for an axial one.
   bool axial = false;
-  double share = 1.0;  ///< Of the change of the distance, normal to the surface.
-  std::vector<double>
-      measure;  ///< Distance or height of each point; of a cone as at one height [mm].
-  std::vector<double> radius;  ///< Distance of each point [mm].
+  double share = 1.0;           ///< Of the change of the distance, normal to the surface.
+  std::vector<double> measure;  ///< Distance or height; of a touched cone at one height [mm].
+  std::vector<double> radius;   ///< Distance of each point [mm].
 };
 
 struct Circle {
