@@ -97,10 +97,14 @@ core::Result<std::optional<double>> half_angle_deg(const PreparedSurface& surfac
   return settings->half_angle_deg;
 }
 
-/// Brings touches of a cone to one height along the cone that they show. Refuses a planned half
-/// angle that is not that of the points: the value would be of another cone.
-core::Result<void> bring_to_one_height(Turned& turned, double planned_deg) {
-  constexpr double kFarthest_deg = 1.0;
+/// Heights of the points along the axis, upwards, from their mean, and the slope of the radius over
+/// them.
+struct ConeSlope {
+  std::vector<double> height_mm;
+  double widens = 0.0;
+};
+
+ConeSlope slope_of(const Turned& turned) {
   const auto count = static_cast<double>(turned.radius.size());
   const Eigen::Vector3d mean = fit::mean_point(turned.surface.points_mm);
   const double mean_radius =
@@ -109,28 +113,47 @@ core::Result<void> bring_to_one_height(Turned& turned, double planned_deg) {
   const Sections& sections = turned.surface.sections;
   const bool down = !sections.empty() && sections.back().height_mm < sections.front().height_mm;
   const Eigen::Vector3d up = down ? -turned.axis.direction : turned.axis.direction;
+  ConeSlope out;
   double square = 0.0;
   double product = 0.0;
   for (std::size_t i = 0; i < turned.radius.size(); ++i) {
     const double height = (turned.surface.points_mm[i] - mean).dot(up);
+    out.height_mm.push_back(height);
     square += height * height;
     product += height * (turned.radius[i] - mean_radius);
   }
-  const double widens = product / square;
-  if (is_touched(turned.surface)) {
-    for (std::size_t i = 0; i < turned.radius.size(); ++i) {
-      const double height = (turned.surface.points_mm[i] - mean).dot(up);
-      turned.measure[i] -= turned.share * widens * height;
-    }
+  out.widens = product / square;
+  return out;
+}
+
+/// The measure of a cone as if all its points lay at one height, along the cone that they show.
+std::vector<double> at_one_height(const Turned& turned) {
+  const ConeSlope slope = slope_of(turned);
+  std::vector<double> out = turned.measure;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] -= turned.share * slope.widens * slope.height_mm[i];
   }
-  const double found_deg = std::atan(widens) / core::kDegree;
+  return out;
+}
+
+/// Refuses a planned half angle that is not that of the points: the value would be of another cone.
+core::Result<void> check_half_angle(const Turned& turned, double planned_deg) {
+  constexpr double kFarthest_deg = 1.0;
+  const std::string& id = turned.surface.of->feature.id;
+  if (turned.surface.sections.size() == 1) {
+    return core::fail(core::Code::kSampling,
+                      core::phrase("one layer tells nothing of the half angle of {}, which its "
+                                   "run-out needs: plan at least 2 layers",
+                                   id));
+  }
+  const double found_deg = std::atan(slope_of(turned).widens) / core::kDegree;
   if (std::abs(found_deg - planned_deg) <= kFarthest_deg) return {};  // written to refuse no number
   return core::fail(
       core::Code::kMeaning,
       core::phrase("the points of {} show a half angle of {:.2f} deg, "
                    "nominal.half_angle_deg is {:g}: more than {:g} deg apart; correct "
                    "the plan, > 0 opens upwards",
-                   turned.surface.of->feature.id, found_deg, planned_deg, kFarthest_deg));
+                   id, found_deg, planned_deg, kFarthest_deg));
 }
 
 core::Result<Turned> turned_about(const PreparedSurface& surface, const record::Indication& asked,
@@ -152,9 +175,10 @@ core::Result<Turned> turned_about(const PreparedSurface& surface, const record::
     out.measure.push_back(out.axial ? height : out.share * out.radius.back());
   }
   if (*half_deg) {
-    if (auto brought = bring_to_one_height(out, **half_deg); !brought) {
-      return core::fail(brought.error());
+    if (auto checked = check_half_angle(out, **half_deg); !checked) {
+      return core::fail(checked.error());
     }
+    if (is_touched(surface)) out.measure = at_one_height(out);
   }
   return out;
 }
@@ -250,6 +274,25 @@ void note_unseen_turn(const Turned& turned, const Sections& sections,
                                     : unseen_part(turned.surface, sections, about);
 }
 
+/// Rows of a file that share a layer should share a height: of a cone, heights that differ count as
+/// run-out, or hide it. No verdict where that decides.
+void note_heights(Turned turned, const std::vector<Circle>& circles,
+                  const record::Characteristic& asked, Finding& out) {
+  if (turned.surface.of->feature.shape != Shape::kCone || is_touched(turned.surface)) return;
+  if (circles.size() < 2 || !asked.tolerance_mm || out.no_verdict) return;
+  turned.measure = at_one_height(turned);
+  double value_mm = 0.0;
+  for (const Circle& circle : circles) {
+    value_mm = std::max(value_mm, measured_range(turned, circle.points).width());
+  }
+  const double read_mm = out.judged.front().value_mm;
+  if ((read_mm <= *asked.tolerance_mm) == (value_mm <= *asked.tolerance_mm)) return;
+  out.no_verdict = core::phrase(
+      "the rows of a layer lie at different heights: {:.3f} um as read, {:.3f} um brought to one "
+      "height along the cone; measure each layer at one height",
+      read_mm / core::kMicrometre, value_mm / core::kMicrometre);
+}
+
 /// The rows at both ends of the measure among some points, the greatest first.
 void add_turned_rows(const Turned& turned, const std::vector<std::size_t>& points,
                      Finding& finding) {
@@ -296,6 +339,7 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
   add_turned_rows(*about, (*found)[out.worst].points, out);
   out.judged.push_back({symbol, out.local[out.worst].value_mm, limits_of(asked)});
   note_unseen_turn(*about, turns, asked, out);
+  note_heights(*about, *found, asked, out);
   return out;
 }
 

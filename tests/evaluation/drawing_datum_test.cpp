@@ -491,8 +491,8 @@ TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
             "total run-out is radial or axial; of a cone ask for run-out");
 }
 
-TEST(DrawingRunOut, OfATouchedConeCountsEachPointAtTheHeightWhereItWasTouched) {
-  // An ideal cone that sits 0.05 mm askew under the machine is touched at heights that differ.
+/// An ideal cone that sits 0.05 mm askew under the machine is touched at heights that differ.
+Layers askew_cone() {
   Layers touched(2);
   for (int layer = 0; layer < 2; ++layer) {
     for (int k = 0; k < 12; ++k) {
@@ -503,8 +503,12 @@ TEST(DrawingRunOut, OfATouchedConeCountsEachPointAtTheHeightWhereItWasTouched) {
                                                             r * std::sin(theta), z);
     }
   }
+  return touched;
+}
+
+TEST(DrawingRunOut, OfATouchedConeCountsEachPointAtTheHeightWhereItWasTouched) {
   DrawnPart part;
-  auto& cone = part.add("K", Shape::kCone, touched);
+  auto& cone = part.add("K", Shape::kCone, askew_cone());
   cone.clamping->file.reset();
   cone.feature.settings = {test::number_setting("half_angle_deg", -15.0)};
   const std::vector<DatumResult> datums = {z_axis()};
@@ -514,6 +518,35 @@ TEST(DrawingRunOut, OfATouchedConeCountsEachPointAtTheHeightWhereItWasTouched) {
     ASSERT_TRUE(found.has_value()) << found.error().what;
     EXPECT_NEAR(found->judged.front().value_mm, 0.0, 1e-12);
   }
+}
+
+TEST(DrawingRunOut, OfAConeInAFileHasNoVerdictWhereHeightsDecide) {
+  DrawnPart part;
+  const auto& cone = part.add("K", Shape::kCone, askew_cone());
+  const std::vector<DatumResult> datums = {z_axis()};
+  const auto find = [&](double limit_mm) {
+    record::Characteristic asked = about(Form::kRunOut, {"Z"});
+    asked.tolerance_mm = limit_mm;
+    return find_run_out(prepared_by_hand(cone), asked, datums);
+  };
+  const auto near = find(0.010);
+  ASSERT_TRUE(near.has_value()) << near.error().what;
+  ASSERT_TRUE(near->no_verdict);
+  EXPECT_EQ(near->no_verdict->english(),
+            "the rows of a layer lie at different heights: 26.795 um as read, 0.000 um brought to "
+            "one height along the cone; measure each layer at one height");
+  EXPECT_FALSE(find(0.030)->no_verdict) << "both ways within the limit";
+}
+
+TEST(DrawingRunOut, OfAConeNeedsTwoLayers) {
+  DrawnPart part;
+  auto& cone = part.add("K", Shape::kCone, {askew_cone().front()});
+  cone.feature.settings = {test::number_setting("half_angle_deg", -15.0)};
+  const auto found =
+      find_run_out(prepared_by_hand(cone), along(about(Form::kRunOut, {"Z"}), Direction::kConical),
+                   std::vector<DatumResult>{z_axis()});
+  ASSERT_FALSE(found.has_value());
+  EXPECT_EQ(found.error().code, core::Code::kSampling) << found.error().what;
 }
 
 TEST(DrawingRunOut, OfAConeIsAboutTheDatumOfThePart) {
