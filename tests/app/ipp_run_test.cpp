@@ -152,6 +152,9 @@ TEST(IppRun, JudgesTheTwentyCallOutsOfADrawingAsTheRunInOneProcess) {
   const auto wire = journal_of(folder / "ippdme");
   const auto inside = journal_of(folder / "simulated");
   ASSERT_EQ(wire.touches.size(), inside.touches.size());
+  for (std::size_t i = 0; i < wire.touches.size(); ++i) {
+    ASSERT_EQ(wire.touches[i].tip_mm, inside.touches[i].tip_mm) << "touch " << i;
+  }
   int conform = 0;
   for (std::size_t f = 0; f < judged[1].size(); ++f) {
     const json& asked = judged[1][f].at("characteristics");
