@@ -71,7 +71,7 @@ enum class Code {
   kCorrelated,       ///< correlated: neighbouring residuals correlate, so are not only noise
   kLowMargin,        ///< low-margin: the wheel radius is close to a concave radius to be ground
   kSeveralOptima,    ///< several-optima: the reference is one of several nearly equal ones
-  kHarmonicLoss,     ///< harmonic-loss: a separation loses or strongly amplifies harmonics
+  kHarmonicLoss,     ///< harmonic-loss: a separation or a filter loses or amplifies harmonics
   kInconsistent,     ///< inconsistent: the data contradict the geometry they were taken with
   kUnfiltered,       ///< unfiltered: dense points, evaluated as measured
 };

@@ -453,17 +453,17 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
       });
   evaluate_poses(record, index, result);
   if (last == record.poses.end()) {
-    result.failure =
-        core::Error{core::Code::kNoPoints,
-                    record.failure ? "not measured to its end: " + record.failure->what
-                                   : "the run ended before the final cloud was measured",
-                    {}};
+    result.failure = core::error_of(
+        core::Code::kNoPoints,
+        record.failure ? core::phrase("not measured to its end: {}", record.failure->said())
+                       : core::phrase("the run ended before the final cloud was measured"));
     return result;
   }
   const auto touches = touches_of(record, last->id);
   result.cloud = measured_cloud(touches);
   if (result.cloud.empty()) {
-    result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
+    result.failure =
+        core::error_of(core::Code::kNoPoints, core::phrase("the final cloud holds no touches"));
     return result;
   }
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile;

@@ -54,6 +54,19 @@ core::Result<Finding> find_about_both(const PreparedSurface& surface,
   return found;
 }
 
+/// Form beyond the cut-off is no part of the value, and few drawings mean so little of it.
+void warn_of_low_cutoff(const record::Characteristic& asked, Finding& out) {
+  constexpr double kLeastUsual_upr = 15.0;  // of the series 15, 50, 150, ... (ISO 12181-2)
+  const auto& cutoff_upr = asked.indication.cutoff_upr;
+  const bool form = asked.form == Form::kCylindricity || asked.form == Form::kRoundness;
+  if (!form || !cutoff_upr || *cutoff_upr >= kLeastUsual_upr) return;
+  out.warnings.push_back(core::error_of(
+      core::Code::kHarmonicLoss,
+      core::phrase("form above {:g} UPR is filtered away: the lowest usual cut-off is {:g} UPR; "
+                   "plan cutoff_upr as the drawing says",
+                   *cutoff_upr, kLeastUsual_upr)));
+}
+
 }  // namespace
 
 bool is_found(const record::Feature& feature, const record::Characteristic& asked) {
@@ -117,6 +130,7 @@ core::Result<Finding> find(const PartState& part, std::size_t feature,
   found->filter = surface->filter;
   found->warnings.insert(found->warnings.begin(), surface->warnings.begin(),
                          surface->warnings.end());
+  if (proof == Proof::kFull) warn_of_low_cutoff(asked, *found);
   return found;
 }
 

@@ -512,6 +512,23 @@ TEST(SurfaceFilter, IsRefusedWithTheNumbersThatAreThere) {
   }
 }
 
+TEST(SurfaceFilter, WarnsOfACutOffThatLeavesLessFormThanIsUsual) {
+  const FeatureResult circle = cylinder_of(w8());
+  const std::vector<MeasuredSurface> part = surfaces_of({&circle, 1});
+  record::Characteristic asked{"round", record::Form::kRoundness, record::Reference::kLeastSquares,
+                               0.02, ""};
+  asked.indication = gaussian(14.0);
+  const auto low = find(part, 0, asked);
+  ASSERT_TRUE(low) << low.error().what;
+  ASSERT_EQ(low->warnings.size(), 1U);
+  EXPECT_EQ(low->warnings[0].code, core::Code::kHarmonicLoss);
+  EXPECT_THAT(low->warnings[0].what, StartsWith("form above 14 UPR is filtered away"));
+  asked.indication = gaussian(15.0);
+  const auto usual = find(part, 0, asked);
+  ASSERT_TRUE(usual) << usual.error().what;
+  EXPECT_TRUE(usual->warnings.empty());
+}
+
 TEST(SurfaceFilter, WarnsOfAliasingThatItSees) {
   const auto near_limit = [](double t) { return w8_profile(t) + 1e-3 * std::cos(170.0 * t); };
   const auto seen = prepared_of(cylinder_of({ring(360, 0.0, near_limit)}), gaussian(50.0));

@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "core/phrase.h"
 #include "core/units.h"
 
 namespace rondure::evaluation {
@@ -154,12 +153,11 @@ double deciding_mm(const fit::DeviationRange& range, const std::optional<double>
 std::optional<core::Phrase> undecided_range(const fit::DeviationRange& range,
                                             const std::optional<double>& limit_mm) {
   if (!limit_mm || range.low_mm > *limit_mm || range.high_mm <= *limit_mm) return std::nullopt;
-  return core::Phrase(fmt::format(
+  return core::phrase(
       "the reference circle is not unique: RONt is anything from {:.3f} to {:.3f} um, and the "
-      "limit "
-      "of {:g} um lies between",
+      "limit of {:g} um lies between",
       range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre,
-      *limit_mm / core::kMicrometre));
+      *limit_mm / core::kMicrometre);
 }
 
 }  // namespace rondure::evaluation
