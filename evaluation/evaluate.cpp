@@ -83,11 +83,9 @@ void place_points(const fit::Axis& axis, double middle_radius_mm, const Eigen::V
                   std::vector<CloudPoint>& cloud) {
   const Eigen::Vector3d z =
       axis.direction.z() < 0.0 ? Eigen::Vector3d(-axis.direction) : axis.direction;
-  // Angle 0 looks along machine x as far as the axis allows (along y for an axis near x).
-  Eigen::Vector3d x = Eigen::Vector3d::UnitX() - z * z.x();
-  if (x.norm() < 0.1) x = Eigen::Vector3d::UnitY() - z * z.y();
-  x.normalize();
-  const Eigen::Vector3d y = z.cross(x);
+  const auto frame = frame_of_angles(axis.direction);
+  const Eigen::Vector3d x = frame.col(0);
+  const Eigen::Vector3d y = frame.col(1);
   for (CloudPoint& point : cloud) {
     const Eigen::Vector3d v = point.tip_mm - axis.point_mm;
     const double u = v.dot(x);

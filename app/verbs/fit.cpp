@@ -211,7 +211,12 @@ void add_sizes(const FitArguments& arguments, Collector& collector, const Global
   out.material = material_of(arguments);
   const auto found = global(out.material);
   const core::Result<double> none = found.map([](const auto&) { return 0.0; });
-  if (found) check_tip(out.material, found->gg_mm, collector);
+  if (!found && found.error().code == core::Code::kBadOption) {  // a tip that leaves no part
+    collector.refuse(
+        {core::Code::kMeaning,
+         fmt::format("{}: check --tip-diameter-mm; a bore needs --inside", found.error().what),
+         {}});
+  }
   const std::array<std::pair<const char*, core::Result<double>>, 4> sizes = {
       {{"GG", found ? core::Result<double>(found->gg_mm) : none},
        {"GN", found ? core::Result<double>(found->gn_mm) : none},

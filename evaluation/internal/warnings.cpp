@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "core/units.h"
 #include "evaluation/results/feature_values.h"
@@ -79,17 +79,17 @@ void warn_absent(FeatureResult& result) {
     const auto found = one_sided_of(result, reference);
     if (!found) {
       add_warning(result, found.error().code,
-                  core::Phrase(fmt::format("no {}: {}", words_of(reference, result.feature.shape),
-                                           found.error().what)));
+                  core::phrase("no {}: {}", core::Phrase(words_of(reference, shape)),
+                               found.error().said()));
       continue;
     }
     for (const LayerResult& layer : result.layers) {
       const auto& circle = reference == Reference::kMinimumCircumscribed ? layer.mc : layer.mi;
       if (circle) continue;
       add_warning(result, circle.error().code,
-                  core::Phrase(fmt::format("layer {} has no {}: {}", layer.layer + 1,
-                                           words_of(reference, record::Shape::kCircle),
-                                           circle.error().what)));
+                  core::phrase("layer {} has no {}: {}", layer.layer + 1,
+                               core::Phrase(words_of(reference, record::Shape::kCircle)),
+                               circle.error().said()));
       break;
     }
   }
@@ -97,17 +97,19 @@ void warn_absent(FeatureResult& result) {
 
 /// A one-sided reference is the optimum nearest to the least-squares one. Where the optimum near
 /// the minimum zone is better, there are several, and a gauge may settle in another.
+/// @param layer  0-based; none: of the whole cylinder.
 template <class Zone, class OneSided>
 void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::Result<OneSided>& mi,
-                 record::Shape shape, const std::string& place, FeatureResult& result) {
+                 record::Shape shape, std::optional<int> layer, FeatureResult& result) {
   using record::Reference;
   const auto say = [&](Reference reference, double radius_mm, double better_mm) {
-    add_warning(result, core::Code::kSeveralOptima,
-                core::Phrase(fmt::format(
-                    "{}the {} next to the least-squares one has a radius of {:.7f} mm, about the "
-                    "place of the minimum zone {:.3g} um better: a gauge may settle in either",
-                    place, words_of(reference, shape), radius_mm + surface_offset_mm(result),
-                    better_mm / core::kMicrometre)));
+    core::Phrase said = core::phrase(
+        "the {} next to the least-squares one has a radius of {:.7f} mm, about the place of the "
+        "minimum zone {:.3g} um better: a gauge may settle in either",
+        core::Phrase(words_of(reference, shape)), radius_mm + surface_offset_mm(result),
+        better_mm / core::kMicrometre);
+    if (layer) said = core::phrase("layer {}: {}", *layer + 1, said);
+    add_warning(result, core::Code::kSeveralOptima, std::move(said));
   };
   if (mc && mc->radius_mm > mz.outer_radius_mm + kTold)
     say(Reference::kMinimumCircumscribed, mc->radius_mm, mc->radius_mm - mz.outer_radius_mm);
@@ -118,12 +120,12 @@ void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::R
 /// Other circles as large as the maximum inscribed one, with a different deviation.
 void warn_range(const LayerResult& layer, FeatureResult& result) {
   if (!layer.mi || !layer.mi->range) return;
-  add_warning(result, core::Code::kSeveralOptima,
-              core::Phrase(fmt::format(
-                  "layer {}: the maximum inscribed circle is not unique: about circles whose "
-                  "radius agrees to 1 nm RONt is anything from {:.3f} to {:.3f} um",
-                  layer.layer + 1, layer.mi->range->low_mm / core::kMicrometre,
-                  layer.mi->range->high_mm / core::kMicrometre)));
+  add_warning(
+      result, core::Code::kSeveralOptima,
+      core::phrase("layer {}: the maximum inscribed circle is not unique: about circles whose "
+                   "radius agrees to 1 nm RONt is anything from {:.3f} to {:.3f} um",
+                   layer.layer + 1, layer.mi->range->low_mm / core::kMicrometre,
+                   layer.mi->range->high_mm / core::kMicrometre));
 }
 
 /// A better cylinder that is not the reference: lying across a disc, or out of reach of the search.
@@ -133,12 +135,12 @@ void warn_other(FeatureResult& result) {
     if (!fit || !fit->other) return;
     add_warning(
         result, core::Code::kSeveralOptima,
-        core::Phrase(fmt::format(
+        core::phrase(
             "another {} is {:.3g} um better: its axis leans by {:.3g} deg and lies {:.3g} mm "
             "off that of the reference, which is the one next to the least-squares axis",
-            words_of(reference, record::Shape::kCylinder),
+            core::Phrase(words_of(reference, record::Shape::kCylinder)),
             std::abs(fit->radius_mm - fit->other->radius_mm) / core::kMicrometre,
-            fit->other->lean_rad / core::kDegree, fit->other->apart_mm)));
+            fit->other->lean_rad / core::kDegree, fit->other->apart_mm));
   };
   say(Reference::kMinimumCircumscribed, result.mc_cylinder);
   say(Reference::kMaximumInscribed, result.mi_cylinder);
@@ -148,12 +150,11 @@ void warn_several(FeatureResult& result) {
   warn_other(result);
   if (result.mz_cylinder) {
     warn_better(*result.mz_cylinder, result.mc_cylinder, result.mi_cylinder,
-                record::Shape::kCylinder, "", result);
+                record::Shape::kCylinder, std::nullopt, result);
   }
   for (const LayerResult& layer : result.layers) {
     if (!layer.mz) continue;
-    warn_better(*layer.mz, layer.mc, layer.mi, record::Shape::kCircle,
-                fmt::format("layer {}: ", layer.layer + 1), result);
+    warn_better(*layer.mz, layer.mc, layer.mi, record::Shape::kCircle, layer.layer, result);
     warn_range(layer, result);
   }
 }

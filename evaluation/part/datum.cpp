@@ -443,7 +443,8 @@ Finding found_about(const PreparedSurface& surface, std::span<const DatumResult>
   Finding out;
   std::string names;
   for (const DatumResult& one : datums) names += (names.empty() ? "" : ", ") + one.name;
-  out.reference = core::phrase("about {}, {}", names, record::name_of(datum.association));
+  out.reference =
+      core::phrase("about {}, {}", names, core::Phrase(record::name_of(datum.association)));
   const Eigen::Vector3d apart = fit::mean_point(surface.points_mm) - datum.place.point_mm;
   out.numbers.push_back({"datum_length_mm", datum.length_mm, false});
   out.numbers.push_back({"datum_distance_mm", std::abs(apart.dot(datum.place.direction)), false});

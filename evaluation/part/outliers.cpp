@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "core/phrase.h"
 #include "core/statistics.h"
 
 namespace rondure::evaluation {
@@ -31,9 +30,9 @@ core::Result<std::size_t> count_of_outliers(const std::vector<bool>& out) {
   const auto gone = static_cast<std::size_t>(std::count(out.begin(), out.end(), true));
   if (4 * gone > out.size()) {
     return core::fail(core::Code::kOutliers,
-                      fmt::format("{} of {} points would be left out, more than a quarter: that "
-                                  "is form",
-                                  gone, out.size()));
+                      core::phrase("{} of {} points would be left out, more than a quarter: that "
+                                   "is form",
+                                   gone, out.size()));
   }
   return gone;
 }

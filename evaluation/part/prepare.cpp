@@ -18,7 +18,6 @@ using Indication = record::Indication;
 constexpr double kPortionEndMm = 0.1;
 constexpr std::size_t kMostNamed = 7;
 
-/// Whether no trial has moved the points. Only then are there warnings.
 bool is_as_measured(const MeasuredSurface& surface) {
   return std::equal(
       surface.tips_mm.begin(), surface.tips_mm.end(), surface.of->cloud.begin(),
@@ -171,7 +170,8 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
     return core::fail(done.error());
   if (indication.from_mm || indication.to_mm) take();
   fill_sections(*layout, *taken, out);
-  const Warnings warnings = is_as_measured(surface) ? Warnings::kFind : Warnings::kSkip;
+  out.as_measured = is_as_measured(surface);
+  const Warnings warnings = out.as_measured ? Warnings::kFind : Warnings::kSkip;
   if (warnings == Warnings::kFind) {
     out.warnings = layout->warnings;
     name_outlying(*layout, indication, *taken, out);

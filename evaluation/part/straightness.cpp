@@ -9,6 +9,8 @@
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/families.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
+#include "fit/geometry/axis.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/line.h"
 #include "fit/profiles/generatrix.h"
@@ -166,13 +168,19 @@ core::Result<std::span<const TouchedLine>> shared_lines(const PreparedSurface& s
   return std::span<const TouchedLine>(*shared.found);
 }
 
-double angle_in_one_turn(double angle_rad) {
-  return angle_rad < 0.0 ? angle_rad + core::kTwoPi : angle_rad;
+/// An angle in the frame of across(), whose zero is any, as the cloud and the reports state it.
+double stated_angle_rad(const PreparedSurface& surface, double angle_rad) {
+  const Eigen::Vector3d& up = surface.axis.direction;
+  const Eigen::Vector3d towards =
+      fit::across(up) * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  const Eigen::Vector2d q = frame_of_angles(up).transpose() * towards;
+  const double stated = std::atan2(q.y(), q.x());
+  return stated < -core::kSameAngle ? stated + core::kTwoPi : std::max(stated, 0.0);
 }
 
 /// Deviations from the least-squares line, out of the material.
-ProfileLine picture_of(const TouchedLine& line, const fit::GeneratrixStraightness& straight,
-                       double sign) {
+ProfileLine picture_of(const PreparedSurface& surface, const TouchedLine& line,
+                       const fit::GeneratrixStraightness& straight) {
   const auto& heights = line.line.heights_mm;
   const auto& distances = line.line.distances_mm;
   const auto count = static_cast<double>(heights.size());
@@ -182,7 +190,8 @@ ProfileLine picture_of(const TouchedLine& line, const fit::GeneratrixStraightnes
     mean_height += heights[i] / count;
     mean_distance += distances[i] / count;
   }
-  ProfileLine out{angle_in_one_turn(line.line.angle_rad), heights, {}};
+  const double sign = surface.material.sign();
+  ProfileLine out{stated_angle_rad(surface, line.line.angle_rad), heights, {}};
   for (std::size_t i = 0; i < heights.size(); ++i) {
     out.deviation_mm.push_back(
         sign * (distances[i] - mean_distance - straight.ls_slope * (heights[i] - mean_height)) /
@@ -248,9 +257,9 @@ core::Result<Finding> find_generatrices(const PreparedSurface& surface,
         fit::generatrix_straightness(line.line.heights_mm, line.line.distances_mm);
     if (!straight) return core::fail(straight.error());
     out.local.push_back({.place = LocalValue::Place::kAngle,
-                         .position = angle_in_one_turn(line.line.angle_rad),
+                         .position = stated_angle_rad(surface, line.line.angle_rad),
                          .value_mm = value_of_line(*straight, asked, surface.material.inside)});
-    out.lines.push_back(picture_of(line, *straight, surface.material.sign()));
+    out.lines.push_back(picture_of(surface, line, *straight));
   }
   judge_worst(surface, asked, out);
   add_rows(surface, (*lines)[out.worst].points, out);
@@ -280,7 +289,7 @@ core::Result<Finding> find_median_line(const PreparedSurface& surface,
     if (!line) return core::fail(line.error());
     value_mm = line->deviation_mm;
   } else {
-    const auto line = fit::min_zone_line(out.centers_mm);
+    const auto line = fit::min_zone_line(out.centers_mm, proof);
     if (!line) return core::fail(line.error());
     value_mm = line->diameter_mm;
     // Centres on one line to a picometre leave a certificate nothing to hold on to.
@@ -323,7 +332,7 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
   for (const fit::OppositeGeneratrices& plane : *planes) {
     out.local.push_back(
         {.place = LocalValue::Place::kAngle,
-         .position = angle_in_one_turn(plane.angle_rad),
+         .position = stated_angle_rad(surface, plane.angle_rad),
          .value_mm = asked.form == Form::kTaper ? plane.taper_mm : plane.parallelism_mm});
   }
   judge_worst(surface, asked, out);
@@ -333,7 +342,7 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
     add_rows(surface, line.points, out);
     const auto straight =
         fit::generatrix_straightness(line.line.heights_mm, line.line.distances_mm);
-    if (straight) out.lines.push_back(picture_of(line, *straight, surface.material.sign()));
+    if (straight) out.lines.push_back(picture_of(surface, line, *straight));
   }
   // Fewer than half of them by the points alone: what a window takes out is known.
   const bool window =

@@ -64,6 +64,9 @@ struct PreparedSurface {
   std::vector<LeftOut> left_out;
   std::vector<core::Error> warnings;
   core::Phrase filter;  ///< For the operator: "unfiltered", "gaussian 50 UPR".
+  /// No trial has moved the points. Only then are there warnings, and is what they leave unseen
+  /// looked for: a trial has the same gaps.
+  bool as_measured = true;
 };
 
 /// Prepares a surface for a characteristic: leaves out windows and outliers, parts the rest into

@@ -11,13 +11,13 @@
 #include "core/phrase.h"
 #include "evaluation/decision/decision.h"
 #include "fit/geometry/axis.h"
+#include "fit/proof/certificate.h"
 #include "record/indication.h"
 
 namespace rondure::evaluation {
 
-/// What a finding is needed for. A trial of the uncertainty takes the optimum next to the
-/// least-squares feature without its proof, and no notes for a verdict.
-enum class Proof { kFull, kNone };
+/// Of a finding, kNone leaves out the notes for a verdict, too.
+using fit::Proof;
 
 /// A value with the limits that it is held against. Most characteristics have one; the envelope
 /// requirement and two-point sizes without a rank have two, one for each limit.
@@ -32,7 +32,7 @@ struct LocalValue {
   enum class Place { kLayer, kAngle, kRadius };
   Place place = Place::kLayer;
   int layer = 0;          ///< For kLayer; 0-based.
-  double position = 0.0;  ///< Height of the layer, angle, or radius of the circle [mm or rad].
+  double position = 0.0;  ///< Height of the layer, angle as in the cloud, or radius [mm or rad].
   double value_mm = 0.0;  ///< Greatest; meaningless with `none`.
   std::optional<double> least_mm = {};   ///< Of a section with a greatest and a least size.
   std::optional<core::Error> none = {};  ///< Why there is no value here.
@@ -40,7 +40,7 @@ struct LocalValue {
 
 /// A profile for the picture: deviations along a generatrix.
 struct ProfileLine {
-  double angle_rad = 0.0;            ///< About the axis of the feature, in the frame of across().
+  double angle_rad = 0.0;            ///< About the axis of the feature, as in the cloud.
   std::vector<double> position_mm;   ///< Along the axis.
   std::vector<double> deviation_mm;  ///< From its least-squares line.
 };

@@ -175,6 +175,17 @@ std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& point
   return out;
 }
 
+Eigen::Matrix<double, 3, 2> frame_of_angles(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d z = direction.z() < 0.0 ? Eigen::Vector3d(-direction) : direction;
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX() - z * z.x();
+  if (x.norm() < 0.1) x = Eigen::Vector3d::UnitY() - z * z.y();
+  x.normalize();
+  Eigen::Matrix<double, 3, 2> frame;
+  frame.col(0) = x;
+  frame.col(1) = z.cross(x);
+  return frame;
+}
+
 Eigen::Matrix3d rotation(const core::Pose& pose) {
   return (Eigen::AngleAxisd(pose.alpha_rad, Eigen::Vector3d::UnitX()) *
           Eigen::AngleAxisd(pose.beta_rad, Eigen::Vector3d::UnitY()))

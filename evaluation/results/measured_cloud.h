@@ -45,6 +45,10 @@ struct RepeatNoise {
 [[nodiscard]] std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
                                                      const Eigen::Matrix3d& turn);
 
+/// Directions of angle 0 and of a quarter turn about an axis, as the angles of a cloud have them:
+/// from machine x as far as the axis allows (y for an axis near x), counter-clockwise from above.
+[[nodiscard]] Eigen::Matrix<double, 3, 2> frame_of_angles(const Eigen::Vector3d& direction);
+
 /// Rotation of the body by a pose: Rx(alpha) Ry(beta).
 [[nodiscard]] Eigen::Matrix3d rotation(const core::Pose& pose);
 

@@ -22,6 +22,10 @@ struct Certificate {
   core::Phrase reason;  ///< Why the kind is not higher; empty for kGlobal.
 };
 
+/// What an optimum is needed for. A trial of the uncertainty takes the one next to the
+/// least-squares feature, without its proof.
+enum class Proof { kFull, kNone };
+
 /// "none", "local", "global".
 [[nodiscard]] inline std::string_view name_of(Certificate::Kind kind) {
   constexpr std::array<std::string_view, 3> kNames = {"none", "local", "global"};

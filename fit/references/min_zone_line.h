@@ -25,8 +25,11 @@ struct MinZoneLine {
 /// line.
 ///
 /// @param points_mm  n >= 2 different points, any order [mm].
-/// @return as ls_line(). Same input, same bits. Cost: as ZoneDescent.
+/// @param proof      kNone: axis and diameter alone, without contacts and certificate.
+/// @return as ls_line(). Same input, same bits. Cost: as ZoneDescent; of few points the proof costs
+///         more than the search.
 /// Sources: ISO 1101, ISO 12780-1; methods, cylindricity section 11.4.
-[[nodiscard]] core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm);
+[[nodiscard]] core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm,
+                                                      Proof proof = Proof::kFull);
 
 }  // namespace rondure::fit

@@ -66,11 +66,12 @@ core::Result<OneSidedCylinder> max_inscribed_cylinder(
   return fit_one_sided(points_mm, near_direction, kMaximumInscribed, options);
 }
 
-core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm) {
+core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm, Proof proof) {
   const auto line = ls_line(points_mm);
   if (!line) return core::fail(line.error());
   CylinderZoneFitter fitter;
   const CylinderZone zone = fitter.fit_from(points_mm, line->axis, kMinimumCircumscribed);
+  if (proof == Proof::kNone) return MinZoneLine{zone.place, 2.0 * zone.outer_radius_mm, {}, {}};
   OneSidedCylinder found =
       stated(points_mm, prove_axis(points_mm, zone, kMinimumCircumscribed), kMinimumCircumscribed);
   MinZoneLine out;

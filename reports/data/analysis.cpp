@@ -44,7 +44,7 @@ Json analysis_json(const evaluation::FeatureResult& feature) {
   json["side"] = record::name_of(asked.side);
   json["data_file"] = asked.points_file;
   json["data_sha256"] = asked.points_sha256;
-  json["characteristics"] = list_json(feature.characteristics, characteristic_json);
+  json["characteristics"] = characteristics_json(feature);
   json[std::string(record::name_of(asked.shape))] =
       feature.analysis ? found_json(*feature.analysis) : Json(nullptr);
   json["warnings"] = list_json(feature.warnings, error_json);

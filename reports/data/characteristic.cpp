@@ -1,9 +1,11 @@
 #include <string>
 
 #include "core/numbers.h"
+#include "evaluation/part/find.h"
 #include "evaluation/results/feature_values.h"
 #include "record/tasks/settings.h"
 #include "reports/data/internal/json_parts.h"
+#include "reports/data/internal/limits.h"
 #include "reports/words/internal/facts.h"
 
 namespace rondure::reports {
@@ -63,21 +65,28 @@ Json uncertainty_json(const evaluation::CharacteristicResult& result) {
           {"influences", list_json(u.declaration, influence_json)}};
 }
 
+/// A limit in um. That of a form without filter and window keeps the digits of earlier versions,
+/// which journals hold.
+/// @param found  Whether evaluation::find() computes the value.
+Json limit_um(bool found, const std::optional<double>& limit_mm) {
+  return found ? optional_json(limit_in(core::LengthUnit::kUm, limit_mm)) : optional_um(limit_mm);
+}
+
 /// The compared value, the limits of the rule and the risks; null where the rule decided nothing.
-Json decision_json(const evaluation::CharacteristicResult& result) {
+Json decision_json(bool found, const evaluation::CharacteristicResult& result) {
   if (!result.outcome) return nullptr;
   const evaluation::RuleOutcome& o = *result.outcome;
   const auto& risks = result.risks;
   Json json = {{"compared_um", in_um(o.compared_mm)},
-               {"acceptance_limit_um", optional_um(o.acceptance.upper_mm)},
-               {"rejection_limit_um", optional_um(o.rejection.upper_mm)},
+               {"acceptance_limit_um", limit_um(found, o.acceptance.upper_mm)},
+               {"rejection_limit_um", limit_um(found, o.rejection.upper_mm)},
                {"conformance_probability", optional_json(o.conformance_1)},
                {"specific_risk", optional_json(o.specific_risk_1())},
                {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},
                {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
   if (o.acceptance.lower_mm || o.rejection.lower_mm) {
-    json["lower_acceptance_limit_um"] = optional_um(o.acceptance.lower_mm);
-    json["lower_rejection_limit_um"] = optional_um(o.rejection.lower_mm);
+    json["lower_acceptance_limit_um"] = limit_um(found, o.acceptance.lower_mm);
+    json["lower_rejection_limit_um"] = limit_um(found, o.rejection.lower_mm);
   }
   return json;
 }
@@ -96,13 +105,13 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
   using Filter = record::Indication::Filter;
   const record::Characteristic& asked = result.characteristic;
   const record::Indication& indication = asked.indication;
-  if (evaluation::unit_of(asked) == core::LengthUnit::kMm) {
-    json["unit"] = name_of(core::LengthUnit::kMm);
+  if (const auto unit = evaluation::unit_of(asked); unit == core::LengthUnit::kMm) {
+    json["unit"] = name_of(unit);
     json["tolerance_um"] = nullptr;
-    json["lower_limit_mm"] = optional_json(asked.lower_mm);
-    json["upper_limit_mm"] = optional_json(asked.tolerance_mm);
+    json["lower_limit_mm"] = optional_json(limit_in(unit, asked.lower_mm));
+    json["upper_limit_mm"] = optional_json(limit_in(unit, asked.tolerance_mm));
   } else if (asked.lower_mm) {
-    json["lower_limit_um"] = in_um(*asked.lower_mm);
+    json["lower_limit_um"] = optional_json(limit_in(unit, asked.lower_mm));
   }
   if (!indication.datum.empty()) json["datum"] = indication.datum;
   if (const Filter filter = indication.filter.value_or(Filter::kNone); filter != Filter::kNone) {
@@ -114,17 +123,17 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
   if (result.finding) json["finding"] = finding_json(*result.finding, evaluation::unit_of(asked));
 }
 
-}  // namespace
-
-Json characteristic_json(const evaluation::CharacteristicResult& result) {
+Json characteristic_json(const record::Feature& feature,
+                         const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
+  const bool found = evaluation::is_found(feature, asked);
   Json json = {{"id", asked.id},
                {"form", record::name_of(asked.form)},
                {"symbol", evaluation::symbol_of(asked)},
                {"reference", evaluation::reference_of(asked)},
                {"value_um", optional_um(result.value_mm())},
                {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
-               {"tolerance_um", optional_um(asked.tolerance_mm)},
+               {"tolerance_um", limit_um(found, asked.tolerance_mm)},
                {"verdict", name_of(result.verdict)},
                {"reason", result.reason},
                {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
@@ -134,9 +143,17 @@ Json characteristic_json(const evaluation::CharacteristicResult& result) {
                {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
                                               ? Json(result.value->uncertainty().why())
                                               : Json(nullptr)},
-               {"decision", decision_json(result)}};
+               {"decision", decision_json(found, result)}};
   add_indication(result, json);
   return json;
+}
+
+}  // namespace
+
+Json characteristics_json(const evaluation::FeatureResult& feature) {
+  return list_json(feature.characteristics, [&](const auto& result) {
+    return characteristic_json(feature.feature, result);
+  });
 }
 
 Json rule_json(const evaluation::Evaluation& evaluation) {

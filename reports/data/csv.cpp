@@ -1,5 +1,6 @@
 #include "reports/data/csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,8 +12,10 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "core/utf8.h"
+#include "evaluation/part/find.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
+#include "reports/data/internal/limits.h"
 #include "reports/escaping.h"
 
 namespace rondure::reports {
@@ -30,13 +33,36 @@ std::string um_field(const std::optional<double>& length_mm) {
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
 
-bool any_lower_limit(const evaluation::Evaluation& evaluation) {
-  for (const evaluation::FeatureResult& feature : evaluation.features) {
-    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-      if (result.characteristic.lower_mm) return true;
-    }
-  }
-  return false;
+bool is_size(const record::Characteristic& asked) {
+  return evaluation::unit_of(asked) == core::LengthUnit::kMm;
+}
+
+bool any_size(const evaluation::Evaluation& evaluation) {
+  return std::ranges::any_of(evaluation.features, [](const evaluation::FeatureResult& feature) {
+    return std::ranges::any_of(feature.characteristics,
+                               [](const auto& result) { return is_size(result.characteristic); });
+  });
+}
+
+std::string limit_field(core::LengthUnit unit, const std::optional<double>& limit_mm) {
+  const auto limit = limit_in(unit, limit_mm);
+  return limit ? number(*limit) : "";
+}
+
+/// "tolerance_um": empty of a size, whose limits are in columns of their own.
+std::string tolerance_field(const record::Feature& feature, const record::Characteristic& asked) {
+  if (is_size(asked)) return {};
+  // that of a form without filter and window keeps the digits of earlier versions
+  return evaluation::is_found(feature, asked)
+             ? limit_field(core::LengthUnit::kUm, asked.tolerance_mm)
+             : um_field(asked.tolerance_mm);
+}
+
+/// ",lower_limit_mm,upper_limit_mm" of a run with sizes.
+std::string size_fields(const record::Characteristic& asked) {
+  if (!is_size(asked)) return ",,";
+  return "," + limit_field(core::LengthUnit::kMm, asked.lower_mm) + "," +
+         limit_field(core::LengthUnit::kMm, asked.tolerance_mm);
 }
 
 /// "layer,height_mm,angle_deg,radius_mm" of a local value; the three that it has not are empty.
@@ -66,8 +92,8 @@ std::string write_results_csv(const record::RunRecord& record,
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um";
-  const bool lower = any_lower_limit(evaluation);
-  text += lower ? ",lower_limit_um\n" : "\n";
+  const bool sizes = any_size(evaluation);
+  text += sizes ? ",lower_limit_mm,upper_limit_mm\n" : "\n";
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
@@ -80,10 +106,10 @@ std::string write_results_csv(const record::RunRecord& record,
       text += fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{}", head, text_field(feature.feature.id),
           text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),
-          um_field(result.value_mm()), um_field(asked.tolerance_mm), name_of(result.verdict),
-          text_field(result.reason.english()),
+          um_field(result.value_mm()), tolerance_field(feature.feature, asked),
+          name_of(result.verdict), text_field(result.reason.english()),
           text_field(result.value ? result.value->operator_text().english() : ""), interval);
-      text += lower ? "," + um_field(asked.lower_mm) + "\n" : "\n";
+      text += sizes ? size_fields(asked) + "\n" : "\n";
     }
   }
   return text;

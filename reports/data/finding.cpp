@@ -3,6 +3,7 @@
 #include "core/numbers.h"
 #include "evaluation/results/finding.h"
 #include "reports/data/internal/json_parts.h"
+#include "reports/data/internal/limits.h"
 
 namespace rondure::reports {
 namespace {
@@ -20,6 +21,9 @@ class Lengths {
   [[nodiscard]] Json number(const std::optional<double>& length_mm) const {
     return unit_ == core::LengthUnit::kMm ? optional_json(length_mm) : optional_um(length_mm);
   }
+  [[nodiscard]] Json limit(const std::optional<double>& length_mm) const {
+    return optional_json(limit_in(unit_, length_mm));
+  }
 
  private:
   core::LengthUnit unit_;
@@ -28,8 +32,8 @@ class Lengths {
 Json judged_json(const evaluation::JudgedValue& value, const Lengths& lengths) {
   return {{"symbol", value.symbol},
           {lengths.key("value"), lengths.number(value.value_mm)},
-          {lengths.key("lower_limit"), lengths.number(value.limits.lower_mm)},
-          {lengths.key("upper_limit"), lengths.number(value.limits.upper_mm)}};
+          {lengths.key("lower_limit"), lengths.limit(value.limits.lower_mm)},
+          {lengths.key("upper_limit"), lengths.limit(value.limits.upper_mm)}};
 }
 
 Json local_json(const LocalValue& local, const Lengths& lengths) {

@@ -315,7 +315,7 @@ Json feature_json(const evaluation::FeatureResult& feature) {
   json["points_file"] = asked.points_file;
   json["points_sha256"] = asked.points_sha256;
   json["points"] = feature.cloud.size();
-  json["characteristics"] = list_json(feature.characteristics, characteristic_json);
+  json["characteristics"] = characteristics_json(feature);
   json["mz"] = zone_json(feature);
   json["ls"] = least_squares_json(feature);
   json["mc"] = one_sided_json(feature, record::Reference::kMinimumCircumscribed);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -222,8 +223,9 @@ std::string place_of(const evaluation::LocalValue& local) {
 
 /// The judged values where there are several, the worst section, rocking datums, points that take
 /// no part, warnings.
+/// @param said  Notes of the feature on points without a filter: each is said once.
 void add_finding(std::string& out, const evaluation::Finding& finding,
-                 const evaluation::StatedValue& stated) {
+                 const evaluation::StatedValue& stated, std::set<std::string>& said) {
   const auto number = [&](double length_mm) {
     return fmt::format("{} {}", stated.in_digits(length_mm), name_of(stated.unit()));
   };
@@ -272,12 +274,15 @@ void add_finding(std::string& out, const evaluation::Finding& finding,
       text += fmt::format("{}{} {}", text.empty() ? "" : tr(", "), name, rows);
     add_wrapped(out, "    " + tr("left out"), trf("{} points: {}", finding.left_out.size(), text));
   }
-  for (const core::Error& warning : finding.warnings)
+  for (const core::Error& warning : finding.warnings) {
+    if (warning.code == core::Code::kUnfiltered && !said.insert(warning.what).second) continue;
     add_wrapped(out, "    " + tr("warning"), line_of(warning));
+  }
 }
 
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
-void add_characteristic(std::string& out, const evaluation::CharacteristicResult& result) {
+void add_characteristic(std::string& out, const evaluation::CharacteristicResult& result,
+                        std::set<std::string>& said) {
   const record::Characteristic& asked = result.characteristic;
   const std::string value =
       result.value ? fmt::format("{} {}", result.value->in_digits(result.value->quoted_mm()),
@@ -301,7 +306,7 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
   }
   if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
   if (!simple && result.value) add_uncertainty(out, *result.value);
-  if (result.finding && result.value) add_finding(out, *result.finding, *result.value);
+  if (result.finding && result.value) add_finding(out, *result.finding, *result.value, said);
 }
 
 /// The sketch with its legend beside it.
@@ -411,8 +416,9 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
     const evaluation::FeatureResult& feature = evaluation.features[i];
     out += "\n";
     add_wrapped(out, tr("feature"), heading_of(feature));
+    std::set<std::string> said;
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-      add_characteristic(out, result);
+      add_characteristic(out, result, said);
     }
     if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
     add_sketch(out, feature, sketch);

@@ -97,5 +97,27 @@ TEST(SurfaceShape, BoundsHoldEverywhere) {
   }
 }
 
+TEST(SurfaceShape, BoundsInABoxHoldInIt) {
+  core::KeyedNoise random(3, {2});
+  for (int draw = 0; draw < 200; ++draw) {
+    SCOPED_TRACE(draw);
+    PartSurface part = random_part(random, draw % 2 == 1, 20.0);
+    // Two marks that cross, one of them over the angle where the turn begins; steep flanks.
+    const double height_mm = draw % 3 == 0 ? 4.0 : -4.0;
+    part.marks = {{0.1, 2.0, 8.0, 10.0, height_mm, 0.2}, {0.2, -4.0, 6.0, 9.0, -2.0, 1.0}};
+    const Eigen::Vector2d center(between(random, -1.0, 1.0) * part.radius_mm,
+                                 between(random, -12.0, 12.0));
+    const Eigen::Vector2d half(between(random, 0.01, 2.0), between(random, 0.01, 2.0));
+    const BoxBounds bounds = bounds_in_box(part, bounds_beside_marks(part), center, half);
+    for (int sample = 0; sample < 300; ++sample) {
+      const double u = center.x() + between(random, -1.0, 1.0) * half.x();
+      const double z = center.y() + between(random, -1.0, 1.0) * half.y();
+      const SurfaceJet jet = surface_jet(part, u, z);
+      ASSERT_LE(jet.u.norm(), bounds.stretch_u * (1.0 + 1e-12));
+      ASSERT_LE(jet.z.norm(), bounds.stretch_z * (1.0 + 1e-12));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rondure::cmm

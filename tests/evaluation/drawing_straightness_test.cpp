@@ -67,6 +67,19 @@ TEST(DrawingStraightness, OfTheGeneratricesOfW2HasEveryDigit) {
   EXPECT_EQ(squares.judged.front().symbol, "STRt");
 }
 
+TEST(DrawingStraightness, StatesAnglesFromMachineXHoweverTheAxisLeans) {
+  auto part = drawn(test::w2(), kPlainShaft);
+  // Its least component is y, and fit::across() begins there.
+  part.surface.axis.direction = Eigen::Vector3d(0.001, 0.0, 1.0).normalized();
+  const Finding lines = line_of(part, asked(Form::kStraightness));
+  ASSERT_EQ(lines.local.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const double off_rad = lines.local[k].position - static_cast<double>(k) * 45.0 * core::kDegree;
+    EXPECT_NEAR(std::remainder(off_rad, core::kTwoPi), 0.0, 0.005);
+    EXPECT_EQ(lines.lines[k].angle_rad, lines.local[k].position);
+  }
+}
+
 TEST(DrawingStraightness, OfABoreSwapsPeakAndValley) {
   const auto value = [](bool inside, Indication::Parameter parameter) {
     auto peak = asked(Form::kStraightness, Reference::kLeastSquares);

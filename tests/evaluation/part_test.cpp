@@ -31,6 +31,7 @@ using record::WindowTask;
 using test::Layers;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 constexpr double kWorked = 1e-10;  // mm; the specification prints twelve decimals
 
@@ -517,6 +518,15 @@ TEST(SurfaceFilter, WarnsOfAliasingThatItSees) {
   ASSERT_TRUE(seen);
   ASSERT_THAT(warned(*seen), ElementsAre(core::Code::kUndersampled));
   EXPECT_THAT(seen->warnings[0].what, HasSubstr("0.707 um rms above 135 UPR"));
+  EXPECT_THAT(seen->warnings[0].what, StartsWith("layer 1: content"));
+  // Layers 2 and 3 of three: one warning, about the worse one.
+  const auto more = [](double t) { return w8_profile(t) + 2e-3 * std::cos(170.0 * t); };
+  const auto two = prepared_of(
+      cylinder_of({ring(360, 0.0, w8_profile), ring(360, 5.0, near_limit), ring(360, 10.0, more)}),
+      gaussian(50.0));
+  ASSERT_TRUE(two);
+  ASSERT_THAT(warned(*two), ElementsAre(core::Code::kUndersampled));
+  EXPECT_THAT(two->warnings[0].what, StartsWith("layer 3, the worst of 2: content near"));
   // 350 undulations look like 10 of them.
   const auto beyond = [](double t) { return 1e-3 * std::cos(350.0 * t); };
   const auto unseen = prepared_of(cylinder_of({ring(360, 0.0, beyond)}), gaussian(50.0));

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -510,7 +511,10 @@ struct CoverageCase {
   double sigma_mm = 0.5e-3;
   double form_mm = 1.5e-3;
   double offset_mm = 0.004;  ///< Of the seat from the axis of the datum.
-  int inspections = 30;
+  int inspections = 12;      ///< 1000 with RONDURE_FULL=1.
+  friend std::ostream& operator<<(std::ostream& out, const CoverageCase& c) {
+    return out << c.name;
+  }
 };
 
 constexpr std::array<const char*, 10> kNames = {
@@ -609,7 +613,7 @@ INSTANTIATE_TEST_SUITE_P(
                     CoverageCase{.name = "4 x 8, single", .repeats = 1},
                     CoverageCase{.name = "4 x 8, quiet", .sigma_mm = 0.1e-3},
                     CoverageCase{
-                        .name = "4 x 36, single", .points = 36, .repeats = 1, .inspections = 10}));
+                        .name = "4 x 36, single", .points = 36, .repeats = 1, .inspections = 5}));
 
 }  // namespace
 }  // namespace rondure::reports

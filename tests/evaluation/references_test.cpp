@@ -277,7 +277,8 @@ TEST(PointsOfAFile, FarOffTheNominalDiameterHaveNoVerdict) {
   const auto reasons = [&](double nominal_mm) {
     run.features.front().nominal_diameter_mm = nominal_mm;
     std::string out;
-    for (const auto& asked : evaluated(run).features.front().characteristics) {
+    const Evaluation made = evaluated(run);
+    for (const auto& asked : made.features.front().characteristics) {
       if (asked.reason.english().find("is the file in inches?") == std::string::npos) continue;
       EXPECT_EQ(asked.verdict, Verdict::kVoid);
       out = asked.reason.english();

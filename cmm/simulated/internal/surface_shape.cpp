@@ -43,9 +43,12 @@ void add_mark(const PartSurface& surface, const SurfaceMark& mark, double theta_
   d.zz += height * around.value * along.curvature;
 }
 
+constexpr double kSlope = 1.875;  // largest derivative of a flank of height and width 1
+
+double wavelength_of(const SurfaceMark& mark) { return 4.0 * mark.flank_mm; }
+
 /// Adds the contribution of a mark to the bounds of the absolute values.
 void bound_mark(const PartSurface& surface, const SurfaceMark& mark, RadiusDerivatives& b) {
-  constexpr double kSlope = 1.875;       // largest derivative of the flank
   constexpr double kCurvature = 5.7736;  // largest derivative of that
   const double height = std::abs(mark.height_mm);
   const double radius = surface.radius_mm;
@@ -143,7 +146,7 @@ ShapeBounds bounds_with(const PartSurface& surface, std::span<const SurfaceMark>
   for (const SurfaceMark& mark : marks) {
     bound_mark(surface, mark, b);
     bounds.toward_free_mm += std::max(0.0, mark.height_mm);
-    fastest_1_mm = std::max(fastest_1_mm, core::kTwoPi / (4.0 * mark.flank_mm));
+    fastest_1_mm = std::max(fastest_1_mm, core::kTwoPi / wavelength_of(mark));
   }
   const double per_u = 1.0 / surface.radius_mm;
   bounds.deviation_mm = b.r_mm;
@@ -159,6 +162,30 @@ ShapeBounds bounds_with(const PartSurface& surface, std::span<const SurfaceMark>
 ShapeBounds shape_bounds(const PartSurface& surface) { return bounds_with(surface, surface.marks); }
 
 ShapeBounds bounds_beside_marks(const PartSurface& surface) { return bounds_with(surface, {}); }
+
+BoxBounds bounds_in_box(const PartSurface& surface, const ShapeBounds& beside,
+                        const Eigen::Vector2d& center_mm, const Eigen::Vector2d& half_mm) {
+  BoxBounds out{beside.stretch_u, beside.stretch_z, beside.wavelength_mm};
+  const double turn_mm = core::kTwoPi * surface.radius_mm;
+  for (const SurfaceMark& mark : surface.marks) {
+    // Points of the box are not nearer to the middle of the mark than this less half the box, and
+    // not farther than this and half the box.
+    const Eigen::Vector2d apart(
+        std::abs(std::remainder(center_mm.x() - surface.radius_mm * mark.theta_rad, turn_mm)),
+        std::abs(center_mm.y() - mark.z_mm));
+    const Eigen::Vector2d edge(0.5 * mark.width_mm, 0.5 * mark.length_mm);
+    if (((apart - half_mm).array() >= edge.array()).any()) continue;
+    const double height = std::abs(mark.height_mm);
+    out.stretch_u += height / surface.radius_mm;
+    const auto flank =
+        ((apart + half_mm).array() > (edge.array() - mark.flank_mm)).cast<double>().eval();
+    const double slope = height * kSlope / mark.flank_mm;
+    out.stretch_u += slope * flank.x();
+    out.stretch_z += slope * flank.y();
+    if (flank.sum() > 0.0) out.wavelength_mm = std::min(out.wavelength_mm, wavelength_of(mark));
+  }
+  return out;
+}
 
 double PartSurface::radius_at(double theta_rad, double z_mm) const {
   return radius_derivatives(*this, theta_rad, z_mm).r_mm;

@@ -46,4 +46,16 @@ struct ShapeBounds {
 /// Bounds of the surface outside all marks.
 [[nodiscard]] ShapeBounds bounds_beside_marks(const PartSurface& surface);
 
+/// Stretches and finest undulation within a box of the parameters (u, z). A flank of a mark is
+/// steep only across itself, and only where it is.
+struct BoxBounds {
+  double stretch_u = 0.0;
+  double stretch_z = 0.0;
+  double wavelength_mm = 0.0;
+};
+/// @param beside  bounds_beside_marks() of the surface.
+[[nodiscard]] BoxBounds bounds_in_box(const PartSurface& surface, const ShapeBounds& beside,
+                                      const Eigen::Vector2d& center_mm,
+                                      const Eigen::Vector2d& half_mm);
+
 }  // namespace rondure::cmm

@@ -87,6 +87,7 @@ std::vector<std::size_t> all_window_rows(const PreparedSurface& surface) {
 
 double unseen_in_section(const PreparedSurface& surface, const SurfaceSection& section,
                          const fit::Axis& about) {
+  if (!surface.as_measured) return 0.0;
   const auto windows = window_rows(surface, section);
   return unseen_of(surface, about, section.points, windows, section.points.size() + windows.size());
 }
@@ -268,6 +269,7 @@ std::optional<core::Phrase> unseen_part(const PreparedSurface& surface,
 }
 
 std::optional<core::Phrase> unseen_turn(const PreparedSurface& surface, const fit::Axis& about) {
+  if (!surface.as_measured) return std::nullopt;
   std::size_t a_turn = surface.sections.empty() ? surface.points_mm.size() : 1;
   for (const SurfaceSection& section : surface.sections) {
     a_turn = std::max(a_turn, section.points.size());
@@ -285,6 +287,7 @@ std::optional<core::Phrase> unseen_part(const PreparedSurface& surface) {
 }
 
 std::optional<core::Phrase> unseen_of_face(const PreparedSurface& surface) {
+  if (!surface.as_measured) return std::nullopt;
   for (const SurfaceSection& section : surface.sections) {
     const auto about = circle_axis(surface, section);
     if (!about) continue;

@@ -87,10 +87,18 @@ std::size_t nearest(const std::vector<double>& theta_rad, double angle_rad) {
   return apart(last) < apart(next) ? last : next;
 }
 
-/// Warns where the profile holds much close to the highest undulation that its points tell apart:
-/// what lies beyond looks like lower ones (drawing, 6.5).
-void warn_of_aliasing(const fit::AngularProfile& measured, const std::vector<double>& filtered_mm,
-                      int layer, std::vector<core::Error>& warnings) {
+/// Content of a section close to the sampling limit.
+struct NearLimit {
+  int layer = 0;
+  double tail_mm = 0.0;  ///< Root mean square above `from_upr`.
+  double from_upr = 0.0;
+  double rms_mm = 0.0;  ///< Of the filtered profile.
+};
+
+/// Adds a section that holds much close to the highest undulation that its points tell apart: what
+/// lies beyond looks like lower ones (drawing, 6.5).
+void find_near_limit(const fit::AngularProfile& measured, const std::vector<double>& filtered_mm,
+                     int layer, std::vector<NearLimit>& out) {
   const auto even = fit::resampled(measured);
   const std::size_t n = measured.r_mm.size();
   if (!even) return;
@@ -110,18 +118,34 @@ void warn_of_aliasing(const fit::AngularProfile& measured, const std::vector<dou
   constexpr double kMostShare = 0.1;
   constexpr double kLeastTailMm = 1e-6;  // the last digit of the sentence
   if (tail <= std::max(kMostShare * rms, kLeastTailMm)) return;
-  warnings.push_back(error_of(
+  out.push_back({layer, tail, 3.0 * static_cast<double>(n) / 8.0, rms});
+}
+
+/// One warning for all sections, about the worst. Passes of a layer follow each other.
+void warn_of_aliasing(const std::vector<NearLimit>& sections, PreparedSurface& surface) {
+  if (sections.empty()) return;
+  const NearLimit& worst = *std::ranges::max_element(sections, {}, &NearLimit::tail_mm);
+  int layers = 1;
+  for (std::size_t i = 1; i < sections.size(); ++i) {
+    if (sections[i].layer != sections[i - 1].layer) ++layers;
+  }
+  const core::Phrase place =
+      layers == 1 ? core::phrase("layer {}", worst.layer + 1)
+                  : core::phrase("layer {}, the worst of {}", worst.layer + 1, layers);
+  surface.warnings.push_back(error_of(
       core::Code::kUndersampled,
-      core::phrase("layer {}: content near the sampling limit, {:.3f} um rms above {:.0f} UPR, "
-                   "more than a tenth of RONq {:.3f} um; scan denser",
-                   layer + 1, tail / core::kMicrometre, 3.0 * static_cast<double>(n) / 8.0,
-                   rms / core::kMicrometre)));
+      core::phrase("{}: content near the sampling limit, {:.3f} um rms above {:.0f} UPR, more "
+                   "than a tenth of RONq {:.3f} um; scan denser",
+                   place, worst.tail_mm / core::kMicrometre, worst.from_upr,
+                   worst.rms_mm / core::kMicrometre)));
 }
 
 /// Filters one section about its circle.
+/// @param near_limit  Where a warning is due; null: none is looked for.
 core::Result<void> filter_section(PreparedSurface& surface, const SurfaceSection& section,
                                   const Eigen::Matrix<double, 3, 2>& frame,
-                                  const fit::FilterOptions& options, Warnings warnings) {
+                                  const fit::FilterOptions& options,
+                                  std::vector<NearLimit>* near_limit) {
   std::vector<Eigen::Vector2d> points;
   points.reserve(section.points.size());
   for (const std::size_t i : section.points) {
@@ -148,9 +172,7 @@ core::Result<void> filter_section(PreparedSurface& surface, const SurfaceSection
     auto line = fit::filter_at_angles(measured, options);
     if (!line) return core::fail(line.error());
     filtered = std::move(line->r_mm);
-    if (warnings == Warnings::kFind) {
-      warn_of_aliasing(measured, filtered, section.layer, surface.warnings);
-    }
+    if (near_limit != nullptr) find_near_limit(measured, filtered, section.layer, *near_limit);
   }
   const auto move = [&](std::size_t i, double r) {
     surface.points_mm[section.points[i]] += frame * ((r - profile->r_mm[i]) * profile->outward[i]);
@@ -433,11 +455,14 @@ core::Result<void> filter(PreparedSurface& surface, const record::Indication& in
     options.filter = fit_filter(*indication.filter);
     options.cutoff_upr = *indication.cutoff_upr;
     const auto frame = fit::across(surface.axis.direction);
+    std::vector<NearLimit> near_limit;
     for (SurfaceSection& section : surface.sections) {
-      auto done = filter_section(surface, section, frame, options, warnings);
+      auto done = filter_section(surface, section, frame, options,
+                                 warnings == Warnings::kFind ? &near_limit : nullptr);
       if (!done) return done;
       section.dense = true;
     }
+    warn_of_aliasing(near_limit, surface);
   }
   if (indication.cutoff_mm && cylinder) {
     if (auto done = filter_along(surface, *indication.cutoff_mm); !done) return done;

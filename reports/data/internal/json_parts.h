@@ -40,7 +40,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline Json optional_json(const std::optional<core::Error>& error) {
   return error ? error_json(*error) : Json(nullptr);
 }
-[[nodiscard]] Json characteristic_json(const evaluation::CharacteristicResult& result);
+/// The characteristics of a feature.
+[[nodiscard]] Json characteristics_json(const evaluation::FeatureResult& feature);
 /// How a value came about.
 /// @param unit  Of the value: of all its lengths but places.
 [[nodiscard]] Json finding_json(const evaluation::Finding& finding, core::LengthUnit unit);
