@@ -34,7 +34,7 @@ struct Turned {
   fit::Axis axis;  ///< Out of the face, for an axial one.
   bool axial = false;
   double share = 1.0;           ///< Of the change of the distance, normal to the surface.
-  std::vector<double> measure;  ///< Distance or height of each point [mm].
+  std::vector<double> measure;  ///< Distance or height; of a touched cone at one height [mm].
   std::vector<double> radius;   ///< Distance of each point [mm].
 };
 
@@ -73,13 +73,22 @@ core::Result<void> check_turned(const PreparedSurface& surface,
   return {};
 }
 
-/// The nominal half angle, by which conical run-out is normal to the surface; none otherwise.
+/// Whether the points were touched along the planned normals: then those of one layer of a part
+/// that sits askew are at different heights, of a cone on circles of different sizes.
+bool is_touched(const PreparedSurface& surface) {
+  return surface.of->clamping && !surface.of->clamping->file;
+}
+
+/// The nominal half angle of a cone, which a conical run-out cannot do without.
 core::Result<std::optional<double>> half_angle_deg(const PreparedSurface& surface,
                                                    const record::Indication& asked) {
-  if (asked.direction != Direction::kConical) return std::nullopt;
+  if (surface.of->feature.shape != Shape::kCone ||
+      (asked.direction != Direction::kConical && !is_touched(surface))) {
+    return std::nullopt;
+  }
   const auto settings = record::task_of<record::SurfaceSettings>(surface.of->feature.settings);
   if (!settings) return core::fail(settings.error());
-  if (!settings->half_angle_deg) {
+  if (!settings->half_angle_deg && asked.direction == Direction::kConical) {
     return core::fail(core::Code::kMissingKey,
                       core::phrase("conical run-out needs the nominal half angle of {}: give "
                                    "nominal.half_angle_deg",
@@ -88,24 +97,33 @@ core::Result<std::optional<double>> half_angle_deg(const PreparedSurface& surfac
   return settings->half_angle_deg;
 }
 
-/// Refuses a planned half angle that is not that of the points: the value would be of another cone.
-core::Result<void> check_half_angle(const Turned& turned, double planned_deg) {
+/// Brings touches of a cone to one height along the cone that they show. Refuses a planned half
+/// angle that is not that of the points: the value would be of another cone.
+core::Result<void> bring_to_one_height(Turned& turned, double planned_deg) {
   constexpr double kFarthest_deg = 1.0;
   const auto count = static_cast<double>(turned.radius.size());
   const Eigen::Vector3d mean = fit::mean_point(turned.surface.points_mm);
   const double mean_radius =
       std::accumulate(turned.radius.begin(), turned.radius.end(), 0.0) / count;
-  double square = 0.0;
-  double product = 0.0;
-  for (std::size_t i = 0; i < turned.radius.size(); ++i) {
-    const double height = (turned.surface.points_mm[i] - mean).dot(turned.axis.direction);
-    square += height * height;
-    product += height * (turned.radius[i] - mean_radius);
-  }
   // The lowest layer is the first, whichever way the axis points.
   const Sections& sections = turned.surface.sections;
   const bool down = !sections.empty() && sections.back().height_mm < sections.front().height_mm;
-  const double found_deg = std::atan((down ? -product : product) / square) / core::kDegree;
+  const Eigen::Vector3d up = down ? -turned.axis.direction : turned.axis.direction;
+  double square = 0.0;
+  double product = 0.0;
+  for (std::size_t i = 0; i < turned.radius.size(); ++i) {
+    const double height = (turned.surface.points_mm[i] - mean).dot(up);
+    square += height * height;
+    product += height * (turned.radius[i] - mean_radius);
+  }
+  const double widens = product / square;
+  if (is_touched(turned.surface)) {
+    for (std::size_t i = 0; i < turned.radius.size(); ++i) {
+      const double height = (turned.surface.points_mm[i] - mean).dot(up);
+      turned.measure[i] -= turned.share * widens * height;
+    }
+  }
+  const double found_deg = std::atan(widens) / core::kDegree;
   if (std::abs(found_deg - planned_deg) <= kFarthest_deg) return {};  // written to refuse no number
   return core::fail(
       core::Code::kMeaning,
@@ -122,7 +140,8 @@ core::Result<Turned> turned_about(const PreparedSurface& surface, const record::
   }
   const auto half_deg = half_angle_deg(surface, asked);
   if (!half_deg) return core::fail(half_deg.error());
-  const double share = *half_deg ? std::cos(**half_deg * core::kDegree) : 1.0;
+  const bool normal = asked.direction == Direction::kConical;
+  const double share = normal ? std::cos(**half_deg * core::kDegree) : 1.0;
   Turned out{surface, datum, asked.direction == Direction::kAxial, share, {}, {}};
   if (out.axis.direction.dot(surface.axis.direction) < 0.0) {
     out.axis.direction = -out.axis.direction;
@@ -133,8 +152,8 @@ core::Result<Turned> turned_about(const PreparedSurface& surface, const record::
     out.measure.push_back(out.axial ? height : out.share * out.radius.back());
   }
   if (*half_deg) {
-    if (auto checked = check_half_angle(out, **half_deg); !checked) {
-      return core::fail(checked.error());
+    if (auto brought = bring_to_one_height(out, **half_deg); !brought) {
+      return core::fail(brought.error());
     }
   }
   return out;

@@ -29,9 +29,10 @@ using ::testing::HasSubstr;
 
 constexpr const char* kPlan = "02_spool_over_ippdme.json";
 
-/// The example plan with a port and drivers of its own.
-void write_wire_plan(const fs::path& file, std::uint16_t port, const char* driver = "ippdme") {
-  json plan = json::parse(read(example(kPlan)));
+/// An example plan with a port and drivers of its own.
+void write_wire_plan(const fs::path& file, std::uint16_t port, const char* driver = "ippdme",
+                     const char* name = kPlan) {
+  json plan = json::parse(read(example(name)));
   plan["machine"]["port"] = port;
   plan["machine"]["driver"] = driver;
   plan["fixture"]["driver"] = driver;
@@ -42,10 +43,11 @@ void write_wire_plan(const fs::path& file, std::uint16_t port, const char* drive
 class Simulator {
  public:
   /// @param speed  Simulated seconds in a second; "inf": motions take no time.
-  explicit Simulator(std::uint16_t port = free_port(), const std::string& speed = "inf")
+  explicit Simulator(std::uint16_t port = free_port(), const std::string& speed = "inf",
+                     const char* plan = kPlan)
       : port_(port),
         program_(
-            {"simulate-cmm", example(kPlan), "--port", std::to_string(port), "--speed", speed}) {
+            {"simulate-cmm", example(plan), "--port", std::to_string(port), "--speed", speed}) {
     EXPECT_TRUE(wait_for_port(port_));
   }
   ~Simulator() {
@@ -132,6 +134,36 @@ TEST(IppRun, TouchesOverTheWireAreThoseOfTheRunInOneProcess) {
   EXPECT_EQ(log.find(" ! Error("), std::string::npos) << "no error is provoked";
   std::printf("%zu touches over the wire, with reports and journal: %.3f ms a touch\n",
               run.touches.size(), 1e3 * took.count() / static_cast<double>(run.touches.size()));
+}
+
+TEST(IppRun, JudgesTheTwentyCallOutsOfADrawingAsTheRunInOneProcess) {
+  constexpr const char* kDrawing = "15_shaft_drawing.json";
+  const TemporaryFolder folder;
+  const Simulator simulator(free_port(), "inf", kDrawing);
+  std::vector<json> judged;
+  for (const char* driver : {"ippdme", "simulated"}) {
+    const std::string name = driver;
+    write_wire_plan(folder / (name + ".json"), simulator.port(), driver, kDrawing);
+    const Outcome ran = rondure({"run", folder / (name + ".json"), "--out", folder / name,
+                                 "--archive", "none", "--format", "json"});
+    ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+    judged.emplace_back(json::parse(read(folder / name / "report.json")).at("features"));
+  }
+  const auto wire = journal_of(folder / "ippdme");
+  const auto inside = journal_of(folder / "simulated");
+  ASSERT_EQ(wire.touches.size(), inside.touches.size());
+  int conform = 0;
+  for (std::size_t f = 0; f < judged[1].size(); ++f) {
+    const json& asked = judged[1][f].at("characteristics");
+    for (std::size_t c = 0; c < asked.size(); ++c) {
+      SCOPED_TRACE(asked[c].at("id"));
+      const json& over_wire = judged[0][f].at("characteristics")[c];
+      conform += over_wire.at("verdict") == "conforms" ? 1 : 0;
+      EXPECT_EQ(over_wire.at("verdict"), asked[c].at("verdict"));
+      EXPECT_EQ(over_wire.at("finding"), asked[c].at("finding"));
+    }
+  }
+  EXPECT_EQ(conform, 20);
 }
 
 TEST(IppRun, AServedWorldMeasuresTheNextPartAsTheFirst) {

@@ -491,6 +491,31 @@ TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
             "total run-out is radial or axial; of a cone ask for run-out");
 }
 
+TEST(DrawingRunOut, OfATouchedConeCountsEachPointAtTheHeightWhereItWasTouched) {
+  // An ideal cone that sits 0.05 mm askew under the machine is touched at heights that differ.
+  Layers touched(2);
+  for (int layer = 0; layer < 2; ++layer) {
+    for (int k = 0; k < 12; ++k) {
+      const double theta = k * core::kTwoPi / 12.0;
+      const double z = 10.0 * layer + 0.05 * std::cos(theta);
+      const double r = 18.0 - z * std::tan(15.0 * core::kDegree);
+      touched[static_cast<std::size_t>(layer)].emplace_back(r * std::cos(theta),
+                                                            r * std::sin(theta), z);
+    }
+  }
+  DrawnPart part;
+  auto& cone = part.add("K", Shape::kCone, touched);
+  cone.clamping->file.reset();
+  cone.feature.settings = {test::number_setting("half_angle_deg", -15.0)};
+  const std::vector<DatumResult> datums = {z_axis()};
+  for (const Direction direction : {Direction::kRadial, Direction::kConical}) {
+    const auto found =
+        find_run_out(prepared_by_hand(cone), along(about(Form::kRunOut, {"Z"}), direction), datums);
+    ASSERT_TRUE(found.has_value()) << found.error().what;
+    EXPECT_NEAR(found->judged.front().value_mm, 0.0, 1e-12);
+  }
+}
+
 TEST(DrawingRunOut, OfAConeIsAboutTheDatumOfThePart) {
   DrawnPart part;
   part.cylinder("Z", round_journal(10.0, {-40.0, -20.0}, 8));

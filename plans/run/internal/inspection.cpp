@@ -233,7 +233,8 @@ core::Result<void> FeatureSession::keep_as_final() {
     keep_merged_truth();
     return {};
   }
-  if (truth_.empty()) return {};
+  // What stands in a window is no part of the surface: its zone would be of a keyway.
+  if (truth_.empty() || !feature_.exclude.empty()) return {};
   // Only a comparison for simulations: if it cannot be evaluated, the run continues.
   std::optional<double> zone_mm;
   if (!geometry_.surface->is_round()) return {};
