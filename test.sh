@@ -19,7 +19,7 @@ sanitized="core wire record fixture cmm fit plans evaluation reports web app fuz
 # Figures of many trials and of time, held by the release build; and runs of the whole program that take long: what
 # they do, the tests of plans, record and reports do within one process.
 unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\."
-unsanitized+="|EveryFlippedByteIsTold|PlanVerb\\.(Proposes|SaysWhatLimits|Predicts)"
+unsanitized+="|EveryFlippedByteIsTold|PlantedShafts|PlanVerb\\.(Proposes|SaysWhatLimits|Predicts)"
 unsanitized+="|app\\.(Killed|SmallDisk|FullDisk|Resume|Watch|Language|HardPlan)"
 case "${1:-}" in
   "" | --sanitizers) ;;
