@@ -24,8 +24,8 @@
 #include "fit/least_squares/sections.h"
 #include "fit/least_squares/sphere.h"
 #include "fit/profiles/generatrix.h"
-#include "fit/sizes/global_sizes.h"
 #include "fit/sizes/local_sizes.h"
+#include "fit/zone/fit.h"
 
 namespace rondure::reports {
 
@@ -157,12 +157,13 @@ fit::Material material_of(const MeasuredSurface& surface) {
 
 /// GG, GN, SX and SN of the two-point sizes, mean of them, straightness of the generatrices.
 std::vector<double> sizes_of(const MeasuredSurface& surface) {
-  const auto global = fit::global_sizes(surface.tips_mm, material_of(surface), Vector3d::UnitZ());
   const auto axis = fit::ls_cylinder(surface.tips_mm, Vector3d::UnitZ());
   std::vector<double> out(6, kNone);
-  if (!global || !axis) return out;
-  out[0] = global->gg_mm;
-  out[1] = global->gn_mm;
+  if (!axis) return out;
+  const fit::CylinderZone ring =
+      fit::CylinderZoneFitter().fit_from(surface.tips_mm, axis->axis, fit::kMinimumCircumscribed);
+  out[0] = 2.0 * material_of(surface).surface_radius_mm(axis->radius_mm);
+  out[1] = 2.0 * material_of(surface).surface_radius_mm(ring.outer_radius_mm);
   const Layers layers = layers_of_tips(surface);
   const auto sections = fit::sections_across(layers, axis->axis);
   if (sections) {
