@@ -35,16 +35,17 @@ void leave_unread() {
   ::close(ends[1]);
 }
 
-/// In the child, between fork and exec.
-void enter(const Surroundings& surroundings, const std::filesystem::path& folder) {
-  redirect(folder / "err", STDERR_FILENO);
+/// In the child, between fork and exec: allocates nothing, because a thread of this process may
+/// have held the allocator when it was copied.
+void enter(const Surroundings& surroundings, const std::filesystem::path& out,
+           const std::filesystem::path& err) {
+  redirect(err, STDERR_FILENO);
   if (surroundings.standard_output == "closed") {
     ::close(STDOUT_FILENO);
   } else if (surroundings.standard_output == "unread") {
     leave_unread();
   } else {
-    const std::string& named = surroundings.standard_output;
-    redirect(named.empty() ? folder / "out" : std::filesystem::path(named), STDOUT_FILENO);
+    redirect(out, STDOUT_FILENO);
   }
   if (surroundings.largest_file_bytes) limit_files(*surroundings.largest_file_bytes);
   if (surroundings.empty_environment) ::clearenv();
@@ -80,7 +81,11 @@ pid_t start(const std::vector<std::string>& arguments, const std::function<void(
 }
 
 Program::Program(const std::vector<std::string>& arguments, const Surroundings& surroundings)
-    : pid_(start(arguments, [&] { enter(surroundings, folder_.path()); })) {}
+    : pid_(start(arguments, [&surroundings,
+                             out = surroundings.standard_output.empty()
+                                       ? folder_ / "out"
+                                       : std::filesystem::path(surroundings.standard_output),
+                             err = folder_ / "err"] { enter(surroundings, out, err); })) {}
 
 Program::~Program() {
   if (pid_ <= 0) return;
