@@ -512,7 +512,7 @@ struct CoverageCase {
   double sigma_mm = 0.5e-3;
   double form_mm = 1.5e-3;
   double offset_mm = 0.004;  ///< Of the seat from the axis of the datum.
-  int inspections = 12;      ///< 1000 with RONDURE_FULL=1.
+  int inspections = 30;      ///< 1000 with RONDURE_FULL=1.
   friend std::ostream& operator<<(std::ostream& out, const CoverageCase& c) {
     return out << c.name;
   }
@@ -614,7 +614,7 @@ INSTANTIATE_TEST_SUITE_P(
                     CoverageCase{.name = "4 x 8, single", .repeats = 1},
                     CoverageCase{.name = "4 x 8, quiet", .sigma_mm = 0.1e-3},
                     CoverageCase{
-                        .name = "4 x 36, single", .points = 36, .repeats = 1, .inspections = 5}));
+                        .name = "4 x 36, single", .points = 36, .repeats = 1, .inspections = 10}));
 
 }  // namespace
 }  // namespace rondure::reports
