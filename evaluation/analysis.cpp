@@ -9,6 +9,7 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
+#include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
 
@@ -22,7 +23,8 @@ std::optional<double> nominal_limit(const record::Characteristic& asked) {
 }
 
 void judge(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-           const FeatureResult& result, CharacteristicResult& out) {
+           const FeatureResult& result, const UncertaintyStatus& interval,
+           CharacteristicResult& out) {
   record::Characteristic& asked = out.characteristic;
   asked.tolerance_mm = nominal_limit(asked);
   out.verdict = Verdict::kVoid;
@@ -39,10 +41,8 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = core::phrase("the computation gave no finite number");
     return;
   }
-  out.value.emplace(
-      symbol_of(asked), value->value_mm,
-      operator_of(*result.analysis, asked, temperature_words(result)),
-      UncertaintyStatus::none(core::phrase("intervals are computed of touches and points only")));
+  out.value.emplace(symbol_of(asked), value->value_mm,
+                    operator_of(*result.analysis, asked, temperature_words(result)), interval);
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
@@ -81,6 +81,14 @@ ValueOperator operator_of(const AnalysisResult& result,
                           const core::Phrase& temperature) {
   return std::visit(
       [&](const auto& found) { return operator_of(found, characteristic, temperature); },
+      result.found);
+}
+
+std::vector<UncertaintyStatus> intervals_of(
+    const AnalysisResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options) {
+  return std::visit(
+      [&](const auto& found) { return intervals_of(found, characteristics, options); },
       result.found);
 }
 
@@ -135,10 +143,17 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
 
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result) {
-  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+  const std::vector<record::Characteristic>& asked = result.feature.characteristics;
+  std::vector<UncertaintyStatus> intervals(asked.size(), UncertaintyStatus::none({}));
+  if (result.analysis) {
+    intervals = intervals_of(*result.analysis, asked, uncertainty_options(record));
+  }
+  for (std::size_t c = 0; c < asked.size(); ++c) {
     CharacteristicResult out;
-    out.characteristic = characteristic;
-    judge(record, rule, result, out);
+    out.characteristic = asked[c];
+    const auto& own = asked[c].indication.decision_rule;
+    judge(record, own ? core::Result<DecisionRule>(rule_of(*own)) : rule, result, intervals[c],
+          out);
     result.characteristics.push_back(std::move(out));
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
@@ -18,6 +20,11 @@ struct AnalysisResult;  // analysis_result.h
 /// The value of a characteristic, or why there is none.
 [[nodiscard]] core::Result<AnalysisValue> value_of(const AnalysisResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of the values that characteristics ask for, in their order, from one set of
+/// trials; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const AnalysisResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 /// How the value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
 [[nodiscard]] ValueOperator operator_of(const AnalysisResult& result,
                                         const record::Characteristic& characteristic,
@@ -34,8 +41,7 @@ struct AnalysisResult;  // analysis_result.h
 
 /// Fills the characteristics of an analysed feature and applies the rule to them. A characteristic
 /// is void without a result or a value, outside the temperature limits, where the value proves
-/// nothing, when the run did not finish, or when the rule needs an interval: no interval is
-/// computed for series yet.
+/// nothing, when the run did not finish, or when its rule needs an interval and there is none.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <span>
 #include <vector>
 
 #include "evaluation/results/analysis_value.h"
@@ -25,6 +26,10 @@ struct ContourResult {
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const ContourResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of these values, in their order; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const ContourResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 [[nodiscard]] ValueOperator operator_of(const ContourResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

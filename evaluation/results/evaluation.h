@@ -13,6 +13,7 @@
 #include "evaluation/decision/decision.h"
 #include "evaluation/decision/verdict.h"
 #include "evaluation/results/clamping.h"
+#include "evaluation/results/gate.h"
 #include "evaluation/results/merged_poses.h"
 #include "evaluation/results/stated_value.h"
 #include "evaluation/results/thermal.h"
@@ -143,6 +144,7 @@ struct FeatureResult {
   std::optional<Temperatures> temperatures;        ///< During the final cloud; none: not known.
   std::shared_ptr<const MergedPoses> merged;       ///< Only for the strategy "merged".
   std::shared_ptr<const AnalysisResult> analysis;  ///< Only for a feature whose data are series.
+  std::vector<Gate> gates;                         ///< Of an analysis: all that were checked.
   /// All values above are at 20 degC; none: as measured.
   std::optional<ThermalCorrection> thermal;
   std::vector<CharacteristicResult> characteristics;

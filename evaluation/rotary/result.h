@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <span>
 #include <vector>
 
 #include "evaluation/results/analysis_value.h"
@@ -43,6 +44,10 @@ struct RotaryResult {
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const RotaryResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of these values, in their order; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const RotaryResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 [[nodiscard]] ValueOperator operator_of(const RotaryResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

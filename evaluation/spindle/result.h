@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "evaluation/results/analysis_value.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
@@ -26,6 +29,10 @@ struct SpindleResult {
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const SpindleResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of these values, in their order; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const SpindleResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 [[nodiscard]] ValueOperator operator_of(const SpindleResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

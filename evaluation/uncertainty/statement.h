@@ -46,6 +46,9 @@ struct UncertaintyStatement {
   /// Twice the standard deviation of the mean of the chains, the largest of estimate, standard
   /// uncertainty, low and high [mm]: the numerical error of a finite number of trials.
   double numerical_tolerance_mm = 0.0;
+  /// Noise and influences make up so much of the value that only `high_mm` is stated: the value is
+  /// at most that.
+  bool at_most = false;
   std::vector<double> values_mm;  ///< Values of the trials, ascending: the whole distribution.
 
   /// U: half the width of the interval, which need not be symmetric about the estimate.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,6 +27,10 @@ struct WheelResult {
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const WheelResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of these values, in their order; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const WheelResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 [[nodiscard]] ValueOperator operator_of(const WheelResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "record/key_spec.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::record {
 
@@ -47,6 +49,7 @@ struct ContourTask {
   MainJournal main_journal = MainJournal::kAsIs;
   double stable_from = 0.9;
   double partly_from = 0.5;
+  std::optional<ContourInfluencesTask> uncertainty;
   std::vector<ContourPartTask> parts;  ///< Empty: simulated.
 };
 
@@ -159,6 +162,9 @@ void describe(Visitor& v, ContourTask& p) {
            range(0.0, 1.0, "Stability index from which on it is stable."));
   v.number("partly_from", p.partly_from,
            range(0.0, 1.0, "Stability index from which on it is partly."));
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                       "Without them there is no interval."});
   v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "record/key_spec.h"
+#include "record/tasks/analysis_influences.h"
 #include "record/tasks/switch.h"
 
 namespace rondure::record {
@@ -65,6 +66,7 @@ struct WheelTask {
   Switch robust = Switch::kOff;
   ShortArc short_arc = ShortArc::kRefused;
   std::optional<GroundSurfaceTask> surface;
+  std::optional<WheelInfluencesTask> uncertainty;
 };
 
 constexpr auto words_of(WheelTask::Mode) {
@@ -172,6 +174,9 @@ void describe(Visitor& v, WheelTask& p) {
   v.text("robust", p.robust, {.meaning = "on: isolated points beyond 5 scales are dropped."});
   v.text("short_arc", p.short_arc, {.meaning = "Less than 20 deg of the circle."});
   v.object("surface", p.surface, {.meaning = "A surface to grind: gives the wheel-centre path."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                       "Without them there is no interval."});
 }
 
 }  // namespace rondure::record

@@ -1,0 +1,3 @@
+#include "evaluation/uncertainty/curve_trials.h"
+
+namespace rondure::evaluation {}  // namespace rondure::evaluation

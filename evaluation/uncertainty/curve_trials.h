@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/phrase.h"
+#include "core/result.h"
+#include "evaluation/uncertainty/statement.h"
+
+// Trials of the values of an analysis (JCGM 101) that do not count noise twice. A measured curve
+// holds its noise already; a trial that adds draws to it would add that noise once more. Here the
+// draws stand for the true curve given the measured one.
+
+namespace rondure::evaluation {
+
+/// A measured curve as coefficients in a basis in which its random errors are independent: parts
+/// of harmonics, contrasts over turns, orthonormal columns over scattered angles.
+struct MeasuredCurve {
+  std::vector<double> found_mm;  ///< Coefficients, real.
+  std::vector<double> u_mm;      ///< Standard uncertainty of each; > 0.
+  /// Group of each coefficient, 0 upwards: an octave of orders (2-7, 8-15, 16-31, ...). The
+  /// coefficients of a group are taken for parts of one kind.
+  std::vector<int> group;
+  /// Coefficients that always belong to the core, as the eccentricity does; may be empty.
+  std::vector<bool> always_core = {};
+  /// A random field, as asynchronous motion: it has no core, and is never 0.
+  bool field = false;
+};
+
+/// Draws of the true coefficients of a curve, given the measured ones.
+///
+/// A coefficient that stands out of the noise belongs to the core and is drawn about its measured
+/// value. The others are the pool: they are drawn from their posterior under a common power of
+/// their group, which is itself drawn.
+/// Source: the common method of the sister analyses, docs/uncertainty.md.
+class CurveDraws {
+ public:
+  /// @param id  Name of the influence, e.g. "probe.noise". Draws depend on (seed, id, trial) alone.
+  CurveDraws(MeasuredCurve curve, std::uint64_t seed, std::string_view id);
+
+  /// True coefficients in trial `trial` (0-based) [mm].
+  [[nodiscard]] std::vector<double> draw(int trial) const;
+  /// The same with the pool at 0: for UncertainTrials::core_mm.
+  [[nodiscard]] std::vector<double> core_draw(int trial) const;
+  /// The measured coefficients of the core, 0 elsewhere [mm].
+  [[nodiscard]] const std::vector<double>& core_mm() const { return core_mm_; }
+
+ private:
+  MeasuredCurve curve_;
+  std::uint64_t seed_ = 0;
+  std::uint64_t id_ = 0;
+  std::vector<double> core_mm_;
+  std::vector<bool> in_core_;
+  std::vector<std::vector<std::size_t>> pools_;  ///< Coefficients of each group that are pool.
+};
+
+/// A standard normal draw of a classical or Berkson influence: a pure function of its arguments.
+/// Two features that name the same id share their draws.
+/// @param instance  Which of several with this id.
+[[nodiscard]] double normal_draw(std::uint64_t seed, std::string_view id, std::uint64_t instance,
+                                 int trial);
+/// The same, uniform with standard deviation 1: for a rectangular influence, times its standard
+/// uncertainty.
+[[nodiscard]] double uniform_draw(std::uint64_t seed, std::string_view id, std::uint64_t instance,
+                                  int trial);
+
+/// Values of one quantity in all trials.
+struct TrialValues {
+  double as_measured_mm = 0.0;
+  std::vector<double> values_mm;  ///< One for each trial; not below 100.
+  /// Of a convex value (peak to valley, rms, amplitude, largest of many): the values of the core
+  /// alone, for the same trials. Empty: the value is linear and is not turned.
+  std::vector<double> core_mm = {};
+  double core_center_mm = 0.0;  ///< The value of CurveDraws::core_mm().
+  bool signed_value = false;    ///< false: values are cut at 0.
+};
+
+/// An influence alone: how the value changes with it.
+struct LinearTerm {
+  std::string name;              ///< Stable, kebab-case: "probe-2-gain".
+  double per_u_mm = 0.0;         ///< Change of the value for +1 standard uncertainty, signed.
+};
+
+/// Change of a value for one standard uncertainty, by central differences: (f(+1) - f(-1)) / 2.
+/// @param value  The value with the influence at so many standard uncertainties.
+[[nodiscard]] double per_u(const std::function<double(double)>& value);
+
+/// The statement about a value from its trials.
+///
+/// A convex value is turned: B = mean(core) - centre of the core, and 2 max(0, B) is taken off
+/// every trial, because the trials inflate the value as the measurement did. An inflation above 25
+/// % of the value leaves only an upper bound (`at_most`, note "noise-dominates"). Where linear
+/// propagation and the trials differ by more than 30 %, a note says both.
+/// @param terms  The budget; ranked in the result.
+/// @param declaration  Declared and undeclared influences.
+/// @return  kBadOption for fewer than 100 trials; kNotFinite names the first trial without a number.
+[[nodiscard]] core::Result<UncertaintyResult> statement_of_trials(
+    TrialValues values, std::vector<LinearTerm> terms, std::vector<InfluenceStatement> declaration,
+    const UncertaintyOptions& options);
+
+}  // namespace rondure::evaluation
