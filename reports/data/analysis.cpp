@@ -1,9 +1,13 @@
+#include <cmath>
+#include <optional>
+
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "reports/data/contour.h"
 #include "reports/data/internal/json_parts.h"
 #include "reports/data/spindle.h"
 #include "reports/data/wheel.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -34,7 +38,24 @@ Json found_json(const evaluation::AnalysisResult& result) {
   return std::visit([](const auto& found) { return found_json(found); }, result.found);
 }
 
+/// A number that is not finite, as one that could not be computed, is null.
+Json finite_json(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
+}
+
+Json gate_json(const evaluation::Gate& gate) {
+  return {{"code", gate.code},
+          {"condition", gate.condition.english()},
+          {"found", finite_json(gate.found)},
+          {"limit", finite_json(gate.limit)},
+          {"unit", gate.unit},
+          {"outcome", name_of(gate.outcome)},
+          {"reason", gate.reason.english()}};
+}
+
 }  // namespace
+
+Json gates_json(const std::vector<evaluation::Gate>& gates) { return list_json(gates, gate_json); }
 
 Json analysis_json(const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
@@ -45,6 +66,7 @@ Json analysis_json(const evaluation::FeatureResult& feature) {
   json["data_file"] = asked.points_file;
   json["data_sha256"] = asked.points_sha256;
   json["characteristics"] = characteristics_json(feature);
+  json["gates"] = gates_json(feature.gates);
   json[std::string(record::name_of(asked.shape))] =
       feature.analysis ? found_json(*feature.analysis) : Json(nullptr);
   json["warnings"] = list_json(feature.warnings, error_json);

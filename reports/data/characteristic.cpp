@@ -7,6 +7,7 @@
 #include "reports/data/internal/json_parts.h"
 #include "reports/data/internal/limits.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -17,7 +18,8 @@ Json statement_json(const evaluation::UncertaintyStatement& s) {
           {"high_um", in_um(s.high_mm)},
           {"standard_uncertainty_um", in_um(s.standard_uncertainty_mm)},
           {"expanded_um", in_um(s.expanded_mm())},
-          {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)}};
+          {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)},
+          {"at_most", s.at_most}};
 }
 
 Json form_json(const evaluation::FormFinding& finding) {
@@ -48,7 +50,8 @@ Json prior_json(const std::optional<evaluation::Prior>& prior) {
 }
 
 /// Intervals, bias, budget and declaration of a value; null without an interval.
-Json uncertainty_json(const evaluation::CharacteristicResult& result) {
+/// @param of_cloud  Whether the form model of the trials saw a cloud: an analysis has none.
+Json uncertainty_json(bool of_cloud, const evaluation::CharacteristicResult& result) {
   if (!result.value || !result.value->uncertainty().result()) return nullptr;
   const evaluation::UncertaintyResult& u = *result.value->uncertainty().result();
   return {{"coverage", result.value->uncertainty().coverage_1()},
@@ -57,7 +60,7 @@ Json uncertainty_json(const evaluation::CharacteristicResult& result) {
           {"noise_inflation_um", in_um(u.noise_inflation_mm)},
           {"sampling_loss_um", optional_um(u.sampling_loss_mm)},
           {"form_spectrum", u.spectrum_source},
-          {"finding", form_json(u.finding)},
+          {"finding", of_cloud ? form_json(u.finding) : Json(nullptr)},
           {"notes", u.notes},
           {"trials", u.trials},
           {"tolerance_reached", u.tolerance_reached},
@@ -132,14 +135,16 @@ Json characteristic_json(const record::Feature& feature,
                {"symbol", evaluation::symbol_of(asked)},
                {"reference", evaluation::reference_of(asked)},
                {"value_um", optional_um(result.value_mm())},
-               {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
+               {"quoted_um", result.value && !is_at_most(*result.value)
+                                 ? Json(in_um(result.value->quoted_mm()))
+                                 : Json(nullptr)},
                {"tolerance_um", limit_um(found, asked.tolerance_mm)},
                {"verdict", name_of(result.verdict)},
                {"reason", result.reason},
                {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
                {"drawing_zone", asked.drawing_zone},
                {"stated", result.value ? Json(result.value->sentence()) : Json(nullptr)},
-               {"uncertainty", uncertainty_json(result)},
+               {"uncertainty", uncertainty_json(!record::is_analysis(feature.shape), result)},
                {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
                                               ? Json(result.value->uncertainty().why())
                                               : Json(nullptr)},

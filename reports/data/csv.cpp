@@ -99,10 +99,11 @@ std::string write_results_csv(const record::RunRecord& record,
       const record::Characteristic& asked = result.characteristic;
       const evaluation::UncertaintyStatement* known =
           result.value ? result.value->statement() : nullptr;
-      const std::string interval = known == nullptr ? ",,"
-                                                    : um_field(known->estimate_mm) + "," +
-                                                          um_field(known->low_mm) + "," +
-                                                          um_field(known->high_mm);
+      // Of "at most 3.2 um" only the upper end is stated.
+      const bool both = known != nullptr && !known->at_most;
+      const std::string interval = (both ? um_field(known->estimate_mm) : "") + "," +
+                                   (both ? um_field(known->low_mm) : "") + "," +
+                                   (known != nullptr ? um_field(known->high_mm) : "");
       text += fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{}", head, text_field(feature.feature.id),
           text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),

@@ -72,26 +72,49 @@ void add_truth(const record::RunRecord& record, int feature, std::size_t part,
   curves.push_back({tr("hidden truth of n"), "mean", *std::move(beta), *std::move(rest)});
 }
 
-std::string separation_plots(const evaluation::ContourResult& facts,
+std::string separation_plot(const evaluation::ContourResult& facts, const record::RunRecord& record,
+                            int feature, std::size_t i) {
+  const fit::ContourPartResult& part = facts.study.parts[i];
+  std::vector<Curve> curves;
+  curves.push_back(
+      curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
+  curves.push_back(
+      curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
+  curves.push_back(
+      curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
+  add_truth(record, feature, i, curves);
+  return scrolling(
+      line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"), curves));
+}
+
+/// The separation of the first part, which shows what the analysis is about.
+std::string first_separation(const evaluation::ContourResult& facts,
                              const record::RunRecord& record, int feature) {
-  std::string html =
-      fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation, part by part"),
-                  tr("t = f + n: the contour as measured, the share that follows "
-                     "from the axis errors, and the rest."));
-  for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
-    const fit::ContourPartResult& part = facts.study.parts[i];
-    std::vector<Curve> curves;
-    curves.push_back(
-        curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
-    curves.push_back(
-        curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
-    curves.push_back(
-        curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
-    add_truth(record, feature, i, curves);
-    html += scrolling(line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle),
-                                 tr("contour error / µm"), curves));
-  }
+  return fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation"),
+                     tr("t = f + n: the contour as measured, the share that follows "
+                        "from the axis errors, and the rest.")) +
+         separation_plot(facts, record, feature, 0);
+}
+
+std::string other_separations(const evaluation::ContourResult& facts,
+                              const record::RunRecord& record, int feature) {
+  if (facts.study.parts.size() < 2) return {};
+  std::string html = fmt::format("<h3>{}</h3>", tr("Separation of the other parts"));
+  for (std::size_t i = 1; i < facts.study.parts.size(); ++i)
+    html += separation_plot(facts, record, feature, i);
   return html;
+}
+
+std::string words_explained() {
+  return explained("t, f, n",
+                   tr("Contour error of the pin as measured; the part of it that follows from the "
+                      "errors of the C and X axes, which a correction of their commands removes as "
+                      "far as it repeats; and the rest, which it does not.")) +
+         explained(tr("Stability index"),
+                   tr("Share of the mean square of a curve that repeats from part to part: 1 when "
+                      "all parts have the same curve, 0 for curves that have nothing in common; "
+                      "below 0 by chance. Only what repeats is worth correcting.")) +
+         explained(tr("Spread"), tr("Standard deviation of the parts from their mean curve."));
 }
 
 std::string comparison_plots(const evaluation::ContourResult& facts) {
@@ -196,8 +219,9 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
                           int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return key_numbers(facts) + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
-         separation_plots(facts, record, feature) + harmonic_plot(facts, asked);
+  return first_separation(facts, record, feature) + key_numbers(facts) + words_explained() +
+         verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
+         other_separations(facts, record, feature) + harmonic_plot(facts, asked);
 }
 
 }  // namespace rondure::reports
