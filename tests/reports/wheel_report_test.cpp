@@ -197,6 +197,22 @@ TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
   }
 }
 
+// Title, verdict, the picture of the edge, then numbers and their words.
+TEST(WheelReport, ShowsTheEdgeBeforeTheNumbers) {
+  const auto run = wheel_run();
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_EQ(testing::first_unbalanced_tag(html), "");
+  EXPECT_THAT(html, HasSubstr("grinding-wheel report"));
+  std::size_t at = 0;
+  for (const char* next : {"radius, run-out and edge</h2>", "class=\"verdicts\"",
+                           "Edge of the wheel</h3>", "class=\"keys\"", "<b>Effective radius</b>"}) {
+    at = html.find(next, at);
+    ASSERT_NE(at, std::string::npos) << next;
+  }
+}
+
 TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {
   auto run = wheel_run();
   run.features[0].settings[8].number = 0.5 / 40.0;
