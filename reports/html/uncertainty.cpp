@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -160,6 +164,27 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
   return html + declaration(u.declaration);
 }
 
+/// Why values have no interval, each reason once with the characteristics that it concerns.
+std::string absent_intervals(const evaluation::FeatureResult& feature) {
+  std::vector<std::pair<core::Phrase, std::string>> reasons;
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+    if (!result.value || result.value->uncertainty().result()) continue;
+    const core::Phrase& why = result.value->uncertainty().why();
+    if (why.empty()) continue;
+    const std::string name = isolated(result.characteristic.id);
+    const auto known = std::ranges::find(reasons, why, &decltype(reasons)::value_type::first);
+    if (known == reasons.end()) {
+      reasons.emplace_back(why, name);
+    } else {
+      known->second += tr(", ") + name;
+    }
+  }
+  std::string html;
+  for (const auto& [why, names] : reasons)
+    html += note(trf("No interval of {}: {}.", names, in_sentence(why)));
+  return html;
+}
+
 }  // namespace
 
 std::string rule_section(const evaluation::Evaluation& evaluation) {
@@ -176,6 +201,7 @@ std::string rule_section(const evaluation::Evaluation& evaluation) {
 
 std::string uncertainty_section(const evaluation::FeatureResult& feature) {
   std::string html;
+  if (record::is_analysis(feature.feature.shape)) html += absent_intervals(feature);
   for (const evaluation::CharacteristicResult& result : feature.characteristics) {
     if (result.value && result.value->uncertainty().result())
       html += value_part(result, !record::is_analysis(feature.feature.shape));

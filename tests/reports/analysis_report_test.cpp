@@ -198,6 +198,23 @@ TEST(AnalysisInterval, StandsInEveryWriter) {
   EXPECT_THAT(page, Not(HasSubstr("spots")));
 }
 
+TEST(AnalysisInterval, ThePageSaysWhyThereIsNone) {
+  Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync");
+  CharacteristicResult& first = made.evaluation.features.front().characteristics.front();
+  const core::Phrase said = core::as_it_is("none");
+  first.value.emplace("EM sync", 0.0031,
+                      ValueOperator(ReferenceTerm(said), FilterTerm(said), SamplingTerm(said),
+                                    TipTerm(said), TemperatureTerm(said)),
+                      UncertaintyStatus::none(core::Phrase("declare gain_1")));
+  const CharacteristicResult same = first;  // a reason is written once for all that it concerns
+  made.evaluation.features.front().characteristics.push_back(same);
+  const std::string page = page_of(made);
+  const std::string line =
+      "No interval of <bdi>asked</bdi>, <bdi>asked</bdi>: <bdi>declare gain_1</bdi>.";
+  EXPECT_THAT(page, HasSubstr(line));
+  EXPECT_THAT(page, Not(HasSubstr("Uncertainty of")));
+}
+
 TEST(AnalysisInterval, AnUpperBoundIsNowhereAValue) {
   const Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync", true);
   const auto asked = document_of(made)["features"][0]["characteristics"][0];
