@@ -197,6 +197,38 @@ TEST(Examples, OfAShaftDrawingOnlyTheSpoiledCallOutsFail) {
                                      "bore D: 18H7 E", "face E: flat 4", "cone G: cone run-out 8"));
 }
 
+TEST(Examples, FourAnalysesUnderIso14253EndWithAVerdictEach) {
+  const TemporaryFolder folder;
+  const Outcome ran = rondure({"run", example("16_four_analyses.json"), "--out", folder / "run"});
+  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  EXPECT_EQ(report.at("verdict"), "conforms");
+  ASSERT_EQ(report.at("features").size(), 4U);
+  for (const json& feature : report.at("features")) {
+    for (const json& c : feature.at("characteristics")) {
+      EXPECT_EQ(c.at("verdict"), "conforms") << feature.at("id") << ' ' << c.dump();
+    }
+  }
+}
+
+TEST(Examples, EveryTypeOfFeatureIsVoidOutsideTheTemperatureLimits) {
+  json plan = json::parse(read(example("16_four_analyses.json")));
+  plan["simulation"]["temperature_degC"] = 35.0;
+  const TemporaryFolder folder;
+  write(folder / "plan.json", plan.dump(2));
+  EXPECT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run"}).status, 1);
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  EXPECT_EQ(report.at("verdict"), "void");
+  for (const json& feature : report.at("features")) {
+    for (const json& c : feature.at("characteristics")) {
+      SCOPED_TRACE(c.dump());
+      EXPECT_EQ(c.at("verdict"), "void");
+      EXPECT_THAT(c.at("reason").get<std::string>(),
+                  HasSubstr("temperature 35.00 degC is outside 18..22 degC"));
+    }
+  }
+}
+
 TEST(Examples, OneSeedGivesTheSameTouchesAndAnotherGivesOthers) {
   const TemporaryFolder folder;
   const std::string plan = example("01_spool_simulated.json");
