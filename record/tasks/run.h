@@ -16,7 +16,7 @@ namespace rondure::record {
 struct EnvironmentSettings {
   std::optional<std::string> declared;  ///< There when the plan states limits, also for files.
   std::optional<double> assumed_degC;   ///< Temperature of part and scales when not measured.
-  double max_drift_K = 0.5;             ///< Of an analysis, from its first to its last value.
+  double max_drift_K = 0.5;             ///< Of an analysis: greatest change at one place.
 };
 
 /// The fixture that carried the parts, at "fixture/".
