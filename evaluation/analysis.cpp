@@ -9,6 +9,7 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
+#include "evaluation/internal/temperature_gates.h"
 #include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
@@ -84,9 +85,9 @@ ValueOperator operator_of(const AnalysisResult& result,
       result.found);
 }
 
-std::vector<UncertaintyStatus> intervals_of(
-    const AnalysisResult& result, std::span<const record::Characteristic> characteristics,
-    const UncertaintyOptions& options) {
+std::vector<UncertaintyStatus> intervals_of(const AnalysisResult& result,
+                                            std::span<const record::Characteristic> characteristics,
+                                            const UncertaintyOptions& options) {
   return std::visit(
       [&](const auto& found) { return intervals_of(found, characteristics, options); },
       result.found);
@@ -100,16 +101,10 @@ core::Phrase sampling_text(const AnalysisResult& result) {
   return std::visit([](const auto& found) { return sampling_text(found); }, result.found);
 }
 
-FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
-                                const std::optional<fit::ProbeTip>& probe) {
-  FeatureResult result;
-  result.feature = record.features[static_cast<std::size_t>(index)];
-  result.temperatures = temperatures_of(record, {});         // series have no touch temperatures
-  if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
-    if (probe) result.tip_radius_mm = probe->radius_mm;
-    keep(evaluate_rotary(record, index, result), result);
-    return result;
-  }
+namespace {
+
+/// Evaluates the series of a feature, or says why they cannot be.
+void evaluate_series(const record::RunRecord& record, int index, FeatureResult& result) {
   const bool recorded =
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
@@ -120,7 +115,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
   if (!recorded || !named) {
     result.failure =
         core::Error{core::Code::kNoPoints, "the run ended before its data were kept", {}};
-    return result;
+    return;
   }
   switch (result.feature.shape) {
     case record::Shape::kSpindle:
@@ -138,6 +133,23 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
           fmt::format("this version does not evaluate a {}", record::name_of(result.feature.shape)),
           {}};
   }
+}
+
+}  // namespace
+
+FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                const std::optional<fit::ProbeTip>& probe) {
+  FeatureResult result;
+  result.feature = record.features[static_cast<std::size_t>(index)];
+  if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
+    if (probe) result.tip_radius_mm = probe->radius_mm;
+    keep(evaluate_rotary(record, index, result), result);
+  } else {
+    result.temperatures = temperatures_of_series(record, index);
+    evaluate_series(record, index, result);
+  }
+  std::vector<Gate> gates = temperature_gates(record, result);
+  result.gates.insert(result.gates.begin(), gates.begin(), gates.end());
   return result;
 }
 

@@ -8,7 +8,8 @@
 #include "record/key_spec.h"
 
 // The declared influences of the analyses, as the object `uncertainty` of a feature spells them. A
-// key that is left out was not declared, and the report says so; 0 means: known to be zero.
+// key that is left out was not declared, and the report says so; 0 means: known to be zero. A plan
+// spells an influence as a number, which is its standard uncertainty, or as an object.
 
 namespace rondure::record {
 
@@ -82,10 +83,11 @@ struct WheelInfluencesTask {
   Influence wear_um;       ///< Since the measurement.
 };
 
+/// The object that spells an influence with its distribution.
+/// @param spec  Limits and meaning of its value: those of the key that names the influence.
 template <class Visitor>
-void describe(Visitor& v, DeclaredInfluence& p) {
-  v.number("value", p.value,
-           required(range(0.0, 1e6, "Standard uncertainty, or half-width of a rectangular one.")));
+void describe(Visitor& v, DeclaredInfluence& p, const NumberSpec& spec) {
+  v.number("value", p.value, required(spec));
   v.text("distribution", p.distribution,
          {.meaning = "normal: value is the standard uncertainty; rectangular: value is the "
                      "half-width."});
@@ -93,55 +95,66 @@ void describe(Visitor& v, DeclaredInfluence& p) {
 
 template <class Visitor>
 void describe(Visitor& v, SpindleInfluencesTask& p) {
-  v.object("noise_um", p.noise_um, {.meaning = "Of one reading [um]."});
-  v.object("gain_1", p.gain_1, {.meaning = "Relative gain of each probe, by its certificate."});
-  v.object("angle_deg", p.angle_deg, {.meaning = "Angle of each probe [deg]."});
-  v.object("line_um", p.line_um,
-           {.meaning = "Sideways distance of each measuring line from the common centre [um]."});
-  v.object("arm_mm", p.arm_mm, {.meaning = "Length of the swing arm [mm]."});
-  v.object("skew_us", p.skew_us, {.meaning = "Time between the samples of the channels [us]."});
-  v.object("drift_um_per_turn", p.drift_um_per_turn, {.meaning = "Drift of each probe [um/turn]."});
-  v.object("quadratic_1", p.quadratic_1,
-           {.meaning = "Non-linearity of each probe, in parts of its range."});
-  v.object("encoder_urad", p.encoder_urad, {.meaning = "Encoder of the work [urad]."});
+  v.influence("noise_um", p.noise_um,
+              range(0.0, 100.0, "Of one reading; in place of an estimate from the readings."));
+  v.influence("gain_1", p.gain_1,
+              range(0.0, 0.1, "Relative gain of each probe, by its certificate."));
+  v.influence("angle_deg", p.angle_deg, range(0.0, 5.0, "Angle of each probe."));
+  v.influence("line_um", p.line_um,
+              range(0.0, 1000.0,
+                    "Sideways distance of each measuring line from the common "
+                    "centre."));
+  v.influence("arm_mm", p.arm_mm,
+              range(0.0, 10.0, "Length of the swing arm: wear of the wheel, temperature."));
+  v.influence("skew_us", p.skew_us, range(0.0, 1e4, "Time between the samples of the channels."));
+  v.influence("drift_um_per_turn", p.drift_um_per_turn, range(0.0, 100.0, "Drift of each probe."));
+  v.influence("quadratic_1", p.quadratic_1,
+              range(0.0, 0.1, "Non-linearity of each probe, in parts of its range."));
+  v.influence("encoder_urad", p.encoder_urad, range(0.0, 1e4, "Encoder of the work."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, RotaryInfluencesTask& p) {
-  v.object("ball_um", p.ball_um,
-           {.meaning = "Ball centre, beside the scatter of the touches [um]."});
-  v.object("repeat_urad", p.repeat_urad, {.meaning = "Repeatability of an axis [urad]."});
-  v.object("reading_urad", p.reading_urad, {.meaning = "Reading of an angle [urad]."});
-  v.object("expansion_per_K", p.expansion_per_K,
-           {.meaning = "Expansion coefficient of the fixture [1/K]."});
+  v.influence("ball_um", p.ball_um,
+              range(0.0, 100.0, "Ball centre itself, beside the scatter of the touches."));
+  v.influence("repeat_urad", p.repeat_urad, range(0.0, 1e4, "Repeatability of an axis."));
+  v.influence("reading_urad", p.reading_urad, range(0.0, 1e4, "Reading of an angle."));
+  v.influence("expansion_per_K", p.expansion_per_K,
+              range(0.0, 1e-4, "Expansion coefficient of the fixture."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, ContourInfluencesTask& p) {
-  v.object("gauge_um", p.gauge_um, {.meaning = "One reading of the gauge, with roughness [um]."});
-  v.object("gauge_form_um", p.gauge_form_um, {.meaning = "Spindle of the gauge, 2 to 5 UPR [um]."});
-  v.object("gauge_gain_1", p.gauge_gain_1, {.meaning = "Relative gain of the gauge."});
-  v.object("gauge_phase_deg", p.gauge_phase_deg, {.meaning = "Zero of the angle [deg]."});
-  v.object("c_encoder_urad", p.c_encoder_urad,
-           {.meaning = "Errors of the encoder of C, which no trace shows [urad]."});
-  v.object("x_encoder_um", p.x_encoder_um, {.meaning = "The same of X [um]."});
-  v.object("c_trace_mdeg", p.c_trace_mdeg, {.meaning = "Noise of the trace of C [mdeg]."});
-  v.object("x_trace_um", p.x_trace_um, {.meaning = "Noise of the trace of X [um]."});
-  v.object("skew_ms", p.skew_ms, {.meaning = "Time between the traces of C and X [ms]."});
-  v.object("main_differs_um", p.main_differs_um,
-           {.meaning = "Rms difference between the errors of a pin and of its main journal that "
-                       "do not follow the axes, from earlier studies [um]."});
+  v.influence("gauge_um", p.gauge_um,
+              range(0.0, 100.0, "One reading of the gauge, with roughness."));
+  v.influence("gauge_form_um", p.gauge_form_um,
+              range(0.0, 100.0, "Spindle of the gauge, 2 to 5 UPR."));
+  v.influence("gauge_gain_1", p.gauge_gain_1, range(0.0, 0.1, "Relative gain of the gauge."));
+  v.influence("gauge_phase_deg", p.gauge_phase_deg,
+              range(0.0, 5.0, "Zero of the angle of the gauge."));
+  v.influence("c_encoder_urad", p.c_encoder_urad,
+              range(0.0, 1e4, "Errors of the encoder of C, which no trace shows."));
+  v.influence("x_encoder_um", p.x_encoder_um,
+              range(0.0, 100.0, "Errors of the encoder of X, which no trace shows."));
+  v.influence("c_trace_mdeg", p.c_trace_mdeg, range(0.0, 1000.0, "Noise of the trace of C."));
+  v.influence("x_trace_um", p.x_trace_um, range(0.0, 100.0, "Noise of the trace of X."));
+  v.influence("skew_ms", p.skew_ms, range(0.0, 100.0, "Time between the traces of C and X."));
+  v.influence("main_differs_um", p.main_differs_um,
+              range(0.0, 100.0,
+                    "Rms difference between the errors of a pin and of its main journal that do "
+                    "not follow the axes, from earlier studies."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, WheelInfluencesTask& p) {
-  v.object("point_um", p.point_um, {.meaning = "One point, along the radius [um]."});
-  v.object("scale_ppm", p.scale_ppm, {.meaning = "Scale of the stage [ppm]."});
-  v.object("squareness_urad", p.squareness_urad, {.meaning = "Squareness of its axes [urad]."});
-  v.object("threshold_um", p.threshold_um,
-           {.meaning = "Bias of the edge detection; moves the radius only [um]."});
-  v.object("axis_um", p.axis_um, {.meaning = "Each coordinate of the spindle axis [um]."});
-  v.object("wear_um", p.wear_um, {.meaning = "Wear of the radius since the measurement [um]."});
+  v.influence("point_um", p.point_um, range(0.0, 100.0, "One point, along the radius."));
+  v.influence("scale_ppm", p.scale_ppm, range(0.0, 1e4, "Scale of the stage."));
+  v.influence("squareness_urad", p.squareness_urad, range(0.0, 1e4, "Squareness of its axes."));
+  v.influence("threshold_um", p.threshold_um,
+              range(0.0, 100.0, "Bias of the edge detection; moves the radius only."));
+  v.influence("axis_um", p.axis_um, range(0.0, 1000.0, "Each coordinate of the spindle axis."));
+  v.influence("wear_um", p.wear_um,
+              range(0.0, 1000.0, "Wear of the radius since the measurement."));
 }
 
 }  // namespace rondure::record

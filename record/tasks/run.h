@@ -16,6 +16,7 @@ namespace rondure::record {
 struct EnvironmentSettings {
   std::optional<std::string> declared;  ///< There when the plan states limits, also for files.
   std::optional<double> assumed_degC;   ///< Temperature of part and scales when not measured.
+  double max_drift_K = 0.5;             ///< Of an analysis: greatest change at one place.
 };
 
 /// The fixture that carried the parts, at "fixture/".
@@ -36,6 +37,7 @@ template <class Visitor>
 void describe(Visitor& v, EnvironmentSettings& p) {
   v.text("declared", p.declared, {.meaning = "What the plan states."});
   v.number("assumed_degC", p.assumed_degC, within(1000.0, "Of part and scales."));
+  v.number("max_drift_K", p.max_drift_K, range(0.0, 1000.0, "Of an analysis."));
 }
 
 template <class Visitor>
