@@ -55,6 +55,13 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = *std::move(fault);
   } else {
     apply(rule, out);
+    if (value->void_because && out.verdict != Verdict::kDoesNotConform) {
+      // The value as read is above the limit, but its interval is not: a bound proves no more.
+      out.verdict = Verdict::kVoid;
+      out.reason = *value->void_because;
+      out.outcome.reset();
+      out.risks.reset();
+    }
     if (!value->detail.empty()) out.reason = core::phrase("{} ({})", out.reason, value->detail);
   }
 }
