@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -29,17 +30,26 @@ struct MeasuredCurve {
   std::vector<bool> always_core = {};
   /// A random field, as asynchronous motion: it has no core, and is never 0.
   bool field = false;
+  /// Number of the harmonic of which each coefficient is a part, cosine or sine: both parts of one
+  /// belong to the core together. Empty: every coefficient is judged alone.
+  std::vector<int> order = {};
 };
 
 /// Draws of the true coefficients of a curve, given the measured ones.
 ///
 /// A coefficient that stands out of the noise belongs to the core and is drawn about its measured
-/// value. The others are the pool: they are drawn from their posterior under a common power of
-/// their group, which is itself drawn.
+/// value: |c| > u sqrt(2 ln(10 n)) of n, with u > 2.5 medians, or in a group of which more than a
+/// quarter stand out; up to 12 make one group. The others are the pool: they are drawn from their
+/// posterior under a common power P of their group, w c + sqrt(w) u z with w = P / (P + u^2). P is
+/// itself drawn in every trial, from its posterior: with m the mean of u^2, a priori 0 or of
+/// density m / (P + m)^2, each with probability 1/2; of fewer than 20 coefficients 0 with
+/// probability 1/10, else of density 1 / (P + m) up to ten times their mean square (or m).
 /// Source: the common method of the sister analyses, docs/uncertainty.md.
 class CurveDraws {
  public:
-  /// @param id  Name of the influence, e.g. "probe.noise". Draws depend on (seed, id, trial) alone.
+  /// @param curve  Vectors of one length; every u_mm > 0.
+  /// @param id     Name of the influence, e.g. "probe.noise". A draw of a curve depends on (seed,
+  ///               id, trial) alone, never on earlier draws.
   CurveDraws(MeasuredCurve curve, std::uint64_t seed, std::string_view id);
 
   /// True coefficients in trial `trial` (0-based) [mm].
@@ -50,12 +60,29 @@ class CurveDraws {
   [[nodiscard]] const std::vector<double>& core_mm() const { return core_mm_; }
 
  private:
+  /// The posterior of the power of a pool: a mass at 0, and equal cells of its logarithm.
+  class PoolPower {
+   public:
+    PoolPower(const MeasuredCurve& curve, const std::vector<std::size_t>& rows);
+    /// The power [mm^2] below which it stays with this probability; 0 <= uniform < 1.
+    [[nodiscard]] double at(double uniform) const;
+
+   private:
+    double log_first_ = 0.0;
+    double step_ = 0.0;
+    std::vector<double> cumulative_;  ///< At 0, then at the upper end of each cell.
+  };
+  struct Pool {
+    std::vector<std::size_t> rows;
+    PoolPower power;
+  };
+
   MeasuredCurve curve_;
   std::uint64_t seed_ = 0;
   std::uint64_t id_ = 0;
   std::vector<double> core_mm_;
   std::vector<bool> in_core_;
-  std::vector<std::vector<std::size_t>> pools_;  ///< Coefficients of each group that are pool.
+  std::vector<Pool> pools_;  ///< One for each group with coefficients outside the core.
 };
 
 /// A standard normal draw of a classical or Berkson influence: a pure function of its arguments.
@@ -81,8 +108,8 @@ struct TrialValues {
 
 /// An influence alone: how the value changes with it.
 struct LinearTerm {
-  std::string name;              ///< Stable, kebab-case: "probe-2-gain".
-  double per_u_mm = 0.0;         ///< Change of the value for +1 standard uncertainty, signed.
+  std::string name;       ///< Stable, kebab-case: "probe-2-gain".
+  double per_u_mm = 0.0;  ///< Change of the value for +1 standard uncertainty, signed.
 };
 
 /// Change of a value for one standard uncertainty, by central differences: (f(+1) - f(-1)) / 2.
@@ -92,12 +119,15 @@ struct LinearTerm {
 /// The statement about a value from its trials.
 ///
 /// A convex value is turned: B = mean(core) - centre of the core, and 2 max(0, B) is taken off
-/// every trial, because the trials inflate the value as the measurement did. An inflation above 25
-/// % of the value leaves only an upper bound (`at_most`, note "noise-dominates"). Where linear
-/// propagation and the trials differ by more than 30 %, a note says both.
-/// @param terms  The budget; ranked in the result.
+/// every trial, because the trials inflate the value as the measurement did. Where an unsigned
+/// value as measured is inflated by more than 25 % of it, only an upper bound is left (`at_most`,
+/// note "noise-dominates"). Where linear propagation and the trials differ by more than 30 %, a
+/// note says both.
+/// @param terms  The budget, noise included; ranked in the result. Their root sum of squares is the
+///               linear propagation.
 /// @param declaration  Declared and undeclared influences.
-/// @return  kBadOption for fewer than 100 trials; kNotFinite names the first trial without a number.
+/// @return  kBadOption for fewer than 100 trials, another number of values of the core, or an
+///          option outside its range; kNotFinite names the first trial without a number.
 [[nodiscard]] core::Result<UncertaintyResult> statement_of_trials(
     TrialValues values, std::vector<LinearTerm> terms, std::vector<InfluenceStatement> declaration,
     const UncertaintyOptions& options);

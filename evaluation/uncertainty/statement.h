@@ -65,6 +65,8 @@ struct BudgetLine {
   double standard_uncertainty_mm = 0.0;  ///< Spread of the value.
   double shift_mm = 0.0;                 ///< Mean change of the value, signed.
   double share_1 = 0.0;                  ///< Fraction of the sum of the squared spreads, 0..1.
+  /// Change of the value for +1 standard uncertainty, signed, where the line is linear propagation.
+  std::optional<double> per_u_mm = {};
 };
 
 /// Composition of the cloud: means over the draws.
