@@ -214,7 +214,9 @@ CurveDraws::CurveDraws(MeasuredCurve curve, std::uint64_t seed, std::string_view
   assert(curve_.u_mm.size() == count && curve_.group.size() == count);
   assert(curve_.always_core.empty() || curve_.always_core.size() == count);
   assert(curve_.order.empty() || curve_.order.size() == count);
-  assert(std::all_of(curve_.u_mm.begin(), curve_.u_mm.end(), [](double u) { return u > 0.0; }));
+  // A coefficient that is known exactly stands out of any noise. A weight needs a variance above 0.
+  constexpr double kExact_mm = 1e-12;
+  for (double& u_mm : curve_.u_mm) u_mm = std::max(u_mm, kExact_mm);
   const Harmonics harmonics = harmonics_of(curve_);
   in_core_ = core_of(curve_, harmonics);
   core_mm_.assign(count, 0.0);

@@ -22,7 +22,7 @@ namespace rondure::evaluation {
 /// of harmonics, contrasts over turns, orthonormal columns over scattered angles.
 struct MeasuredCurve {
   std::vector<double> found_mm;  ///< Coefficients, real.
-  std::vector<double> u_mm;      ///< Standard uncertainty of each; > 0.
+  std::vector<double> u_mm;      ///< Standard uncertainty of each; 0: known exactly.
   /// Group of each coefficient, 0 upwards: an octave of orders (2-7, 8-15, 16-31, ...). The
   /// coefficients of a group are taken for parts of one kind.
   std::vector<int> group;
@@ -47,7 +47,7 @@ struct MeasuredCurve {
 /// Source: the common method of the sister analyses, docs/uncertainty.md.
 class CurveDraws {
  public:
-  /// @param curve  Vectors of one length; every u_mm > 0.
+  /// @param curve  Vectors of one length.
   /// @param id     Name of the influence, e.g. "probe.noise". A draw of a curve depends on (seed,
   ///               id, trial) alone, never on earlier draws.
   CurveDraws(MeasuredCurve curve, std::uint64_t seed, std::string_view id);
