@@ -146,6 +146,7 @@ core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, in
   auto facts = spindle_facts(readings, arm, *layout, separation_options(*task), cutoff,
                              feature.side == record::Side::kInside);
   if (!facts) return tl::unexpected(facts.error());
+  facts->feature_id = feature.id;
   facts->influences = task->uncertainty;
   facts->no_interval_because = obstacle_of(*task);
   const auto sources =

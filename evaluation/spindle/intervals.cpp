@@ -198,15 +198,16 @@ struct State {
   Eigen::VectorXd profile_mm;
   Eigen::VectorXd x_mm;
   Eigen::VectorXd y_mm;
-  std::vector<double> contrasts_mm;  ///< Empty: all revolutions are alike.
-  double gain = 1.0;                 ///< Mean gain of the probes, for the asynchronous motion.
+  /// X and Y of every revolution less their mean, one column for each; empty: all are alike.
+  std::array<Eigen::MatrixXd, 2> turns_mm = {};
+  double gain = 1.0;  ///< What the mean gain of the probes makes of them.
 };
 
 /// The values that characteristics ask for, as functions of part and motion.
 class Values {
  public:
-  Values(const SpindleResult& facts, const fit::SeparationModel& model, const Contrasts* contrasts)
-      : facts_(facts), model_(model), contrasts_(contrasts) {
+  Values(const SpindleResult& facts, const fit::SeparationModel& model)
+      : facts_(facts), model_(model) {
     const fit::FilterOptions& filter = facts.roundness.filter;
     const auto& harmonics = facts.separation.harmonics;
     transmission_ = Eigen::VectorXd::Ones(2 * static_cast<Eigen::Index>(harmonics.size()));
@@ -269,27 +270,20 @@ class Values {
     return worst;
   }
 
-  /// The revolutions of one direction, one column for each, less their mean.
-  [[nodiscard]] Eigen::MatrixXd differences(const State& state, int direction) const {
-    return model_.turn_waves() * contrasts_->of_turns(state.contrasts_mm, direction);
-  }
-
-  [[nodiscard]] double asynchronous(const State& state, int direction) const {
-    if (state.contrasts_mm.empty()) return 0.0;
-    const Eigen::MatrixXd turns = differences(state, direction);
+  [[nodiscard]] static double asynchronous(const State& state, std::size_t direction) {
+    const Eigen::MatrixXd& turns = state.turns_mm[direction];
     return (turns.rowwise().maxCoeff() - turns.rowwise().minCoeff()).maxCoeff();
   }
 
-  [[nodiscard]] double total(const State& state, int direction) const {
+  [[nodiscard]] double total(const State& state, std::size_t direction) const {
     const Eigen::VectorXd mean = model_.motion_waves() * (direction == 0 ? state.x_mm : state.y_mm);
-    if (state.contrasts_mm.empty()) return width(mean);
-    const Eigen::MatrixXd turns = differences(state, direction).colwise() + mean;
+    if (state.turns_mm[direction].size() == 0) return width(mean);
+    const Eigen::MatrixXd turns = state.turns_mm[direction].colwise() + mean;
     return turns.maxCoeff() - turns.minCoeff();
   }
 
   const SpindleResult& facts_;
   const fit::SeparationModel& model_;
-  const Contrasts* contrasts_;
   Eigen::VectorXd transmission_;
 };
 
@@ -300,19 +294,21 @@ fit::SpindleCurves sum_of(const fit::SpindleCurves& a, double factor, const fit:
 /// Trials of one separation.
 class SpindleTrials {
  public:
-  SpindleTrials(const SpindleResult& facts, fit::SeparationModel model, std::uint64_t seed)
+  SpindleTrials(const SpindleResult& facts, fit::SeparationModel model, std::uint64_t seed,
+                bool with_turns)
       : facts_(facts),
         first_(*facts.first_harmonic),
         model_(std::move(model)),
         seed_(seed),
+        first_id_("probe.noise.first-harmonic/" + facts.feature_id),
         sources_(probe_sources(*facts.influences, facts.arm, facts.separation.layout)),
         base_(model_.at(first_.mean)),
         directions_(model_, facts.separation, seed),
-        part_(part_curve(), seed, "probe.noise.part"),
-        motion_(directions_.turned(base_), seed, "probe.noise.motion") {
-    if (facts.separation.revolutions > 1) {
+        part_(part_curve(), seed, "probe.noise.part/" + facts.feature_id),
+        motion_(directions_.turned(base_), seed, "probe.noise.motion/" + facts.feature_id) {
+    if (with_turns && facts.separation.revolutions > 1) {
       contrasts_.emplace(model_, facts.separation);
-      turns_.emplace(contrasts_->curve(), seed, "probe.noise.turns");
+      turns_.emplace(contrasts_->curve(), seed, "probe.noise.turns/" + facts.feature_id);
     }
     const fit::ProbeErrorCovariance prior = covariance_of(sources_);
     for (int i = 0; i < fit::kProbeErrors; ++i) {
@@ -329,9 +325,7 @@ class SpindleTrials {
     }
   }
 
-  [[nodiscard]] Values values() const {
-    return {facts_, model_, contrasts_ ? &*contrasts_ : nullptr};
-  }
+  [[nodiscard]] Values values() const { return {facts_, model_}; }
   [[nodiscard]] const std::vector<ProbeSource>& sources() const { return sources_; }
 
   /// A trial: noise and, unless `noise_only`, errors of the probes.
@@ -353,13 +347,20 @@ class SpindleTrials {
     const fit::ProbeErrors seen = source.per_u - first_.gain * (first_.sensitivity * source.per_u);
     const fit::ProbeErrors q = first_.mean - times * seen;
     const fit::SpindleCurves curves = model_.at(q);
-    State out{curves.profile_mm, curves.x_mm, curves.y_mm,
-              contrasts_ ? contrasts_->curve().found_mm : std::vector<double>()};
+    State out{curves.profile_mm, curves.x_mm, curves.y_mm};
+    if (contrasts_) out.turns_mm = revolutions(contrasts_->curve().found_mm);
     out.gain = 1.0 - q.segment<3>(fit::kFirstGain).mean();
     return out;
   }
 
  private:
+  /// Revolutions less their mean, over the work, from their contrasts.
+  [[nodiscard]] std::array<Eigen::MatrixXd, 2> revolutions(
+      const std::vector<double>& contrasts) const {
+    return {model_.turn_waves() * contrasts_->of_turns(contrasts, 0),
+            model_.turn_waves() * contrasts_->of_turns(contrasts, 1)};
+  }
+
   [[nodiscard]] MeasuredCurve part_curve() const {
     MeasuredCurve out;
     Eigen::Index row = 0;
@@ -381,17 +382,19 @@ class SpindleTrials {
                                           : normal_draw(seed_, source.id, source.instance, trial);
       free += z * source.per_u;
     }
-    const Eigen::Vector2d noise(normal_draw(seed_, "probe.first-harmonic", 0, trial),
-                                normal_draw(seed_, "probe.first-harmonic", 1, trial));
+    const Eigen::Vector2d noise(normal_draw(seed_, first_id_, 0, trial),
+                                normal_draw(seed_, first_id_, 1, trial));
     return free - first_.gain * (first_.sensitivity * free + first_.u_mm * noise);
   }
 
   [[nodiscard]] State moved(const std::vector<double>& part, const std::vector<double>& motion,
-                            std::vector<double> contrasts, const fit::ProbeErrors& by) const {
+                            const std::vector<double>& contrasts,
+                            const fit::ProbeErrors& by) const {
     const auto xy = directions_.straight(motion);
     State out{
         Eigen::Map<const Eigen::VectorXd>(part.data(), static_cast<Eigen::Index>(part.size())),
-        xy.first, xy.second, std::move(contrasts)};
+        xy.first, xy.second};
+    if (!contrasts.empty()) out.turns_mm = revolutions(contrasts);
     for (const auto& [component, slope] : slopes_) {
       out.profile_mm += by[component] * slope.profile_mm;
       out.x_mm += by[component] * slope.x_mm;
@@ -406,6 +409,7 @@ class SpindleTrials {
   const fit::FirstHarmonic& first_;
   fit::SeparationModel model_;
   std::uint64_t seed_ = 0;
+  std::string first_id_;
   std::vector<ProbeSource> sources_;
   fit::SpindleCurves base_;
   NoiseDirections directions_;
@@ -475,7 +479,11 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
   auto model = fit::SeparationModel::of(result.separation);
   if (!model) return none(model.error().said());
   const int highest_motion = model->highest_motion();
-  const SpindleTrials trials(result, *std::move(model), options.seed);
+  const bool with_turns = std::any_of(
+      characteristics.begin(), characteristics.end(), [](const record::Characteristic& asked) {
+        return asked.form == Form::kMotionAsynchronous || asked.form == Form::kMotionTotal;
+      });
+  const SpindleTrials trials(result, *std::move(model), options.seed, with_turns);
   const Values values = trials.values();
   const int count = std::max(100, options.least_trials);
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/phrase.h"
@@ -24,6 +25,7 @@ struct SpindleResult {
   fit::RoundnessEvaluation roundness;  ///< Roundness of the recovered profile.
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
+  std::string feature_id = {};  ///< Makes draws of noise its own.
   /// The influences that the plan declares; none: it declares none.
   std::optional<record::SpindleInfluencesTask> influences = {};
   /// By the declared errors of the probes; without gain and angle by usual ones, and then only its

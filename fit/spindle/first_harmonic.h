@@ -41,8 +41,9 @@ struct FirstHarmonic {
   double u_lambda = 0.0;      ///< Standard uncertainty with which H(1) shows Lambda.
   double prior_lambda = 0.0;  ///< Standard deviation of one part of Lambda, as declared.
 
-  /// Whether the eccentricity is too small for H(1) to tell anything about gains and angles.
-  [[nodiscard]] bool blind() const { return 3.0 * u_lambda > prior_lambda; }
+  /// Whether the eccentricity is too small for H(1) to tell anything about gains and angles. Errors
+  /// declared as zero have nothing to tell.
+  [[nodiscard]] bool blind() const { return prior_lambda > 0.0 && 3.0 * u_lambda > prior_lambda; }
 };
 
 /// Compares the content at one undulation with the declared errors of the probes.
