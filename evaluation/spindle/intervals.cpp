@@ -95,6 +95,8 @@ class NoiseDirections {
       out.u_mm.insert(out.u_mm.end(),
                       {turn.u_first_mm, turn.u_first_mm, turn.u_second_mm, turn.u_second_mm});
       out.group.insert(out.group.end(), 4, octave_of(static_cast<int>(k) + 2));
+      const int number = 2 * static_cast<int>(k);  // real and imaginary part together
+      out.order.insert(out.order.end(), {number, number, number + 1, number + 1});
     }
     return out;
   }
@@ -369,6 +371,7 @@ class SpindleTrials {
         out.found_mm.push_back(base_.profile_mm[row++]);
         out.u_mm.push_back(std::max(kLeastNoise_mm, h.sigma_mm));
         out.group.push_back(octave_of(h.order));
+        out.order.push_back(h.order);
       }
     }
     return out;
