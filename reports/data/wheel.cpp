@@ -54,7 +54,6 @@ Json runout(const fit::WheelMeasurement& m) {
     out["fim_um"] = micrometres(found.fim_mm);
   } else {
     out["fim_at_least_um"] = micrometres(found.fim_mm);
-    out["fim_with_dropped_um"] = micrometres(found.fim_with_dropped_mm);
     out["effective_radius_at_least_mm"] = found.effective_radius_mm;
     out["bound_because"] = found.bound_because;
   }
