@@ -249,15 +249,15 @@ InfluenceStatement statement_of(std::string name, const Influence& influence,
 
 std::vector<InfluenceStatement> declaration_of(const WheelInfluencesTask& said,
                                                const Depends& depends) {
-  std::vector<InfluenceStatement> out = {statement_of("points", said.point_um, "um")};
-  if (depends.axis) out.push_back(statement_of("axis", said.axis_um, "um"));
-  if (depends.scale) out.push_back(statement_of("scale", said.scale_ppm, "ppm"));
+  std::vector<InfluenceStatement> out = {statement_of("edge-points", said.point_um, "um")};
+  if (depends.axis) out.push_back(statement_of("wheel-axis", said.axis_um, "um"));
+  if (depends.scale) out.push_back(statement_of("stage-scale", said.scale_ppm, "ppm"));
   if (depends.squareness) {
-    out.push_back(statement_of("squareness", said.squareness_urad, "urad"));
+    out.push_back(statement_of("stage-squareness", said.squareness_urad, "urad"));
   }
   if (depends.common) {
-    out.push_back(statement_of("threshold", said.threshold_um, "um"));
-    out.push_back(statement_of("wear", said.wear_um, "um"));
+    out.push_back(statement_of("edge-threshold", said.threshold_um, "um"));
+    out.push_back(statement_of("wheel-wear", said.wear_um, "um"));
   }
   return out;
 }
@@ -275,16 +275,16 @@ std::vector<LinearTerm> budget_of(const Edge& edge, Quantity quantity,
     });
   };
   std::vector<LinearTerm> out = {
-      {"points", edge.per_point(quantity, record::u_of(said.point_um) * kMicrometre)}};
+      {"edge-points", edge.per_point(quantity, record::u_of(said.point_um) * kMicrometre)}};
   if (depends.axis) {
-    out.push_back({"axis-x", alone(&Influences::axis_x_mm)});
-    out.push_back({"axis-z", alone(&Influences::axis_z_mm)});
+    out.push_back({"wheel-axis-x", alone(&Influences::axis_x_mm)});
+    out.push_back({"wheel-axis-z", alone(&Influences::axis_z_mm)});
   }
-  if (depends.scale) out.push_back({"scale", alone(&Influences::scale_1)});
-  if (depends.squareness) out.push_back({"squareness", alone(&Influences::squareness_rad)});
+  if (depends.scale) out.push_back({"stage-scale", alone(&Influences::scale_1)});
+  if (depends.squareness) out.push_back({"stage-squareness", alone(&Influences::squareness_rad)});
   if (depends.common) {
-    out.push_back({"threshold", alone(&Influences::threshold_mm)});
-    out.push_back({"wear", alone(&Influences::wear_mm)});
+    out.push_back({"edge-threshold", alone(&Influences::threshold_mm)});
+    out.push_back({"wheel-wear", alone(&Influences::wear_mm)});
   }
   return out;
 }
@@ -356,11 +356,11 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge,
         std::abs(departure_mm + shift(points, draw_of(said, options.seed, t))));
   }
   const Influences u = standard_of(said);
-  const std::vector<LinearTerm> terms = {{"points", point_mm},
-                                         {"scale", u.scale_1 * m.radius_mm},
-                                         {"threshold", u.threshold_mm},
-                                         {"wear", u.wear_mm},
-                                         {"squareness", u.squareness_rad * oval_mm}};
+  const std::vector<LinearTerm> terms = {{"edge-points", point_mm},
+                                         {"stage-scale", u.scale_1 * m.radius_mm},
+                                         {"edge-threshold", u.threshold_mm},
+                                         {"wheel-wear", u.wear_mm},
+                                         {"stage-squareness", u.squareness_rad * oval_mm}};
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
   auto found =
       statement_of_trials(std::move(trials), terms, declaration_of(said, depends), options);
