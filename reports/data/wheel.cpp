@@ -174,6 +174,7 @@ nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
                 {"deviation_um", micrometres(m.check.deviation_mm)}}},
               {"mz", zone(m)},
               {"runout", runout(m)}};
+  if (!m.radius_void_because.empty()) out["radius_void_because"] = m.radius_void_because;
   if (!m.runout) out["runout_absent"] = m.runout_absent;
   out["effective_radius_mm"] = optional_json(m.effective_radius_mm());
   out["limits"] = limits(task.wheel);
