@@ -1,12 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "evaluation/results/analysis_value.h"
+#include "evaluation/results/gate.h"
 #include "fit/wheel/evaluation.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::evaluation {
 
@@ -17,6 +20,9 @@ struct WheelResult {
   std::vector<Eigen::Vector2d> points_mm;  ///< x and z as recorded.
   fit::WheelTask task;
   fit::WheelEvaluation evaluation;
+  std::optional<record::WheelInfluencesTask> declared;  ///< As the plan declares them.
+  /// Of the effective radius [mm]; none where it is not known.
+  UncertaintyStatus effective_radius = UncertaintyStatus::none({});
 };
 
 /// Evaluates feature `index` of a record.
@@ -31,6 +37,12 @@ struct WheelResult {
 [[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
     const WheelResult& result, std::span<const record::Characteristic> characteristics,
     const UncertaintyOptions& options);
+/// The interval of the effective radius.
+[[nodiscard]] UncertaintyStatus effective_radius_interval(const WheelResult& result,
+                                                          const UncertaintyOptions& options);
+/// The gates of these characteristics, passed or not.
+[[nodiscard]] std::vector<Gate> gates_of(const WheelResult& result,
+                                         std::span<const record::Characteristic> characteristics);
 [[nodiscard]] ValueOperator operator_of(const WheelResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

@@ -28,7 +28,16 @@ Json found_json(const evaluation::ContourResult& facts) {
 
 Json found_json(const evaluation::SpindleResult& found) { return separation_json(found); }
 Json found_json(const evaluation::WheelResult& found) {
-  return wheel_json(found.evaluation, found.task);
+  Json out = wheel_json(found.evaluation, found.task);
+  const auto* radius = found.effective_radius.about(evaluation::Measurand::kSampledPoints);
+  if (radius != nullptr) {
+    out["effective_radius_interval"] = {{"estimate_mm", radius->estimate_mm},
+                                        {"low_mm", radius->low_mm},
+                                        {"high_mm", radius->high_mm}};
+  } else if (!found.effective_radius.why().empty()) {
+    out["effective_radius_no_interval"] = found.effective_radius.why();
+  }
+  return out;
 }
 Json found_json(const evaluation::RotaryResult& found) { return rotary_json(found); }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "core/phrase.h"
+#include "evaluation/wheel/result.h"
+#include "fit/wheel/wheel.h"
+#include "record/run_record.h"
+
+namespace rondure::evaluation {
+
+/// What may lie between the points of a wheel.
+struct BetweenPoints {
+  double gap_rad = 0.0;           ///< Largest between neighbouring points, dropped ones included.
+  std::optional<double> loss_mm;  ///< Most that a peak to valley lost there; none on an arc.
+};
+
+/// Of run-out about the axis, with the eccentricity, or of roundness.
+[[nodiscard]] BetweenPoints between_points(const WheelResult& facts, record::Form form);
+
+/// Why run-out or roundness is only a lower bound: a gap above fit::kWidestGap, or a loss between
+/// the points above a tenth of the tolerance.
+[[nodiscard]] std::optional<core::Phrase> unseen_because(
+    const WheelResult& facts, const record::Characteristic& characteristic);
+
+/// Why form makes the radius of an arc void: it may move it by more than a quarter of the
+/// tolerance.
+[[nodiscard]] std::optional<core::Phrase> form_moves_radius(
+    const fit::WheelMeasurement& wheel, const std::optional<double>& tolerance_mm);
+
+}  // namespace rondure::evaluation
