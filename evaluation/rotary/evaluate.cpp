@@ -526,6 +526,9 @@ core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, 
     if (auto done = identify(*measured, known, facts); !done) return core::fail(done.error());
   }
   facts.declared = task->uncertainty;
+  if (facts.declared && facts.declared->expansion_per_K) {
+    c.expansion_1_K = record::u_of(facts.declared->expansion_per_K);
+  }
   facts.balls = measured->names;
   facts.poses = measured->visits.size();
   facts.touches = measured->touches;
