@@ -155,6 +155,22 @@ TEST_F(CalibratedFixture, IsVoidOutsideTheTemperatureLimits) {
   EXPECT_FALSE(fs::exists(folder / "inspected"));
 }
 
+TEST_F(CalibratedFixture, IsJudgedWithItsIntervalWhereInfluencesAreDeclared) {
+  const TemporaryFolder folder;
+  json plan = json::parse(read(example("03_calibrate_fixture.json")));
+  plan["decision_rule"] = {{"rule", "iso-14253-1"}};
+  plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", {{"value", 0.05}}},
+                                                       {"reading_urad", {{"value", 0.5}}}};
+  write(folder / "plan.json", plan.dump());
+  const Outcome ran =
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--format", "json"});
+  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  for (const json& characteristic : report.at("/features/0/characteristics"_json_pointer)) {
+    EXPECT_EQ(characteristic.at("verdict"), "conforms") << characteristic.dump(1);
+  }
+}
+
 TEST_F(CalibratedFixture, IsRefusedBeforeItsFirstTouchWhereTheFixtureIsTooCoarse) {
   const TemporaryFolder folder;
   json plan = json::parse(read(example("03_calibrate_fixture.json")));
