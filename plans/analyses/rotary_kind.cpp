@@ -9,7 +9,7 @@
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/checks/internal/rotary_placing.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 #include "plans/schema/rotary_table.h"

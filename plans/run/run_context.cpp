@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/checks/internal/rotary_placing.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/run/internal/reached_pose.h"
 
 namespace rondure::plans {

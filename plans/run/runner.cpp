@@ -7,11 +7,11 @@
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/cell/internal/open_cell.h"
 #include "plans/cell/truth.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/checks/internal/rotary_placing.h"
 #include "plans/resume/internal/plan_changes.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"

@@ -1,4 +1,4 @@
-#include "plans/checks/internal/rotary_placing.h"
+#include "plans/analyses/internal/rotary_placing.h"
 
 #include <algorithm>
 #include <cmath>
