@@ -1,12 +1,79 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "evaluation/rotary/internal/combined_field.h"
 #include "evaluation/rotary/result.h"
+#include "evaluation/uncertainty/curve_trials.h"
 
 namespace rondure::evaluation {
+namespace {
 
-std::vector<UncertaintyStatus> intervals_of(
-    const RotaryResult& /*result*/, std::span<const record::Characteristic> characteristics,
-    const UncertaintyOptions& /*options*/) {
-  return {characteristics.size(), UncertaintyStatus::none(core::phrase(
-                                      "no influence of it is declared in the plan"))};
+InfluenceStatement statement_of(const char* name, const record::Influence& influence, double unit,
+                                const core::Phrase& covered, const core::Phrase& missing) {
+  if (!influence) return {name, false, missing};
+  return {name, true,
+          core::phrase("{}: u = {:.3g}", covered, influence->standard_uncertainty() * unit)};
+}
+
+std::vector<InfluenceStatement> declaration_of(const RotaryResult& facts) {
+  const record::RotaryInfluencesTask& said = *facts.declared;
+  return {{"ball-centre", true,
+           core::phrase("ball centre, scatter of the touches included: u = {} um",
+                        core::um(facts.noise_mm))},
+          statement_of("axis-repeatability", said.repeat_urad, 1.0,
+                       core::phrase("repeatability of an axis [urad]"),
+                       core::phrase("repeatability of an axis: not declared (repeat_urad)")),
+          statement_of("angle-reading", said.reading_urad, 1.0,
+                       core::phrase("reading of an angle [urad]"),
+                       core::phrase("reading of an angle: not declared (reading_urad)")),
+          {"other-poses", false,
+           core::phrase("errors in poses that were not measured: not covered, the value is that of "
+                        "these poses")},
+          {"fixture-temperature", false,
+           core::phrase(
+               "a temperature in use that differs from that of the calibration: not covered")}};
+}
+
+}  // namespace
+
+std::vector<UncertaintyStatus> intervals_of(const RotaryResult& result,
+                                            std::span<const record::Characteristic> characteristics,
+                                            const UncertaintyOptions& options) {
+  const auto none = [&](const core::Phrase& why) {
+    return std::vector<UncertaintyStatus>(characteristics.size(), UncertaintyStatus::none(why));
+  };
+  if (!result.declared) {
+    return none(
+        core::phrase("no influence is declared: state `uncertainty` of `rotary_axes`, with "
+                     "ball_um, repeat_urad and reading_urad"));
+  }
+  if (result.combined.empty()) return none(core::phrase("no combined pose was measured"));
+  const CombinedField field(result.combined, result.noise_mm);
+  const int trials = std::max(2000, options.least_trials);
+  std::vector<double> rms_mm;
+  std::vector<double> max_mm;
+  for (int t = 0; t < trials; ++t) {
+    const CombinedField::Residual drawn = field.draw(options.seed, t);
+    rms_mm.push_back(drawn.rms_mm);
+    max_mm.push_back(drawn.max_mm);
+  }
+  const fixture::Verification& v = result.calibration.verification;
+  const CombinedField::Residual noise = field.per_noise();
+  std::vector<UncertaintyStatus> out;
+  for (const record::Characteristic& asked : characteristics) {
+    const bool rms = asked.form == record::Form::kFixtureResidualRms;
+    TrialValues values;
+    values.as_measured_mm = rms ? v.rms_mm : v.max_mm;
+    values.values_mm = rms ? rms_mm : max_mm;
+    auto stated =
+        statement_of_trials(std::move(values), {{"ball-centre", rms ? noise.rms_mm : noise.max_mm}},
+                            declaration_of(result), options);
+    out.push_back(stated ? UncertaintyStatus::stated(*std::move(stated), options.coverage)
+                         : UncertaintyStatus::none(stated.error().said()));
+  }
+  return out;
 }
 
 }  // namespace rondure::evaluation

@@ -18,6 +18,7 @@ core::Result<AnalysisValue> value_of(const RotaryResult& facts,
   if (v.points == 0) return core::fail(core::Code::kNoPoints, "no combined pose was measured");
   AnalysisValue out;
   out.value_mm = characteristic.form == record::Form::kFixtureResidualRms ? v.rms_mm : v.max_mm;
+  out.void_because = facts.withheld;
   out.detail = core::phrase("{} um rms before compensation", um(v.before_rms_mm));
   return out;
 }

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 #include "plans/schema/rotary_table.h"
@@ -137,6 +139,10 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
   if (!rotary || !findings.sound(section) || !findings.sound("/fixture")) return;
   if (!rotary->alpha_stations_deg.empty() && !rotary->beta_stations_deg.empty()) {
     check_angles(*rotary, *plan.fixture, section, findings);
+  }
+  if (auto held = check_zero_is_held(plan, index, plan.fixture->resolution_deg * core::kDegree);
+      !held) {
+    findings.meaning(held.error().code, held.error().where, held.error().what);
   }
 }
 
