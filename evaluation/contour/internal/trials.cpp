@@ -150,26 +150,34 @@ struct Asked {
   double as_measured = 0.0;
   bool convex = true;
   bool is_signed = false;
+  bool has_budget = true;  ///< Of an index, which is no length, none is printed.
 };
 
-std::vector<LinearTerm> budget_of(const CurveModel& model, const Asked& asked) {
-  std::vector<LinearTerm> out;
+/// The budget of every number. One draw of an influence serves all of them.
+std::vector<std::vector<LinearTerm>> budgets_of(const CurveModel& model,
+                                                const std::vector<Asked>& asked) {
+  std::vector<std::vector<LinearTerm>> out(asked.size());
   for (const Effect& effect : model.effects) {
-    const auto with = [&](const auto& change) {
+    const int draws = effect.at ? 2 : kBudgetDraws;
+    std::vector<std::vector<double>> values(asked.size());
+    for (int i = 0; i < draws; ++i) {
       Curves curves = model.measured;
-      change(curves);
-      return asked.value(curves);
-    };
-    if (effect.at) {
-      const double per = per_u([&](double z) { return with([&](Curves& c) { effect.at(z, c); }); });
-      out.push_back({effect.name, per});
-      continue;
+      if (effect.at) {
+        effect.at(i == 0 ? 1.0 : -1.0, curves);
+      } else {
+        effect.draw(i, curves);
+      }
+      for (std::size_t a = 0; a < asked.size(); ++a) {
+        if (asked[a].has_budget) values[a].push_back(asked[a].value(curves));
+      }
     }
-    std::vector<double> values;
-    for (int i = 0; i < kBudgetDraws; ++i) {
-      values.push_back(with([&](Curves& c) { effect.draw(i, c); }));
+    for (std::size_t a = 0; a < asked.size(); ++a) {
+      if (!asked[a].has_budget) continue;
+      const double per_u_mm = effect.at
+                                  ? per_u([&](double z) { return values[a][z > 0.0 ? 0 : 1]; })
+                                  : core::standard_deviation(values[a], core::mean(values[a]));
+      out[a].push_back({effect.name, per_u_mm});
     }
-    out.push_back({effect.name, core::standard_deviation(values, core::mean(values))});
   }
   return out;
 }
@@ -206,10 +214,11 @@ std::vector<UncertaintyStatus> states(const CurveModel& model, const std::vector
               [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i) run(i);
               });
+  auto budgets = budgets_of(model, asked);
   std::vector<UncertaintyStatus> out;
   for (std::size_t a = 0; a < asked.size(); ++a) {
-    auto stated = statement_of_trials(std::move(found[a]), budget_of(model, asked[a]),
-                                      model.declaration, options);
+    auto stated =
+        statement_of_trials(std::move(found[a]), std::move(budgets[a]), model.declaration, options);
     if (!stated) {
       out.push_back(UncertaintyStatus::none(stated.error().said()));
       continue;
@@ -863,6 +872,7 @@ void add_numbers(ContourNumber::Curve curve, const Curves& measured,
     one.as_measured = one.value(measured);
     one.convex = false;
     one.is_signed = true;
+    one.has_budget = false;
     numbers.push_back({curve, ContourNumber::Kind::kIndex, std::nullopt, one.as_measured});
     asked.push_back(std::move(one));
   }
