@@ -107,7 +107,7 @@ Spread spread_of(const Curves& curves) {
 }
 
 /// A declared influence with its draws.
-struct Declared {
+struct DrawnInfluence {
   const record::Influence* said = nullptr;
   double unit = 1.0;  ///< From the unit of the key to that of the calculation.
   std::string_view id;
@@ -315,7 +315,7 @@ CurveModel model_of(Curves measured, std::shared_ptr<const NoisyCurves> noise, s
 /// Random curves common to all parts: `columns` with one draw each.
 struct CommonCurves {
   Curves columns;  ///< Change of a curve for one standard uncertainty, with sign.
-  Declared declared;
+  DrawnInfluence declared;
 
   void add(std::uint64_t seed, int trial, Curves& curves) const {
     const double u = declared.u();
@@ -336,9 +336,9 @@ struct CommonCurves {
 };
 
 /// All curves of a study and what is declared of them.
-class Trials {
+class ContourTrials {
  public:
-  Trials(const ContourResult& facts, const UncertaintyOptions& options)
+  ContourTrials(const ContourResult& facts, const UncertaintyOptions& options)
       : facts_(facts), said_(*facts.influences), options_(options), basis_(facts.options) {
     for (const fit::ContourPartResult& part : facts.study.parts) {
       total_.push_back(basis_.of(part.pin.contour.error_mm));
@@ -392,7 +392,7 @@ class Trials {
           for (std::size_t j = 0; j < curves[i].size(); ++j) curves[i][j] -= z * effects[i][j];
         }
       };
-      const Declared declared{&said_.skew_ms, 1.0, "control.skew"};
+      const DrawnInfluence declared{&said_.skew_ms, 1.0, "control.skew"};
       out.effects.push_back({"trace-skew",
                              [at, declared, seed](int trial, Curves& curves) {
                                if (declared.u() == 0.0) return;
@@ -560,8 +560,8 @@ class Trials {
   /// spread evenly over the orders 1 to 10 of alpha.
   [[nodiscard]] CommonCurves encoder(bool of_x) const {
     CommonCurves out;
-    out.declared = of_x ? Declared{&said_.x_encoder_um, kMicrometre, kXEncoder}
-                        : Declared{&said_.c_encoder_urad, kMicroradian, kCEncoder};
+    out.declared = of_x ? DrawnInfluence{&said_.x_encoder_um, kMicrometre, kXEncoder}
+                        : DrawnInfluence{&said_.c_encoder_urad, kMicroradian, kCEncoder};
     const double each = out.declared.u() / std::sqrt(static_cast<double>(kEncoderTo));
     const auto none = [](double) { return 0.0; };
     for (int k = 1; k <= kEncoderTo; ++k) {
@@ -621,7 +621,7 @@ class Trials {
                              }});
     }
     if (!said_.gauge_gain_1) return;
-    const Declared gain{&said_.gauge_gain_1, 1.0, "gauge.gain"};
+    const DrawnInfluence gain{&said_.gauge_gain_1, 1.0, "gauge.gain"};
     const auto taken_out = [](double error, Curves& curves) {
       for (auto& curve : curves) {
         for (double& c : curve) c /= 1.0 + error;
@@ -650,7 +650,7 @@ class Trials {
   }
 
   /// One column times one declared number.
-  static CommonCurves scaled(std::vector<double> column, const Declared& declared) {
+  static CommonCurves scaled(std::vector<double> column, const DrawnInfluence& declared) {
     for (double& c : column) c *= declared.u();
     return {{std::move(column)}, declared};
   }
@@ -807,7 +807,7 @@ MaskShare worst_share(const Curves& curves, const std::vector<record::HarmonicLi
 
 /// The number that a characteristic reads from t.
 Asked asked_of(const record::Characteristic& asked, const ContourResult& facts,
-               const Trials& trials) {
+               const ContourTrials& trials) {
   Asked out;
   if (asked.form == Form::kContourSpread) {
     out.value = [](const Curves& curves) { return std::sqrt(spread_of(curves).spread2); };
@@ -902,7 +902,7 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
   };
   if (!facts.influences) return none(nothing_declared());
   if (facts.total_void) return none(*facts.total_void);
-  const Trials trials(facts, options);
+  const ContourTrials trials(facts, options);
   if (const auto missing = trials.no_gauge()) return none(*missing);
   std::vector<Asked> numbers;
   std::vector<std::size_t> rows;
@@ -940,7 +940,7 @@ std::vector<ContourNumber> contour_numbers(const ContourResult& facts,
   static const ContourInfluencesTask kNothing;
   ContourResult complete = facts;
   if (!facts.influences) complete.influences = kNothing;
-  const Trials trials(complete, options);
+  const ContourTrials trials(complete, options);
   const auto reason = [&](const std::optional<core::Phrase>& voided,
                           std::optional<core::Phrase> missing) {
     if (voided) return voided;
