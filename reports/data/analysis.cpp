@@ -12,6 +12,28 @@
 namespace rondure::reports {
 namespace {
 
+/// A number beside the characteristics, with its interval or why there is none.
+Json number_json(const evaluation::ContourNumber& number, const std::vector<std::string>& names) {
+  const bool length = number.kind != evaluation::ContourNumber::Kind::kIndex;
+  const auto in_unit = [&](double value) { return length ? in_um(value) : value; };
+  Json out = {{"name", number.name()},
+              {"part", number.part ? Json(names[*number.part]) : Json(nullptr)},
+              {"unit", length ? "um" : "1"},
+              {"as_measured", in_unit(number.as_measured)}};
+  const auto& found = number.uncertainty.result();
+  if (!found) {
+    out["why_no_interval"] = number.uncertainty.why().english();
+    return out;
+  }
+  out["estimate"] = in_unit(found->sampled.estimate_mm);
+  out["low"] = in_unit(found->sampled.low_mm);
+  out["high"] = in_unit(found->sampled.high_mm);
+  out["standard_uncertainty"] = in_unit(found->sampled.standard_uncertainty_mm);
+  out["at_most"] = found->sampled.at_most;
+  out["notes"] = list_json(found->notes, [](const core::Phrase& note) { return note.english(); });
+  return out;
+}
+
 Json found_json(const evaluation::ContourResult& facts) {
   auto out = contour_document(facts.study, facts.options, facts.names);
   out.erase("warnings");  // written beside the analysis, as for every feature
@@ -22,6 +44,9 @@ Json found_json(const evaluation::ContourResult& facts) {
                       {"following_um", list_json(part.following.error_mm, um_of)},
                       {"rest_um", list_json(part.direct.rest_mm, um_of)}});
   }
+  out["numbers"] = list_json(facts.numbers, [&](const evaluation::ContourNumber& number) {
+    return number_json(number, facts.names);
+  });
   out["curves"] = std::move(curves);
   return out;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -182,6 +183,66 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   return html + "</dl>";
 }
 
+/// "8.93 [8.71, 9.14]"; "<= 9.14" where only that is known; the value alone without an interval.
+std::string with_interval(const evaluation::ContourNumber& number) {
+  const bool length = number.kind != evaluation::ContourNumber::Kind::kIndex;
+  const auto in_digits = [&](double value) { return length ? um(value) : fixed(value, 4); };
+  const auto& found = number.uncertainty.result();
+  if (!found) return in_digits(number.as_measured);
+  const evaluation::UncertaintyStatement& s = found->sampled;
+  if (s.at_most) return "&le; " + in_digits(s.high_mm);
+  return fmt::format("{} [{}, {}]", in_digits(s.estimate_mm), in_digits(s.low_mm),
+                     in_digits(s.high_mm));
+}
+
+/// Peak to valley, rms and index of every curve with their intervals, and why some have none.
+std::string interval_table(const evaluation::ContourResult& facts) {
+  using Number = evaluation::ContourNumber;
+  const auto symbol = [](Number::Curve curve) -> std::string {
+    switch (curve) {
+      case Number::Curve::kTotal:
+        return "t";
+      case Number::Curve::kFollowing:
+        return "f";
+      case Number::Curve::kRest:
+        return "n";
+      case Number::Curve::kIndirect:
+        return tr("f from main");
+      case Number::Curve::kMain:
+        return tr("main journals");
+    }
+    return {};
+  };
+  TableRows rows;
+  std::vector<std::string> reasons;
+  for (const Number& number : facts.numbers) {
+    const std::string curve = symbol(number.curve);
+    const std::string value = with_interval(number);
+    if (!number.part) {
+      rows.push_back({curve, "–", "–", "–", value});
+    } else if (number.kind == Number::Kind::kPeakToValley) {
+      rows.push_back({curve, isolated(facts.names[*number.part]), value, "–", "–"});
+    } else {
+      rows.back()[3] = value;  // the rms of a part follows its peak to valley
+    }
+    if (number.uncertainty.result()) continue;
+    std::string reason =
+        fmt::format("<li>{}: {}</li>", curve, in_sentence(number.uncertainty.why()));
+    if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
+      reasons.push_back(std::move(reason));
+    }
+  }
+  if (rows.empty()) return {};
+  std::string html = fmt::format(
+      R"(<h3>{}</h3>{})", tr("Intervals"),
+      scrolling(table("short", "llrrr", spoken_caption(tr("Intervals")),
+                      {tr("Curve"), tr("Part"), "PV µm", "rms µm", "S"}, rows)));
+  if (reasons.empty()) return html;
+  html += fmt::format(R"(<p class="note">{}</p><ul>)", tr("As measured, without an interval:"));
+  for (const std::string& reason : reasons) html += reason;
+  return html + "</ul>";
+}
+
 std::string part_table(const evaluation::ContourResult& facts) {
   TableRows rows;
   const auto square = [](double mm2) {
@@ -196,14 +257,16 @@ std::string part_table(const evaluation::ContourResult& facts) {
                     square(d.cross_mm2), d.enlarges() ? tr("enlarges") : tr("reduces"),
                     part.indirect ? fixed(part.indirect->correlation, 4) : "–"});
   }
-  return fmt::format(
-      R"(<h3>{}</h3>{}<p class="note">{}</p>)", tr("Balance"),
-      scrolling(table("short", "lrrrrrrrlr", spoken_caption(tr("Balance")),
-                      {tr("Part"), "t µm", "f µm", "n µm", tr("mean t² µm²"), "f²", "n²", "2 f n",
-                       "n … t", tr("f from main")},
-                      rows)),
-      tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
-         "valley do not. Last column: correlation of f with what the main journal leaves of t."));
+  return fmt::format(R"(<h3>{}</h3>{}<p class="note">{}</p>)", tr("Balance"),
+                     scrolling(table("short", "lrrrrrrrlr", spoken_caption(tr("Balance")),
+                                     {tr("Part"), "t µm", "f µm", "n µm", tr("mean t² µm²"), "f²",
+                                      "n²", "2 f n", "n … t", tr("f from main")},
+                                     rows)),
+                     tr("t, f, n: peak to valley. The squares add up, the cross term included; rms "
+                        "and peak to "
+                        "valley do not. Last column: correlation of f with what the main journal "
+                        "leaves of t.")) +
+         interval_table(facts);
 }
 
 std::string verdict_list(const evaluation::ContourResult& facts) {
