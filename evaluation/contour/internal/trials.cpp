@@ -251,6 +251,7 @@ class NoisyCurves {
         curve.found_mm.push_back(measured_[i][j] / basis.transmission[j]);
         curve.u_mm.push_back(u_mm_[i]);
         curve.group.push_back(octave(Basis::order(j)));
+        curve.order.push_back(Basis::order(j));
       }
       draws_.emplace_back(std::in_place, std::move(curve), seed, fmt::format("{}.{}", id, i + 1));
     }
