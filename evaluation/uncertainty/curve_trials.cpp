@@ -19,7 +19,7 @@ namespace {
 
 using core::Code;
 
-enum Stream : std::uint64_t { kCoreStream = 31, kPoolStream, kNormalStream, kUniformStream };
+enum CurveStream : std::uint64_t { kCoreStream = 31, kPoolStream, kNormalStream, kUniformStream };
 
 /// FNV-1a: the same name gives the same key on every machine, unlike std::hash.
 std::uint64_t key_of(std::string_view id) {
