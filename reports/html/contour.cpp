@@ -106,7 +106,7 @@ std::string other_separations(const evaluation::ContourResult& facts,
   return html;
 }
 
-std::string words_explained() {
+std::string words_of_contour() {
   return explained("t, f, n",
                    tr("Contour error of the pin as measured; the part of it that follows from the "
                       "errors of the C and X axes, which a correction of their commands removes as "
@@ -282,7 +282,7 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
                           int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return first_separation(facts, record, feature) + key_numbers(facts) + words_explained() +
+  return first_separation(facts, record, feature) + key_numbers(facts) + words_of_contour() +
          verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          other_separations(facts, record, feature) + harmonic_plot(facts, asked);
 }

@@ -152,7 +152,7 @@ std::string residual_chart(const evaluation::RotaryResult& facts) {
                            {before, left, largest})));
 }
 
-std::string words_explained() {
+std::string words_of_rotary() {
   return explained(
              tr("Combined poses"),
              tr("Poses with both axes turned, which the identification did not use: they show "
@@ -195,7 +195,7 @@ std::string key_numbers(const evaluation::RotaryResult& facts) {
 
 std::string analysis_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
                           int feature) {
-  std::string html = residual_chart(facts) + key_numbers(facts) + words_explained();
+  std::string html = residual_chart(facts) + key_numbers(facts) + words_of_rotary();
   html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
                       location_table(facts));

@@ -168,7 +168,7 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
          note(tr("The ten largest, and those not recovered; all are in report.json."));
 }
 
-std::string words_explained() {
+std::string words_of_spindle() {
   return explained("RONt, RONq",
                    tr("Roundness of the part alone, free of the motion of the spindle: greatest "
                       "departure from the reference circle, outward plus inward, and root mean "
@@ -201,7 +201,7 @@ std::string analysis_part(const evaluation::SpindleResult& facts, const record::
   html += motion_plot(tr("Motion Y"), s.alpha_rad, facts.y);
   html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts.x);
   html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts.y);
-  html += "</div>" + key_numbers(facts) + words_explained();
+  html += "</div>" + key_numbers(facts) + words_of_spindle();
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return html + harmonic_plots(facts, asked) + harmonic_table(s);
 }

@@ -403,7 +403,7 @@ std::string path_part(const evaluation::WheelResult& facts) {
   return html + forecast_part(*e.forecast);
 }
 
-std::string words_explained() {
+std::string words_of_wheel() {
   return explained(
              tr("Radial run-out"),
              tr("Greatest minus least distance of the edge from the spindle axis: eccentricity "
@@ -425,7 +425,7 @@ std::string analysis_part(const evaluation::WheelResult& facts, const record::Ru
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return fmt::format(R"(<h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +
          wheel_edge_plot(m, facts.points_mm) + R"(</div><dl class="keys">)" +
-         radius_entries(facts) + runout_entry(m) + center_entries(m) + "</dl>" + words_explained() +
+         radius_entries(facts) + runout_entry(m) + center_entries(m) + "</dl>" + words_of_wheel() +
          path_part(facts);
 }
 
