@@ -389,8 +389,9 @@ core::Phrase read_beyond_sentence(const KnownValue& value, const Limits& limits,
                                   double corrected_mm) {
   if (value.statement->at_most) {
     return core::phrase(
-        "read beyond the limit of {}: {}; without noise and influences it is at most {}, within: "
-        "neither is proven",
+        "read beyond the limit of {}: {}; free of noise and influences it is at most {}, within "
+        "the "
+        "limit: neither verdict is proven",
         limit_text(value, limit_of_bound(limits)), with_unit(value, value.measured_mm),
         with_unit(value, value.statement->high_mm));
   }

@@ -67,7 +67,7 @@ Gate first_harmonic_gate(const SpindleResult& facts) {
 Gate blind_gate(const SpindleResult& facts) {
   const fit::FirstHarmonic& first = *facts.first_harmonic;
   Gate out{.code = "k1-blind",
-           .condition = phrase("error of gains and angles that the first harmonic shows"),
+           .condition = phrase("least error of gains and angles that the first harmonic shows"),
            .found = {},
            .limit = first.prior_lambda,
            .unit = {},
@@ -79,13 +79,15 @@ Gate blind_gate(const SpindleResult& facts) {
   out.reason =
       facts.declares_probes()
           ? phrase(
-                "the eccentricity of {:.3g} um shows no error of gains and angles: the interval "
-                "rests on their certificates alone; mount the part 5 to 20 um off centre",
+                "the eccentricity of {:.3g} um is too small to show errors of gains and angles: "
+                "the "
+                "interval rests on their certificates alone; mount the part 5 to 20 um off centre",
                 micrometres(facts.separation.eccentricity_mm))
           : phrase(
-                "the eccentricity of {:.3g} um shows no error of gains and angles, and none is "
-                "declared: a wrong gain goes unnoticed; mount the part 5 to 20 um off centre "
-                "and declare gain_1 and angle_deg",
+                "the eccentricity of {:.3g} um is too small to show errors of gains and angles, "
+                "and "
+                "none are declared: a wrong gain goes unnoticed; mount the part 5 to 20 um off "
+                "centre and declare gain_1 and angle_deg",
                 micrometres(facts.separation.eccentricity_mm));
   return out;
 }

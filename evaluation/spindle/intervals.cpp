@@ -448,8 +448,8 @@ std::vector<core::Phrase> notes_of(const SpindleResult& facts, const record::Cha
   std::vector<core::Phrase> out;
   if (facts.first_harmonic->blind()) {
     out.push_back(
-        phrase("the eccentricity shows no error of gains and angles: the interval rests on "
-               "their certificates alone (k1-blind)"));
+        phrase("the eccentricity is too small to show errors of gains and angles: the interval "
+               "rests on their certificates alone (k1-blind)"));
   }
   const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms ||
                     asked.form == Form::kHarmonicLimits;

@@ -30,9 +30,6 @@ struct MeasuredCurve {
   std::vector<bool> always_core = {};
   /// A random field, as asynchronous motion: it has no core, and is never 0.
   bool field = false;
-  /// Number of the harmonic of which each coefficient is a part, cosine or sine: both parts of one
-  /// belong to the core together. Empty: every coefficient is judged alone.
-  std::vector<int> order = {};
 };
 
 /// Draws of the true coefficients of a curve, given the measured ones.

@@ -370,7 +370,8 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge,
 
 /// Why there is no interval of anything.
 std::optional<core::Phrase> undeclared(const WheelResult& result) {
-  if (!result.declared) return core::phrase("no influence of it is declared in the plan");
+  if (!result.declared)
+    return core::phrase("the plan declares no influences of this feature: wheel/uncertainty");
   if (!result.declared->point_um) {
     return core::phrase(
         "point_um, the uncertainty of a point, is not declared: the spread of the points holds the "

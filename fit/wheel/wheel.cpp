@@ -220,8 +220,9 @@ void check_center(const WheelOptions& options, WheelMeasurement& out) {
   const double coverage = out.order.coverage_rad();
   if (best > kWorstBestKappa) {
     out.radius_void_because = core::phrase(
-        "the best four points show a point error {:.1f} times in the centre, more than {:g} times: "
-        "measure more of the circle",
+        "the best four points amplify the error of a point {:.1f} times in the centre, the limit "
+        "is "
+        "{:g} times: measure more of the circle",
         best, kWorstBestKappa);
   } else if (out.center_apart_mm > out.center_apart_limit_mm) {
     out.radius_void_because = core::phrase(

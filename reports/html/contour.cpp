@@ -110,7 +110,7 @@ std::string words_of_contour() {
   return explained("t, f, n",
                    tr("Contour error of the pin as measured; the part of it that follows from the "
                       "errors of the C and X axes, which a correction of their commands removes as "
-                      "far as it repeats; and the rest, which it does not.")) +
+                      "far as it repeats; and the rest, which does not follow from them.")) +
          explained(tr("Stability index"),
                    tr("Share of the mean square of a curve that repeats from part to part: 1 when "
                       "all parts have the same curve, 0 for curves that have nothing in common; "
@@ -233,10 +233,10 @@ std::string interval_table(const evaluation::ContourResult& facts) {
     }
   }
   if (rows.empty()) return {};
-  std::string html = fmt::format(
-      R"(<h3>{}</h3>{})", tr("Intervals"),
-      scrolling(table("short", "llrrr", spoken_caption(tr("Intervals")),
-                      {tr("Curve"), tr("Part"), "PV µm", "rms µm", "S"}, rows)));
+  std::string html =
+      fmt::format(R"(<h3>{}</h3>{})", tr("Intervals"),
+                  scrolling(table("short", "llrrr", spoken_caption(tr("Intervals")),
+                                  {tr("Curve"), tr("Part"), "PV µm", "rms µm", "S"}, rows)));
   if (reasons.empty()) return html;
   html += fmt::format(R"(<p class="note">{}</p><ul>)", tr("As measured, without an interval:"));
   for (const std::string& reason : reasons) html += reason;

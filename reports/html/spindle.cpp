@@ -182,7 +182,7 @@ std::string words_of_spindle() {
          explained(
              tr("Noise gain"),
              tr("Three probes at fixed angles see some harmonics weakly: the noise of a probe "
-                "is in them that many times."));
+                "is amplified there by this factor."));
 }
 
 }  // namespace

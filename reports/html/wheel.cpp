@@ -414,8 +414,8 @@ std::string words_of_wheel() {
                    tr("Mean distance of the points from the centre of the edge, and its standard "
                       "uncertainty from the scatter of the points alone.")) +
          explained("kappa",
-                   tr("How many times the centre of one quadruple of points shows the error "
-                      "of a point."));
+                   tr("Factor by which the centre of one quadruple of points amplifies the "
+                      "error of a point."));
 }
 
 }  // namespace

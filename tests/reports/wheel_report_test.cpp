@@ -105,7 +105,7 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
       {"the run ended before its data were kept", [](auto& r) { r.series[0].name = "other"; }},
       {"the run did not finish", [](auto& r) { r.ending = "stopped"; }},
       {"does not know the decision rule", [](auto& r) { r.header.decision_rule = "coin"; }},
-      {"no influence of it is declared in the plan",
+      {"the plan declares no influences of this feature: wheel/uncertainty",
        [](auto& r) { r.header.decision_rule = "iso-14253-1"; }}};
   for (const Path& path : paths) {
     SCOPED_TRACE(path.reason);

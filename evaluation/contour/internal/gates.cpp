@@ -223,8 +223,8 @@ Gate phase(ContourResult& facts) {
   if (!offset.at_edge && std::abs(offset.angle_rad) <= limit) return out;
   out.outcome = Outcome::kVoids;
   out.reason = core::phrase(
-      "correlation would turn f by {:.2f} deg, more than zero of the gauge and n explain "
-      "({:.2f} deg): is phase_offset_deg right?",
+      "correlation would turn f by {:.2f} deg, more than n and the uncertainty of the zero of "
+      "the gauge explain ({:.2f} deg): is phase_offset_deg right?",
       offset.angle_rad / kDegree, limit / kDegree);
   void_rest(facts, out.reason);
   return out;
@@ -233,8 +233,8 @@ Gate phase(ContourResult& facts) {
 /// A wrong scale shows in all parts alike; what n does to the slope differs from part to part.
 Gate gain(ContourResult& facts) {
   Gate out{"gain",
-           core::phrase("least distance of the slope of t over f from 1, in its u, if alike in all "
-                        "parts"),
+           core::phrase("least distance of the slope of t over f from 1, over its uncertainty; 0 "
+                        "where the parts differ in sign"),
            {},
            kDeviations,
            "",
@@ -259,8 +259,8 @@ Gate gain(ContourResult& facts) {
   if (*out.found <= kDeviations) return out;
   out.outcome = Outcome::kVoids;
   out.reason = core::phrase(
-      "t is {:.3f} times f in the mean, off 1 in all parts alike by more than {:g} standard "
-      "uncertainties: a gain of the gauge, or the scale of an axis",
+      "t is {:.3f} times f in the mean, and in all parts off 1 to the same side by more than {:g} "
+      "standard uncertainties: check the gain of the gauge and the scales of the axes",
       sum / static_cast<double>(facts.study.parts.size()), kDeviations);
   void_rest(facts, out.reason);
   return out;

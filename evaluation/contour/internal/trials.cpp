@@ -758,7 +758,8 @@ class ContourTrials {
       }
       if (key.said == &said_.skew_ms && line.covered && skew_.empty()) {
         line.covered = false;
-        line.text = core::phrase("sampling_ms is missing, which turns it into an angle");
+        line.text =
+            core::phrase("declared, but without sampling_ms, which turns a time into an angle");
       }
       out.declaration.push_back(std::move(line));
     }
@@ -835,8 +836,9 @@ core::Phrase process_note(double spread_mm, std::size_t parts) {
     return spread_mm / kMicrometre * std::sqrt(freedom / core::chi_square_quantile(p, freedom));
   };
   return core::phrase(
-      "s of these {} parts; of the process behind them, if one shape dominates, 95 % of {:.3g} to "
-      "{:.3g} um",
+      "s is that of these {} parts; if one shape dominates, s of the process lies between {:.3g} "
+      "and "
+      "{:.3g} um (95 %)",
       parts, bound(0.975), bound(0.025));
 }
 
