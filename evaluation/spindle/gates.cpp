@@ -75,7 +75,9 @@ Gate blind_gate(const SpindleResult& facts) {
            .reason = {}};
   if (std::isfinite(first.u_lambda)) out.found = 3.0 * first.u_lambda;
   if (!first.blind()) return out;
-  out.outcome = Outcome::kWarns;
+  // Without declarations nothing vouches for the probes: no rule gives a verdict, nor does simple
+  // acceptance.
+  out.outcome = facts.declares_probes() ? Outcome::kWarns : Outcome::kVoids;
   out.reason =
       facts.declares_probes()
           ? phrase(
@@ -121,7 +123,9 @@ Gate turns_gate(const SpindleResult& facts) {
     base = core::upper_median(std::move(squares)) / median_of_unit;
     widened += kNormal999 * 1.44 / std::sqrt(orders * (s.revolutions - 1));
   }
-  if (!(base > 0.0)) return out;
+  // A noise that is declared as 0 does not excuse revolutions that differ.
+  constexpr double kLeastNoise_mm = 1e-6 * core::kMicrometre;
+  base = std::max(base, kLeastNoise_mm * kLeastNoise_mm);
   double chi2 = 0.0;
   for (const double one : scatter) chi2 += each * one * one / base;
   out.found = chi2;
@@ -213,14 +217,20 @@ bool others_move(const fit::ProbeReadings& readings, const SteadyRun& run, doubl
   return false;
 }
 
+/// Least step of a channel; 0 where it is constant.
+double resolution_of(const std::vector<double>& h) {
+  double out = spread(h);
+  for (std::size_t m = 1; m < h.size(); ++m) {
+    if (h[m] != h[m - 1]) out = std::min(out, std::abs(h[m] - h[m - 1]));
+  }
+  return out;
+}
+
 SteadyRun longest_steady(const fit::ProbeReadings& readings) {
   SteadyRun longest;
   for (std::size_t i = 0; i < readings.h_mm.size(); ++i) {
     const std::vector<double>& h = readings.h_mm[i];
-    double resolution = spread(h);
-    for (std::size_t m = 1; m < h.size(); ++m) {
-      if (h[m] != h[m - 1]) resolution = std::min(resolution, std::abs(h[m] - h[m - 1]));
-    }
+    const double resolution = resolution_of(h);
     std::size_t first = 0;
     for (std::size_t m = 1; m <= h.size(); ++m) {
       if (m < h.size() && h[m] == h[first]) continue;
@@ -235,8 +245,36 @@ SteadyRun longest_steady(const fit::ProbeReadings& readings) {
   return longest;
 }
 
+/// Rows in which no probe moves, although their steps are fine: the acquisition stood still while
+/// the work turned on. None: rows 0.
+SteadyRun standstill(const fit::ProbeReadings& readings) {
+  constexpr double kLeastTurn_rad = core::kTwoPi / 16.0;  // fine steps do not skip so much
+  const auto& h = readings.h_mm;
+  const std::size_t count = h[0].size();
+  bool fine = false;
+  bool moves = false;
+  for (const std::vector<double>& one : h) {
+    fine = fine || spread(one) > kSurelySeen * resolution_of(one);
+    moves = moves || spread(one) > 0.0;
+  }
+  if (!moves) return {0, 0, count};
+  SteadyRun longest;
+  std::size_t first = 0;
+  for (std::size_t m = 1; fine && m <= count; ++m) {
+    const auto stays = [&](const std::vector<double>& one) { return one[m] == one[first]; };
+    if (m < count && std::all_of(h.begin(), h.end(), stays)) continue;
+    const double turned = std::abs(readings.alpha_rad[m - 1] - readings.alpha_rad[first]);
+    if (turned > kLeastTurn_rad && m - first > longest.rows) longest = {0, first, m - first};
+    first = m;
+  }
+  return longest;
+}
+
 Gate disconnect_gate(const fit::ProbeReadings& readings) {
-  const SteadyRun run = longest_steady(readings);
+  SteadyRun run = longest_steady(readings);
+  const SteadyRun still = standstill(readings);
+  const bool all = still.rows >= kSteadyRows && still.rows > run.rows;
+  if (all) run = still;
   Gate out{.code = "disconnect",
            .condition = phrase("equal readings of a channel in a row while another one moves"),
            .found = static_cast<double>(run.rows),
@@ -246,6 +284,13 @@ Gate disconnect_gate(const fit::ProbeReadings& readings) {
            .reason = {}};
   if (run.rows < kSteadyRows) return out;
   out.outcome = Outcome::kVoids;
+  if (all) {
+    out.reason = phrase(
+        "no probe moves in {} readings from row {} on: the acquisition stood still, or the probes "
+        "do not touch; measure again",
+        run.rows, run.first);
+    return out;
+  }
   out.reason = phrase(
       "probe {} reads the same {} times from row {} on while another one moves: it is "
       "disconnected, stuck or at the end of its range; leave out these rows or measure again",
@@ -312,8 +357,8 @@ std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings
 }
 
 bool voids_all(const Gate& gate) {
-  return gate.code == "first-harmonic" || gate.code == "turns" || gate.code == "disconnect" ||
-         gate.code == "readings";
+  return gate.code == "first-harmonic" || gate.code == "k1-blind" || gate.code == "turns" ||
+         gate.code == "disconnect" || gate.code == "readings";
 }
 
 }  // namespace rondure::evaluation

@@ -26,6 +26,9 @@ struct MeasuredCurve {
   /// Group of each coefficient, 0 upwards: an octave of orders (2-7, 8-15, 16-31, ...). The
   /// coefficients of a group are taken for parts of one kind.
   std::vector<int> group;
+  /// Number of the harmonic of which each coefficient is a part, cosine or sine: both parts of one
+  /// belong to the core together. Empty: every coefficient is judged alone.
+  std::vector<int> order = {};
   /// Coefficients that always belong to the core, as the eccentricity does; may be empty.
   std::vector<bool> always_core = {};
   /// A random field, as asynchronous motion: it has no core, and is never 0.

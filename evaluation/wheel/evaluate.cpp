@@ -164,7 +164,8 @@ core::Result<AnalysisValue> roundness(const WheelResult& facts,
   if (auto reason = unseen_because(facts, characteristic)) {
     out.void_because = *std::move(reason);
     // The zone of some points is never wider than that of all, nor than their least-squares one.
-    out.lower_bound = !least_squares || (m.zone && characteristic.tolerance_mm &&
+    const bool proven = m.zone && m.zone->certificate.kind == fit::Certificate::Kind::kGlobal;
+    out.lower_bound = !least_squares || (proven && characteristic.tolerance_mm &&
                                          m.zone->width_mm() > *characteristic.tolerance_mm);
   }
   if (!least_squares && m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {

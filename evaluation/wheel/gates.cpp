@@ -127,7 +127,9 @@ BetweenPoints between_points(const WheelResult& facts, record::Form form) {
   const auto& errors = facts.task.wheel.errors;
   const auto amplitudes = fit::found_amplitudes(
       facts.points_mm, center_mm, errors ? std::optional(errors->point_mm) : std::nullopt);
-  if (!amplitudes.empty()) {
+  // Points in four clusters hold the eccentricity, but no oval: what they miss has no bound.
+  constexpr std::size_t kLeastOrders = 2;
+  if (amplitudes.size() >= kLeastOrders) {
     out.loss_mm = fit::loss_in_gap_mm(out.gap_rad, amplitudes, runout ? 1 : 2);
   }
   return out;

@@ -149,7 +149,7 @@ class Edge {
   /// Change of a quantity for one standard error of every point, in quadrature [mm].
   [[nodiscard]] double per_point(Quantity quantity, double point_mm) const {
     double squares = 0.0;
-    for (const Eigen::Index i : deciding(quantity)) {
+    for (const Eigen::Index i : deciding(quantity, point_mm)) {
       const double change = per_u([&](double k) {
         Eigen::VectorXd moved = Eigen::VectorXd::Zero(found_.size());
         moved(i) = k * point_mm;
@@ -188,8 +188,10 @@ class Edge {
     return order < 8 ? 0 : order < 16 ? 1 : 2;
   }
 
-  /// Rows whose error can move the value: those near the extremes; of a zone its contacts.
-  [[nodiscard]] std::vector<Eigen::Index> deciding(Quantity quantity) const {
+  /// Rows whose error can move the value: of a zone its contacts; of many points those near the
+  /// extremes, as the others move the least-squares circle by too little to show.
+  [[nodiscard]] std::vector<Eigen::Index> deciding(Quantity quantity, double point_mm) const {
+    constexpr Eigen::Index kMany = 500;
     std::vector<Eigen::Index> out;
     const Eigen::VectorXd curve = columns_.householderQ() * found_;
     if (quantity == Quantity::kMzRoundness) {
@@ -206,7 +208,20 @@ class Edge {
       }
       return out;
     }
-    for (Eigen::Index i = 0; i < found_.size(); ++i) out.push_back(i);
+    const bool about_axis = quantity != Quantity::kLsRoundness;
+    const Eigen::Vector2d axis_mm =
+        about_axis ? Eigen::Vector2d(axis_mm_.value_or(center_mm_) - center_mm_)
+                   : Eigen::Vector2d(Eigen::Vector2d::Zero());
+    Eigen::VectorXd reach(found_.size());
+    for (Eigen::Index i = 0; i < found_.size(); ++i) {
+      reach(i) = ((radius_mm_ + curve(i)) * normals_[static_cast<std::size_t>(i)] - axis_mm).norm();
+    }
+    const double near_mm = std::max(point_mm, kLeastPointError);
+    const double low_mm = reach.minCoeff() + near_mm;
+    const double high_mm = reach.maxCoeff() - near_mm;
+    for (Eigen::Index i = 0; i < found_.size(); ++i) {
+      if (found_.size() <= kMany || reach(i) <= low_mm || reach(i) >= high_mm) out.push_back(i);
+    }
     return out;
   }
 

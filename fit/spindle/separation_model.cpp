@@ -13,7 +13,7 @@
 namespace rondure::fit {
 namespace {
 
-constexpr double kMostNumbers = 2e7;        ///< 160 MB.
+constexpr double kMostNumbers = 4e6;        ///< 32 MB; trials of more take minutes.
 constexpr std::size_t kPerUndulation = 12;  ///< A peak is missed by 3.4 % of its amplitude at most.
 
 /// Columns 1, cos, sin, cos 2, sin 2, ... up to an order.

@@ -25,7 +25,8 @@ struct SpindleCurves {
 /// by one product.
 class SeparationModel {
  public:
-  /// @return kSampling for so many samples and orders that the products do not fit (2e7 numbers).
+  /// @return kSampling for so many samples and orders that the products take too long (4e6
+  /// numbers).
   [[nodiscard]] static core::Result<SeparationModel> of(const ThreeProbeResult& result);
 
   /// Highest order of the motion: that of the part, or fewer where the samples do not carry it.

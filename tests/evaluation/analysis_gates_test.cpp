@@ -274,14 +274,16 @@ TEST(WrongGain, CannotBeSeenWithoutEccentricity) {
   centred.eccentricity_um = 0.0;
   centred.noise_um = 0.02;  // hides what the motion itself puts into the first harmonic
   // Nothing contradicts; nothing is known of gains and places either, so there is no verdict.
-  const FeatureResult result = judged(probed_run(centred, std::nullopt, std::nullopt), kIso,
-                                      {asked(Form::kMotionSynchronous, 5.0)});
-  expect_listed(result);
-  EXPECT_EQ(result.characteristics.at(0).verdict, Verdict::kVoid)
-      << result.characteristics.at(0).reason;
-  EXPECT_TRUE(std::any_of(result.gates.begin(), result.gates.end(), [](const Gate& gate) {
-    return gate.code == "k1-blind" && gate.outcome == Gate::Outcome::kWarns;
-  }));
+  for (const char* rule : {kSimple, kIso}) {
+    const FeatureResult result = judged(probed_run(centred, std::nullopt, std::nullopt), rule,
+                                        {asked(Form::kMotionSynchronous, 5.0)});
+    expect_listed(result);
+    EXPECT_EQ(result.characteristics.at(0).verdict, Verdict::kVoid)
+        << result.characteristics.at(0).reason;
+    EXPECT_TRUE(std::any_of(result.gates.begin(), result.gates.end(), [](const Gate& gate) {
+      return gate.code == "k1-blind" && gate.outcome == Gate::Outcome::kVoids;
+    }));
+  }
 }
 
 // ---- A warm calibration -------------------------------------------------------------------------

@@ -388,14 +388,16 @@ TEST(SpindleGates, VoidAWrongGainWithoutDeclarationsWhereTheEccentricityShowsIt)
     EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
 }
 
-TEST(SpindleGates, WarnThatNothingWouldShowAWrongGainWithoutEccentricity) {
+TEST(SpindleGates, VoidWhereNothingWouldShowAWrongGainThatIsNotDeclared) {
   World world = wrong_gain();
   world.layout = fit::published_layout_a();
   world.noise_um = 0.05;
   world.eccentricity_um = 0.0;
   const FeatureResult undeclared = result_of(run_of(world, std::nullopt));
-  EXPECT_EQ(gate(undeclared, "k1-blind").outcome, Gate::Outcome::kWarns);
+  EXPECT_EQ(gate(undeclared, "k1-blind").outcome, Gate::Outcome::kVoids);
   EXPECT_THAT(gate(undeclared, "k1-blind").reason.english(), HasSubstr("goes unnoticed"));
+  for (const CharacteristicResult& one : undeclared.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
   const FeatureResult known = result_of(run_of(world, probes(0.002, 0.02)));
   EXPECT_EQ(gate(known, "k1-blind").outcome, Gate::Outcome::kWarns);
   EXPECT_THAT(gate(known, "k1-blind").reason.english(), HasSubstr("certificates alone"));
@@ -413,6 +415,33 @@ TEST(SpindleGates, VoidAChannelThatStandsStill) {
               HasSubstr("probe 2 reads the same 21 times from row 100"));
   for (const CharacteristicResult& one : result.characteristics)
     EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+}
+
+TEST(SpindleGates, VoidAnAcquisitionThatStandsStill) {
+  World world = wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const auto with_still = [&](std::size_t first, std::size_t rows) {
+    const auto still = [&](fit::ProbeReadings& readings) {
+      for (auto& h : readings.h_mm) {
+        std::fill_n(h.begin() + static_cast<std::ptrdiff_t>(first), rows, h[first]);
+      }
+    };
+    return result_of(run_of(world, std::nullopt, still));
+  };
+  const FeatureResult result = with_still(300, 200);
+  EXPECT_EQ(gate(result, "disconnect").outcome, Gate::Outcome::kVoids);
+  EXPECT_THAT(gate(result, "disconnect").reason.english(), HasSubstr("no probe moves in 200"));
+  for (const auto& one : {result, with_still(0, 4096)}) {
+    for (const CharacteristicResult& c : one.characteristics) EXPECT_EQ(c.verdict, Verdict::kVoid);
+  }
+}
+
+TEST(SpindleGates, VoidRevolutionsThatDifferWhereTheNoiseIsDeclaredAsNone) {
+  World world = wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  record::SpindleInfluencesTask none = probes(0.002, 0.02);
+  none.noise_um = declared(0.0);
+  EXPECT_EQ(gate(result_of(run_of(world, none)), "turns").outcome, Gate::Outcome::kVoids);
 }
 
 TEST(SpindleGates, VoidRevolutionsThatDiffer) {

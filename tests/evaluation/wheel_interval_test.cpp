@@ -302,6 +302,22 @@ TEST(WheelInterval, LossBetweenPointsMakesABound) {
   }
 }
 
+// Four pairs of points at the zeros of an oval of 5 um read no roundness; the gap is below 90 deg.
+TEST(WheelInterval, FourClustersHoldNoOval) {
+  test::Points2 points_mm;
+  for (const double degrees : {0.0, 0.5, 90.0, 90.5, 180.0, 180.5, 270.0, 270.5}) {
+    const double angle = degrees * core::kDegree;
+    const double radius_mm = 50.0 + 5e-3 * std::sin(2.0 * angle);
+    points_mm.emplace_back(radius_mm * std::cos(angle), radius_mm * std::sin(angle));
+  }
+  WheelTask task;
+  task.nominal_radius_mm = 50.0;
+  const auto feature =
+      evaluated(run_of(points_mm, task, {asked(record::Form::kRoundness, 2.0)}, kSimple));
+  EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(feature.characteristics.at(0).reason.english(), HasSubstr("unseen"));
+}
+
 TEST(WheelInterval, APathForABoundOfTheEffectiveRadiusIsRefused) {
   const auto wheel = test::specified_wheel(1, test::even_degrees(8, 0.0, 45.0));
   WheelTask task = task_of(wheel);
