@@ -541,27 +541,6 @@ core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, 
   return facts;
 }
 
-/// The gate of the temperature: that of all touches.
-Gate temperature_gate(const record::RunRecord& record, const FeatureResult& result) {
-  Gate out;
-  out.code = "temperature";
-  out.condition = core::phrase("distance of the temperature from the middle of its limits");
-  out.unit = "K";
-  const double low = record.header.temperature_min_degC;
-  const double high = record.header.temperature_max_degC;
-  out.limit = 0.5 * (high - low);
-  if (result.temperatures) {
-    const double middle = 0.5 * (low + high);
-    out.found = std::max(std::abs(result.temperatures->least_degC - middle),
-                         std::abs(result.temperatures->greatest_degC - middle));
-  }
-  if (auto fault = temperature_fault(record, result)) {
-    out.outcome = Gate::Outcome::kVoids;
-    out.reason = *std::move(fault);
-  }
-  return out;
-}
-
 /// The gate of the growth of the fixture while it was calibrated; none where its expansion is not
 /// declared or the temperature is not known.
 std::optional<Gate> growth_gate(const RotaryResult& facts, const FeatureResult& result) {
@@ -622,8 +601,9 @@ core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int 
   auto facts = facts_of(record, index, *result.tip_radius_mm, result.gates);
   if (!facts) return tl::unexpected(facts.error());
   if (auto growth = growth_gate(*facts, result)) result.gates.push_back(*std::move(growth));
-  result.gates.insert(result.gates.begin(), temperature_gate(record, result));
-  facts->withheld = voided_by(result.gates);
+  // Those of the temperature are listed with the gates of every analysis.
+  facts->withheld = temperature_fault(record, result);
+  if (!facts->withheld) facts->withheld = voided_by(result.gates);
   if (result.temperatures && !result.temperatures->declared) {
     facts->calibration.temperature_degC = result.temperatures->mean_degC;
   }

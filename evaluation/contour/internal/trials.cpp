@@ -807,6 +807,14 @@ MaskShare worst_share(const Curves& curves, const std::vector<record::HarmonicLi
   return out;
 }
 
+/// Whether the harmonic that decides is among those of the trials: the value is that of all
+/// harmonics of the mask.
+bool is_nearest(const MaskShare& worst, const core::Result<AnalysisValue>& measured) {
+  constexpr double kRoundOff = 1e-6;
+  return !measured || !measured->limit_mm ||
+         measured->value_mm / *measured->limit_mm <= worst.share * (1.0 + kRoundOff);
+}
+
 /// The number that a characteristic reads from t.
 Asked asked_of(const record::Characteristic& asked, const ContourResult& facts,
                const ContourTrials& trials) {
@@ -915,11 +923,17 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
       out[a] = UncertaintyStatus::none(core::phrase("one part shows no spread"));
       continue;
     }
-    if (asked[a].form == Form::kHarmonicLimits &&
-        worst_share(trials.total(), asked[a].harmonic_limits).limit_mm == 0.0) {
-      out[a] = UncertaintyStatus::none(
-          core::phrase("the mask names no harmonic that the filter passes"));
-      continue;
+    if (asked[a].form == Form::kHarmonicLimits) {
+      const MaskShare worst = worst_share(trials.total(), asked[a].harmonic_limits);
+      if (worst.limit_mm == 0.0 || !is_nearest(worst, value_of(facts, asked[a]))) {
+        out[a] = UncertaintyStatus::none(
+            worst.limit_mm == 0.0
+                ? core::phrase("the mask names no harmonic that the filter passes")
+                : core::phrase("the harmonic nearest to its limit is one that the filter does not "
+                               "pass, or above order {}: the trials do not hold it",
+                               kHighestOrder));
+        continue;
+      }
     }
     numbers.push_back(asked_of(asked[a], facts, trials));
     rows.push_back(a);
