@@ -17,7 +17,7 @@ struct Temperatures {
   bool declared = false;
   /// Largest change of what was measured at one place: over the touches of one point, or over the
   /// rows of one series. Different places may differ. None where no place has two values.
-  std::optional<double> drift_K;
+  std::optional<double> drift_K = {};
 };
 
 /// The declared temperature of the plan, for temperatures that were not measured.

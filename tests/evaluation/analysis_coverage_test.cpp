@@ -29,7 +29,7 @@ using core::kMicrometre;
 using record::Form;
 using record::SpindleTask;
 
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
+bool in_full() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 /// 400 trials cost some tenths of a percent of the coverage, a plan has 2000 at least.
 UncertaintyOptions few_trials(std::uint64_t seed) {
@@ -49,9 +49,9 @@ struct Figure {
 };
 
 /// What the intervals of one characteristic held.
-class Tally {
+class CountedFigure {
  public:
-  explicit Tally(Figure figure) : figure_(std::move(figure)) {}
+  explicit CountedFigure(Figure figure) : figure_(std::move(figure)) {}
 
   void add(double truth_um, const AnalysisValue& value, const UncertaintyStatus& status) {
     const UncertaintyStatement* const said = status.about(Measurand::kSampledPoints);
@@ -78,9 +78,9 @@ class Tally {
                 100.0 * found_1, half_width_um_ / count_, read_um_ / count_, estimate_um_ / count_);
     const double p = figure_.coverage_1;
     const double least_1 =
-        full() ? (p < 0.93 ? p - 0.02 : 0.93) : p - 5.0 * std::sqrt(p * (1.0 - p) / count_);
+        in_full() ? (p < 0.93 ? p - 0.02 : 0.93) : p - 5.0 * std::sqrt(p * (1.0 - p) / count_);
     EXPECT_GE(found_1, least_1) << figure_.name;
-    if (full()) {
+    if (in_full()) {
       EXPECT_LE(found_1, 0.97) << figure_.name;
     }
     // Gates of 99.9 % leave some inspections without a value.
@@ -104,8 +104,8 @@ class Tally {
 /// Evaluates inspections and counts, for each of their characteristics.
 void expect_covered(const std::vector<Figure>& figures,
                     const std::function<Inspection(std::uint64_t)>& inspect) {
-  std::vector<Tally> tallies(figures.begin(), figures.end());
-  const std::uint64_t inspections = full() ? 1000 : 40;
+  std::vector<CountedFigure> tallies(figures.begin(), figures.end());
+  const std::uint64_t inspections = in_full() ? 1000 : 40;
   for (std::uint64_t k = 0; k < inspections; ++k) {
     SCOPED_TRACE(k);
     const Inspection made = inspect(k);
@@ -122,7 +122,7 @@ void expect_covered(const std::vector<Figure>& figures,
   }
   std::printf(
       "| value | inspections | inside | mean U um | as measured - truth | estimate - truth |\n");
-  for (const Tally& tally : tallies) tally.expect();
+  for (const CountedFigure& tally : tallies) tally.expect();
 }
 
 /// The same interval from the evaluation of the whole run, and a verdict on each side of it.
