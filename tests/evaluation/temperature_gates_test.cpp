@@ -64,7 +64,7 @@ FeatureResult only_feature(const RunRecord& run) {
 }
 
 /// The gate of a code; a test fails without it.
-Gate gate_of(const FeatureResult& feature, const std::string& code) {
+Gate gate_named(const FeatureResult& feature, const std::string& code) {
   for (const Gate& gate : feature.gates) {
     if (gate.code == code) return gate;
   }
@@ -74,12 +74,12 @@ Gate gate_of(const FeatureResult& feature, const std::string& code) {
 
 TEST(TemperatureGates, OfASeriesPassWithValueAndLimit) {
   const FeatureResult wheel = only_feature(wheel_at(rising(20.2, 0.4)));
-  const Gate limits = gate_of(wheel, "temperature");
+  const Gate limits = gate_named(wheel, "temperature");
   EXPECT_EQ(limits.outcome, Gate::Outcome::kPassed);
   EXPECT_NEAR(*limits.found, 20.4, 1e-9) << "the mean";
   EXPECT_EQ(limits.limit, 22.0) << "the nearer one";
   EXPECT_EQ(limits.unit, "degC");
-  const Gate drift = gate_of(wheel, "temperature-drift");
+  const Gate drift = gate_named(wheel, "temperature-drift");
   EXPECT_EQ(drift.outcome, Gate::Outcome::kPassed);
   EXPECT_NEAR(*drift.found, 0.4, 1e-9);
   EXPECT_EQ(drift.limit, 0.5);
@@ -95,8 +95,8 @@ TEST(TemperatureGates, VoidASeriesOutsideTheLimitsOrWithTooMuchDrift) {
   // A single warm reading is drift; the mean is inside.
   RunRecord run = wheel_at(rising(20.0, 0.8));
   const FeatureResult drifting = only_feature(run);
-  EXPECT_EQ(gate_of(drifting, "temperature").outcome, Gate::Outcome::kPassed);
-  EXPECT_EQ(gate_of(drifting, "temperature-drift").outcome, Gate::Outcome::kVoids);
+  EXPECT_EQ(gate_named(drifting, "temperature").outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(gate_named(drifting, "temperature-drift").outcome, Gate::Outcome::kVoids);
   EXPECT_EQ(drifting.characteristics.at(0).verdict, Verdict::kVoid);
   EXPECT_THAT(drifting.characteristics.at(0).reason,
               HasSubstr("the temperature changed by 0.80 K at one place while it was measured, the "
@@ -108,7 +108,7 @@ TEST(TemperatureGates, VoidASeriesOutsideTheLimitsOrWithTooMuchDrift) {
 TEST(TemperatureGates, VoidASeriesWithoutATemperatureUnlessOneIsDeclared) {
   RunRecord run = wheel_at({});
   const FeatureResult bare = only_feature(run);
-  EXPECT_FALSE(gate_of(bare, "temperature").found);
+  EXPECT_FALSE(gate_named(bare, "temperature").found);
   EXPECT_EQ(bare.characteristics.at(0).verdict, Verdict::kVoid);
   EXPECT_THAT(bare.characteristics.at(0).reason,
               HasSubstr("the temperature was not recorded, the limits are 18..22 degC"));
