@@ -33,29 +33,29 @@ using record::ContourInfluencesTask;
 using record::ContourTask;
 using record::Form;
 
-constexpr std::size_t kPoints = 1440;
+constexpr std::size_t kContourPoints = 1440;
 
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
+bool every_measurement() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
   return a;
 }
 
-record::Influence declared(double value) { return record::DeclaredInfluence{value}; }
+record::Influence declared_gauge(double value) { return record::DeclaredInfluence{value}; }
 
 /// Everything declared, in the sizes that the method calls typical.
 ContourInfluencesTask typical() {
   ContourInfluencesTask out;
-  out.gauge_um = declared(0.1);
-  out.gauge_form_um = declared(0.05);
-  out.gauge_gain_1 = declared(0.005);
-  out.gauge_phase_deg = declared(0.2);
-  out.c_encoder_urad = declared(4.0);
-  out.x_encoder_um = declared(0.2);
-  out.c_trace_mdeg = declared(0.02);
-  out.x_trace_um = declared(0.05);
-  out.skew_ms = declared(0.0);
+  out.gauge_um = declared_gauge(0.1);
+  out.gauge_form_um = declared_gauge(0.05);
+  out.gauge_gain_1 = declared_gauge(0.005);
+  out.gauge_phase_deg = declared_gauge(0.2);
+  out.c_encoder_urad = declared_gauge(4.0);
+  out.x_encoder_um = declared_gauge(0.2);
+  out.c_trace_mdeg = declared_gauge(0.02);
+  out.x_trace_um = declared_gauge(0.05);
+  out.skew_ms = declared_gauge(0.0);
   return out;
 }
 
@@ -153,7 +153,7 @@ const ContourResult& facts_of(const FeatureResult& result) {
   return std::get<ContourResult>(result.analysis->found);
 }
 
-const Gate& gate_of(const FeatureResult& result, std::string_view code) {
+const Gate& contour_gate(const FeatureResult& result, std::string_view code) {
   const auto found =
       std::ranges::find_if(result.gates, [&](const Gate& g) { return g.code == code; });
   EXPECT_NE(found, result.gates.end()) << code;
@@ -181,7 +181,7 @@ double slope_um_deg(const std::vector<double>& curve) {
 }
 
 TEST(ContourInterval, HasTheNumbersOfTheWorkedExample) {
-  EXPECT_NEAR(gauge_noise_factor({}, kPoints), 0.224026, 5e-7);
+  EXPECT_NEAR(gauge_noise_factor({}, kContourPoints), 0.224026, 5e-7);
   const auto f = test::spec_following();
   EXPECT_NEAR(slope_um_deg(f.error_mm), 0.10832, 5e-6);
   // The zero of the gauge turns t, not f.
@@ -190,8 +190,8 @@ TEST(ContourInterval, HasTheNumbersOfTheWorkedExample) {
 
 TEST(ContourInterval, AContourOfItsCoefficientsIsTheContour) {
   const auto f = test::spec_following().error_mm;
-  const auto again = fit::contour_of(fit::contour_coefficients(f, 300), kPoints);
-  for (std::size_t m = 0; m < kPoints; ++m) ASSERT_NEAR(again[m], f[m], 1e-9) << m;
+  const auto again = fit::contour_of(fit::contour_coefficients(f, 300), kContourPoints);
+  for (std::size_t m = 0; m < kContourPoints; ++m) ASSERT_NEAR(again[m], f[m], 1e-9) << m;
 }
 
 TEST(ContourInterval, HasNoIntervalWithoutADeclaration) {
@@ -262,7 +262,7 @@ TEST(ContourGates, AWrongStrokeIsVoidUnderSimpleAcceptance) {
     EXPECT_EQ(one.verdict, Verdict::kVoid);
     EXPECT_THAT(one.reason.english(),
                 testing::HasSubstr(fmt::format("crank radius of {:.3f} mm", crank_mm)));
-    const Gate& gate = gate_of(result, "stroke");
+    const Gate& gate = contour_gate(result, "stroke");
     EXPECT_EQ(gate.outcome, Gate::Outcome::kVoids);
     EXPECT_NEAR(gate.found.value(), std::abs(2.0 * (crank_mm - 49.0)), 1e-3);
     EXPECT_EQ(gate.limit, 0.05);
@@ -271,20 +271,20 @@ TEST(ContourGates, AWrongStrokeIsVoidUnderSimpleAcceptance) {
   right.add_positions(49.0);
   const auto result = right.judged();
   EXPECT_EQ(result.characteristics[0].verdict, Verdict::kConforms);
-  EXPECT_EQ(gate_of(result, "stroke").outcome, Gate::Outcome::kPassed);
-  EXPECT_EQ(gate_of(result, "stroke-unchecked").outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(contour_gate(result, "stroke").outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(contour_gate(result, "stroke-unchecked").outcome, Gate::Outcome::kPassed);
 }
 
 TEST(ContourGates, PositionsThatWereNotRecordedWarn) {
   const auto result = Pins().judged();
-  EXPECT_EQ(gate_of(result, "stroke-unchecked").outcome, Gate::Outcome::kWarns);
-  EXPECT_FALSE(gate_of(result, "stroke").found);
+  EXPECT_EQ(contour_gate(result, "stroke-unchecked").outcome, Gate::Outcome::kWarns);
+  EXPECT_FALSE(contour_gate(result, "stroke").found);
   EXPECT_EQ(result.characteristics[0].verdict, Verdict::kConforms);
 }
 
 /// The gate voids n alone: t is judged, and n has neither interval nor word.
 void expect_rest_void(const FeatureResult& result, std::string_view code) {
-  EXPECT_EQ(gate_of(result, code).outcome, Gate::Outcome::kVoids);
+  EXPECT_EQ(contour_gate(result, code).outcome, Gate::Outcome::kVoids);
   const ContourResult& facts = facts_of(result);
   EXPECT_TRUE(facts.rest_void);
   EXPECT_FALSE(facts.total_void);
@@ -307,7 +307,7 @@ TEST(ContourGates, NegatedTracesVoidTheRest) {
   pins.task.error = ContourTask::Error::kCommandMinusActual;
   const auto result = pins.judged();
   expect_rest_void(result, "sense");
-  EXPECT_THAT(gate_of(result, "sense").reason.english(), testing::HasSubstr("other sign"));
+  EXPECT_THAT(contour_gate(result, "sense").reason.english(), testing::HasSubstr("other sign"));
   for (const core::Error& warning : result.warnings) {
     EXPECT_NE(warning.code, core::Code::kSense);  // said once, as a gate
   }
@@ -318,7 +318,7 @@ TEST(ContourGates, AMirroredContourVoidsTheRest) {
   pins.task.gauge = ContourTask::Gauge::kClockwise;
   const auto result = pins.judged();
   expect_rest_void(result, "sense");
-  EXPECT_THAT(gate_of(result, "sense").reason.english(), testing::HasSubstr("um mirrored"));
+  EXPECT_THAT(contour_gate(result, "sense").reason.english(), testing::HasSubstr("um mirrored"));
 }
 
 TEST(ContourGates, AWrongZeroVoidsTheRest) {
@@ -332,23 +332,23 @@ TEST(ContourGates, AGainInAllPartsAlikeVoidsTheRest) {
   for (std::size_t i = 0; i < 4; ++i) {
     pins.pins[i] = test::spec_following(test::kSpecCScale[i]).error_mm;
     const auto rest = test::spec_rest(i);
-    for (std::size_t m = 0; m < kPoints; ++m) {
+    for (std::size_t m = 0; m < kContourPoints; ++m) {
       pins.pins[i][m] = 1.2 * (pins.pins[i][m] + 0.05 * rest[m]);
     }
   }
   const auto result = pins.judged();
   expect_rest_void(result, "gain");
-  EXPECT_THAT(gate_of(result, "gain").reason.english(), testing::HasSubstr("t is 1.19"));
+  EXPECT_THAT(contour_gate(result, "gain").reason.english(), testing::HasSubstr("t is 1.19"));
   pins.pins.resize(1);
   pins.traces.resize(1);
-  EXPECT_FALSE(gate_of(pins.judged(), "gain").found);  // one part cannot show it
+  EXPECT_FALSE(contour_gate(pins.judged(), "gain").found);  // one part cannot show it
 }
 
 TEST(ContourGates, FilteringTwiceVoidsTheContour) {
   Pins pins;
   pins.task.filter = ContourTask::Filter::kGaussian;
   const auto result = pins.judged();
-  EXPECT_EQ(gate_of(result, "filter-twice").outcome, Gate::Outcome::kVoids);
+  EXPECT_EQ(contour_gate(result, "filter-twice").outcome, Gate::Outcome::kVoids);
   EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
   EXPECT_THAT(result.characteristics[0].reason.english(), testing::HasSubstr("done-by-gauge"));
 }
@@ -356,18 +356,18 @@ TEST(ContourGates, FilteringTwiceVoidsTheContour) {
 TEST(ContourGates, AnEccentricPinIsVoidUnlessTheCircleIsGeometric) {
   Pins pins;
   for (auto& pin : pins.pins) {
-    for (std::size_t m = 0; m < kPoints; ++m)
-      pin[m] += 0.25 * std::cos(test::turn_angle(m, kPoints));
+    for (std::size_t m = 0; m < kContourPoints; ++m)
+      pin[m] += 0.25 * std::cos(test::turn_angle(m, kContourPoints));
   }
   const auto result = pins.judged();
-  EXPECT_EQ(gate_of(result, "eccentric-gauge").outcome, Gate::Outcome::kVoids);
-  EXPECT_NEAR(gate_of(result, "eccentric-gauge").found.value(), 0.25, 1e-6);
+  EXPECT_EQ(contour_gate(result, "eccentric-gauge").outcome, Gate::Outcome::kVoids);
+  EXPECT_NEAR(contour_gate(result, "eccentric-gauge").found.value(), 0.25, 1e-6);
   // 0.25^2 / (2 24.56) mm = 1.272 um, against a twentieth of 15 um.
-  EXPECT_EQ(gate_of(result, "eccentricity-error").outcome, Gate::Outcome::kVoids);
-  EXPECT_NEAR(gate_of(result, "eccentricity-error").found.value(), 1.2724, 1e-3);
+  EXPECT_EQ(contour_gate(result, "eccentricity-error").outcome, Gate::Outcome::kVoids);
+  EXPECT_NEAR(contour_gate(result, "eccentricity-error").found.value(), 1.2724, 1e-3);
   EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
   pins.task.base_circle = ContourTask::BaseCircle::kGeometric;
-  EXPECT_EQ(gate_of(pins.judged(), "eccentric-gauge").outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(contour_gate(pins.judged(), "eccentric-gauge").outcome, Gate::Outcome::kPassed);
 }
 
 TEST(ContourGates, CoarseTracesAndAnUnknownSkewVoidFAndN) {
@@ -378,20 +378,20 @@ TEST(ContourGates, CoarseTracesAndAnUnknownSkewVoidFAndN) {
   Pins unknown;
   unknown.task.uncertainty->skew_ms.reset();
   Pins no_unit;
-  no_unit.task.uncertainty->skew_ms = declared(1.0);
+  no_unit.task.uncertainty->skew_ms = declared_gauge(1.0);
   for (const auto& [pins, code] :
        {std::pair{coarse, "trace-sampling"}, std::pair{unknown, "trace-skew"},
         std::pair{no_unit, "trace-skew"}}) {
     SCOPED_TRACE(code);
     const auto result = pins.judged();
-    EXPECT_EQ(gate_of(result, code).outcome, Gate::Outcome::kVoids);
+    EXPECT_EQ(contour_gate(result, code).outcome, Gate::Outcome::kVoids);
     EXPECT_TRUE(facts_of(result).following_void);
     EXPECT_TRUE(facts_of(result).rest_void);
     EXPECT_FALSE(facts_of(result).study.following->word());
     EXPECT_EQ(result.characteristics[0].verdict, Verdict::kConforms);
   }
   no_unit.task.sampling_ms = 4.0;
-  EXPECT_EQ(gate_of(no_unit.judged(), "trace-skew").outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(contour_gate(no_unit.judged(), "trace-skew").outcome, Gate::Outcome::kPassed);
 }
 
 TEST(ContourGates, MissingTracesAndSamplesAreVoid) {
@@ -404,7 +404,7 @@ TEST(ContourGates, MissingTracesAndSamplesAreVoid) {
   }
   for (const Pins& pins : {none, hole}) {
     const auto result = pins.judged();
-    EXPECT_EQ(gate_of(result, "traces").outcome, Gate::Outcome::kVoids);
+    EXPECT_EQ(contour_gate(result, "traces").outcome, Gate::Outcome::kVoids);
     EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
   }
 }
@@ -417,10 +417,10 @@ TEST(ContourGates, MainJournalsThatDifferBoundFOnly) {
     other.mains.push_back(test::spec_rest((i + 1) % 4));
   }
   const auto good = alike.judged();
-  EXPECT_EQ(gate_of(good, "indirect").outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(contour_gate(good, "indirect").outcome, Gate::Outcome::kPassed);
   EXPECT_TRUE(number_of(facts_of(good), "indirect-pv", 0).uncertainty.result());
   const auto bad = other.judged();
-  EXPECT_EQ(gate_of(bad, "indirect").outcome, Gate::Outcome::kBounds);
+  EXPECT_EQ(contour_gate(bad, "indirect").outcome, Gate::Outcome::kBounds);
   EXPECT_FALSE(number_of(facts_of(bad), "indirect-pv", 0).uncertainty.result());
 }
 
@@ -458,7 +458,7 @@ struct Measured {
     const double turned = 0.2 * kDegree * noise.normal();
     std::vector<double> form(8);
     for (double& one : form) one = 0.025 * kMicrometre * noise.normal();
-    const auto gauge_form = fit::contour_of(form, kPoints);
+    const auto gauge_form = fit::contour_of(form, kContourPoints);
     for (std::size_t i = 0; i < 4; ++i) {
       fit::AxisErrors errors = test::spec_errors(300, test::kSpecCScale[i]);
       pins.traces[i].c_error_rad = errors.c_rad;
@@ -487,9 +487,9 @@ double spread_of(const std::vector<std::vector<double>>& curves) {
 
 // The truth is made by the envelope of the wheel; the trials know its first order only.
 TEST(ContourCoverage, HoldsTheTruthAsOftenAsTheMethodSays) {
-  const int measured = full() ? 1000 : 24;
+  const int measured = every_measurement() ? 1000 : 24;
   UncertaintyOptions options;
-  options.least_trials = full() ? 500 : 200;
+  options.least_trials = every_measurement() ? 500 : 200;
   struct Row {
     const char* what;
     double least, greatest;  ///< Of all intervals, per cent; the method found 92.1 95.3 89.7 94.1.
@@ -532,9 +532,9 @@ TEST(ContourCoverage, HoldsTheTruthAsOftenAsTheMethodSays) {
     const double percent = 100.0 * row.held / row.all;
     std::printf("%s: %d of %d, %.1f %%\n", row.what, row.held, row.all, percent);
     // Some tens scatter by 4 standard deviations of the least expected share.
-    const double slack = full() ? 0.0 : 400.0 * std::sqrt(0.1 * 0.9 / row.all);
+    const double slack = every_measurement() ? 0.0 : 400.0 * std::sqrt(0.1 * 0.9 / row.all);
     EXPECT_GE(percent, row.least - slack) << row.what;
-    if (full()) {
+    if (every_measurement()) {
       EXPECT_LE(percent, row.greatest) << row.what;
     }
   }

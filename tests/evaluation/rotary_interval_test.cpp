@@ -33,7 +33,7 @@ using core::kMicroradian;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-constexpr double kBallRadius_mm = 5.0;
+constexpr double kPlateBallRadius_mm = 5.0;
 constexpr double kTip_mm = 2.0;
 constexpr double kStep_deg = 15.0;
 
@@ -164,7 +164,7 @@ record::RunRecord calibration_run(const Bench& bench) {
     const Eigen::Isometry3d X_WB = fixture::body_to_machine(real, truth);
     for (std::size_t b = 0; b < task.balls.size(); ++b) {
       const Vector3d center = Vector3d::Map(task.balls[b].center_mm.data());
-      touch(run, X_WB * center, kBallRadius_mm, visit, static_cast<int>(b), bench, noise);
+      touch(run, X_WB * center, kPlateBallRadius_mm, visit, static_cast<int>(b), bench, noise);
     }
   }
   feature.settings = record::settings_of_task(std::move(task));
@@ -176,7 +176,7 @@ const RotaryResult* result_of(const FeatureResult& feature) {
   return feature.analysis ? std::get_if<RotaryResult>(&feature.analysis->found) : nullptr;
 }
 
-const Gate* gate_of(const FeatureResult& feature, std::string_view code) {
+const Gate* rotary_gate(const FeatureResult& feature, std::string_view code) {
   const auto at = std::find_if(feature.gates.begin(), feature.gates.end(),
                                [&](const Gate& gate) { return gate.code == code; });
   return at == feature.gates.end() ? nullptr : &*at;
@@ -282,7 +282,7 @@ TEST(RotaryCalibration, TakesAStageOfNineMicroradians) {
   const RotaryResult* found = result_of(feature);
   ASSERT_NE(found, nullptr) << (feature.failure ? feature.failure->what : "");
   EXPECT_FALSE(found->withheld) << found->withheld->english();
-  const Gate* other = gate_of(feature, "other-axis");
+  const Gate* other = rotary_gate(feature, "other-axis");
   ASSERT_NE(other, nullptr);
   EXPECT_EQ(other->outcome, Gate::Outcome::kPassed);
   EXPECT_GT(*other->found, 1.0);  // urad: the former limit of every station
@@ -335,7 +335,7 @@ TEST(RotaryCalibration, IsVoidWhereTheDriveMissedItsCommand) {
   ASSERT_TRUE(evaluation);
   const FeatureResult& feature = evaluation->features.at(0);
   EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
-  const Gate* drive = gate_of(feature, "drive-missed");
+  const Gate* drive = rotary_gate(feature, "drive-missed");
   ASSERT_NE(drive, nullptr);
   EXPECT_EQ(drive->outcome, Gate::Outcome::kVoids);
 }
@@ -351,7 +351,7 @@ TEST(RotaryCalibration, IsVoidWhereTheZeroPosesDiffer) {
   ASSERT_TRUE(evaluation);
   const FeatureResult& feature = evaluation->features.at(0);
   EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
-  const Gate* references = gate_of(feature, "references");
+  const Gate* references = rotary_gate(feature, "references");
   ASSERT_NE(references, nullptr);
   EXPECT_EQ(references->outcome, Gate::Outcome::kVoids);
 }
@@ -382,7 +382,7 @@ TEST(RotaryCalibration, HandsItsExpansionOn) {
   const auto file = fixture::parse_calibration(written(run, *evaluation), "file");
   ASSERT_TRUE(file) << file.error().what;
   EXPECT_EQ(file->expansion_1_K, 23e-6);
-  const Gate* growth = gate_of(evaluation->features.at(0), "growth");
+  const Gate* growth = rotary_gate(evaluation->features.at(0), "growth");
   ASSERT_NE(growth, nullptr);
   EXPECT_EQ(growth->outcome, Gate::Outcome::kPassed);
 }
@@ -403,7 +403,7 @@ TEST(RotaryCalibration, UsedAtAnotherTemperatureNamesTheShiftOfTheAxes) {
   merged.feature.strategy = record::Strategy::kMerged;
   merged.merged = std::make_shared<MergedPoses>();
   apply_calibration(use, part);
-  const Gate* gate = gate_of(part, "calibration-temperature");
+  const Gate* gate = rotary_gate(part, "calibration-temperature");
   ASSERT_NE(gate, nullptr);
   EXPECT_NEAR(*gate->found, 50.4, 0.05);
   EXPECT_EQ(gate->outcome, Gate::Outcome::kWarns);

@@ -106,13 +106,13 @@ fit::ProbeErrorCovariance prior_of(double gain, double angle_deg) {
 }
 
 /// RONt about LSCI at 50 UPR, RONq, and synchronous motion [um].
-struct Found {
+struct SpindleFound {
   double ront_um = 0.0;
   double ronq_um = 0.0;
   double sync_um = 0.0;
 };
 
-Found found_at(const fit::SeparationModel& model, const fit::ProbeErrors& q) {
+SpindleFound found_at(const fit::SeparationModel& model, const fit::ProbeErrors& q) {
   fit::SpindleCurves curves = model.at(q);
   for (int k = 2; k <= 50; ++k)
     curves.profile_mm.segment(2 * (k - 2), 2) *= std::exp2(-std::pow(k / 50.0, 2.0));
@@ -156,20 +156,20 @@ TEST(FirstHarmonic, TellsAWrongGainAndAWrongAngleByTheEccentricity) {
 
   const auto model = fit::SeparationModel::of(wrong_gain);
   ASSERT_TRUE(model);
-  const Found as_measured = found_at(*model, fit::ProbeErrors::Zero());
+  const SpindleFound as_measured = found_at(*model, fit::ProbeErrors::Zero());
   EXPECT_NEAR(as_measured.ront_um, 12.310, 0.006);
   EXPECT_NEAR(as_measured.ronq_um, 2.7101, 0.001);
   EXPECT_NEAR(as_measured.sync_um, 3.716, 0.006);  // printed 3.719 over work, 3.714 over the part
   const auto seen = fit::observe_first_harmonic(wrong_gain, prior_of(0.005, 0.25));
   EXPECT_NEAR(seen.mean[fit::kFirstGain + 1], 0.00497, 5e-5);
   EXPECT_NEAR(seen.mean[fit::kFirstGain + 2], -0.00497, 5e-5);
-  const Found estimate = found_at(*model, seen.mean);
+  const SpindleFound estimate = found_at(*model, seen.mean);
   EXPECT_NEAR(estimate.ront_um, 12.349, 0.006);
   EXPECT_NEAR(estimate.ronq_um, 2.691, 0.001);
   EXPECT_NEAR(estimate.sync_um, 2.927, 0.008);
   const auto other = fit::SeparationModel::of(wrong_angle);
   ASSERT_TRUE(other);
-  const Found corrected =
+  const SpindleFound corrected =
       found_at(*other, fit::observe_first_harmonic(wrong_angle, prior_of(0.005, 0.25)).mean);
   EXPECT_NEAR(corrected.ront_um, 12.309, 0.008);
   EXPECT_NEAR(corrected.ronq_um, 2.683, 0.001);
@@ -264,8 +264,8 @@ TEST(SeparationModel, HasTheBudgetOfTheWorkedCase) {
     for (int i = 0; i < 6; ++i) {
       SCOPED_TRACE(i);
       const double u = i < 3 ? 0.002 : 0.02 * kDegree;
-      const Found up = found_at(*model, -u * fit::ProbeErrors::Unit(i));
-      const Found down = found_at(*model, u * fit::ProbeErrors::Unit(i));
+      const SpindleFound up = found_at(*model, -u * fit::ProbeErrors::Unit(i));
+      const SpindleFound down = found_at(*model, u * fit::ProbeErrors::Unit(i));
       EXPECT_NEAR(0.5 * (up.ront_um - down.ront_um), row.ront_um[static_cast<std::size_t>(i)],
                   0.004);
       EXPECT_NEAR(0.5 * (up.sync_um - down.sync_um), row.sync_um[static_cast<std::size_t>(i)],
@@ -274,7 +274,7 @@ TEST(SeparationModel, HasTheBudgetOfTheWorkedCase) {
   }
 }
 
-record::DeclaredInfluence declared(double value) { return {.value = value}; }
+record::DeclaredInfluence declared_probe(double value) { return {.value = value}; }
 
 record::Characteristic asked(const std::string& id, record::Form form,
                              std::optional<double> tolerance_um) {
@@ -340,13 +340,13 @@ const Gate& gate(const FeatureResult& result, const std::string& code) {
 
 record::SpindleInfluencesTask probes(double gain, double angle_deg) {
   record::SpindleInfluencesTask out;
-  out.gain_1 = declared(gain);
-  out.angle_deg = declared(angle_deg);
+  out.gain_1 = declared_probe(gain);
+  out.angle_deg = declared_probe(angle_deg);
   return out;
 }
 
 /// Four turns of 1024 readings of the reference layout, s = 0.02 um, P2's gain 1 % off.
-World wrong_gain() {
+World readings_of_a_wrong_gain() {
   World world;
   world.layout = fit::reference_layout();
   world.gain = {0.0, 0.01, 0.0};
@@ -358,7 +358,7 @@ World wrong_gain() {
 TEST(SpindleGates, VoidAGainThatContradictsItsCertificate) {
   for (const char* rule : {"simple-acceptance", "iso-14253-1"}) {
     SCOPED_TRACE(rule);
-    auto run = run_of(wrong_gain(), probes(0.002, 0.02));
+    auto run = run_of(readings_of_a_wrong_gain(), probes(0.002, 0.02));
     run.header.decision_rule = rule;
     const FeatureResult result = result_of(run);
     EXPECT_EQ(gate(result, "first-harmonic").outcome, Gate::Outcome::kVoids);
@@ -371,7 +371,7 @@ TEST(SpindleGates, VoidAGainThatContradictsItsCertificate) {
 }
 
 TEST(SpindleGates, AcceptAGainWithinItsCertificate) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.002, 0.0};
   const FeatureResult result = result_of(run_of(world, probes(0.002, 0.02)));
   for (const Gate& one : result.gates) {
@@ -382,14 +382,14 @@ TEST(SpindleGates, AcceptAGainWithinItsCertificate) {
 }
 
 TEST(SpindleGates, VoidAWrongGainWithoutDeclarationsWhereTheEccentricityShowsIt) {
-  const FeatureResult result = result_of(run_of(wrong_gain(), std::nullopt));
+  const FeatureResult result = result_of(run_of(readings_of_a_wrong_gain(), std::nullopt));
   EXPECT_EQ(gate(result, "first-harmonic").outcome, Gate::Outcome::kVoids);
   for (const CharacteristicResult& one : result.characteristics)
     EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
 }
 
 TEST(SpindleGates, VoidWhereNothingWouldShowAWrongGainThatIsNotDeclared) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.layout = fit::published_layout_a();
   world.noise_um = 0.05;
   world.eccentricity_um = 0.0;
@@ -407,7 +407,7 @@ TEST(SpindleGates, VoidAChannelThatStandsStill) {
   const auto stuck = [](fit::ProbeReadings& readings) {
     std::fill_n(readings.h_mm[1].begin() + 100, 21, readings.h_mm[1][100]);
   };
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
   const FeatureResult result = result_of(run_of(world, std::nullopt, stuck));
   EXPECT_EQ(gate(result, "disconnect").outcome, Gate::Outcome::kVoids);
@@ -418,7 +418,7 @@ TEST(SpindleGates, VoidAChannelThatStandsStill) {
 }
 
 TEST(SpindleGates, VoidAnAcquisitionThatStandsStill) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
   const auto with_still = [&](std::size_t first, std::size_t rows) {
     const auto still = [&](fit::ProbeReadings& readings) {
@@ -437,15 +437,15 @@ TEST(SpindleGates, VoidAnAcquisitionThatStandsStill) {
 }
 
 TEST(SpindleGates, VoidRevolutionsThatDifferWhereTheNoiseIsDeclaredAsNone) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
   record::SpindleInfluencesTask none = probes(0.002, 0.02);
-  none.noise_um = declared(0.0);
+  none.noise_um = declared_probe(0.0);
   EXPECT_EQ(gate(result_of(run_of(world, none)), "turns").outcome, Gate::Outcome::kVoids);
 }
 
 TEST(SpindleGates, VoidRevolutionsThatDiffer) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
   const FeatureResult good = result_of(run_of(world, std::nullopt));
   EXPECT_EQ(gate(good, "turns").outcome, Gate::Outcome::kPassed) << gate(good, "turns").reason;
@@ -458,7 +458,7 @@ TEST(SpindleGates, VoidRevolutionsThatDiffer) {
 }
 
 TEST(SpindleGates, DoNotJudgeAsynchronousMotionOfFewTurns) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
   auto run = run_of(world, std::nullopt);
   run.features[0].characteristics = {
@@ -472,7 +472,7 @@ TEST(SpindleGates, DoNotJudgeAsynchronousMotionOfFewTurns) {
 }
 
 TEST(SpindleGates, VoidAHarmonicWhoseNoiseHidesItsLimit) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.layout = fit::published_layout_a();
   world.gain = {0.0, 0.0, 0.0};
   auto run = run_of(world, std::nullopt);
@@ -522,10 +522,10 @@ TEST(SpindleInterval, HoldsTheTruthOfTheWorkedCase) {
 }
 
 TEST(SpindleInterval, NeedsDeclaredGainsAndAngles) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
   record::SpindleInfluencesTask only_gain;
-  only_gain.gain_1 = declared(0.002);
+  only_gain.gain_1 = declared_probe(0.002);
   const FeatureResult result = result_of(run_of(world, only_gain));
   for (const CharacteristicResult& one : result.characteristics) {
     ASSERT_TRUE(one.value);
@@ -537,7 +537,7 @@ TEST(SpindleInterval, NeedsDeclaredGainsAndAngles) {
 // 0.1 mm of wheel wear turns the outer probes by 0.23 deg: RONt 10.5 um for 12.3 by layout A.
 // Without eccentricity nothing shows it.
 TEST(SpindleInterval, CoversAnArmAndNamesWhatItDoesNot) {
-  World world = wrong_gain();
+  World world = readings_of_a_wrong_gain();
   world.layout = fit::published_layout_a();
   world.gain = {0.0, 0.0, 0.0};
   world.eccentricity_um = 0.0;
@@ -549,8 +549,8 @@ TEST(SpindleInterval, CoversAnArmAndNamesWhatItDoesNot) {
     return stated == nullptr ? 0.0 : stated->high_mm - stated->low_mm;
   };
   const double without = width();
-  influences.arm_mm = declared(0.1);
-  influences.skew_us = declared(5.0);
+  influences.arm_mm = declared_probe(0.1);
+  influences.skew_us = declared_probe(5.0);
   EXPECT_GT(width(), 3.0 * without);
   const FeatureResult result = result_of(run_of(world, influences));
   const auto& declaration = result.characteristics.at(0).value->uncertainty().result()->declaration;

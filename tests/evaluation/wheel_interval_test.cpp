@@ -75,7 +75,7 @@ record::RunRecord run_of(const test::Points2& points_mm, const WheelTask& task,
   return run;
 }
 
-FeatureResult evaluated(const record::RunRecord& run) {
+FeatureResult evaluated_wheel(const record::RunRecord& run) {
   auto evaluation = evaluate(run);
   EXPECT_TRUE(evaluation) << (evaluation ? "" : evaluation.error().what);
   if (!evaluation) return {};
@@ -84,9 +84,9 @@ FeatureResult evaluated(const record::RunRecord& run) {
   return feature;
 }
 
-FeatureResult evaluated(const test::SpecifiedWheel& wheel, const WheelTask& task, record::Form form,
-                        double tolerance_um, std::string_view rule) {
-  return evaluated(run_of(wheel.points_mm, task, {asked(form, tolerance_um)}, rule));
+FeatureResult evaluated_wheel(const test::SpecifiedWheel& wheel, const WheelTask& task,
+                              record::Form form, double tolerance_um, std::string_view rule) {
+  return evaluated_wheel(run_of(wheel.points_mm, task, {asked(form, tolerance_um)}, rule));
 }
 
 const UncertaintyStatement& statement(const CharacteristicResult& result) {
@@ -95,7 +95,7 @@ const UncertaintyStatement& statement(const CharacteristicResult& result) {
   return result.value && result.value->statement() ? *result.value->statement() : kNone;
 }
 
-const Gate* gate_of(const FeatureResult& feature, std::string_view code) {
+const Gate* wheel_gate(const FeatureResult& feature, std::string_view code) {
   const auto found =
       std::ranges::find_if(feature.gates, [&](const Gate& gate) { return gate.code == code; });
   EXPECT_NE(found, feature.gates.end()) << code;
@@ -117,7 +117,7 @@ TEST(WheelInterval, W1SixteenPointsAllRound) {
   const WheelTask task = task_of(wheel);
   for (const std::string_view rule : {kSimple, kIso}) {
     SCOPED_TRACE(rule);
-    const auto feature = evaluated(wheel, task, record::Form::kRunOut, 20.0, rule);
+    const auto feature = evaluated_wheel(wheel, task, record::Form::kRunOut, 20.0, rule);
     const auto& fim = feature.characteristics.at(0);
     EXPECT_EQ(fim.verdict, Verdict::kConforms) << fim.reason;
     EXPECT_NEAR(fim.value_mm().value() * 1e3, 11.335, 1e-3);
@@ -129,7 +129,7 @@ TEST(WheelInterval, W1SixteenPointsAllRound) {
     EXPECT_LT(said.low_mm * 1e3, 11.557);
     EXPECT_GT(said.high_mm * 1e3, 11.557);
     // The amplitudes found are those of the body within noise, whose bound is 0.645 um.
-    const Gate* loss = gate_of(feature, "loss-between-points");
+    const Gate* loss = wheel_gate(feature, "loss-between-points");
     ASSERT_NE(loss, nullptr);
     EXPECT_NEAR(loss->found.value(), 0.651, 1e-3);
     EXPECT_NEAR(loss->limit.value(), 2.0, 1e-12);
@@ -141,7 +141,7 @@ TEST(WheelInterval, W1TheRuleOfTheIntervalAcceptsLessThanTheValueAsMeasured) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   const WheelTask task = task_of(wheel);
   const auto verdict = [&](record::Form form, double tolerance_um, std::string_view rule) {
-    return evaluated(wheel, task, form, tolerance_um, rule).characteristics.at(0).verdict;
+    return evaluated_wheel(wheel, task, form, tolerance_um, rule).characteristics.at(0).verdict;
   };
   EXPECT_EQ(verdict(record::Form::kRunOut, 12.0, kSimple), Verdict::kConforms);
   EXPECT_EQ(verdict(record::Form::kRunOut, 12.0, kIso), Verdict::kUndecided);
@@ -156,10 +156,10 @@ TEST(WheelInterval, W1RadiusWithWhatIsDeclaredOfIt) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   WheelTask task = task_of(wheel);
   const auto u_um = [&] {
-    const auto feature = evaluated(wheel, task, record::Form::kRadius, 30.0, kIso);
+    const auto feature = evaluated_wheel(wheel, task, record::Form::kRadius, 30.0, kIso);
     return statement(feature.characteristics.at(0)).standard_uncertainty_mm * 1e3;
   };
-  const auto feature = evaluated(wheel, task, record::Form::kRadius, 30.0, kIso);
+  const auto feature = evaluated_wheel(wheel, task, record::Form::kRadius, 30.0, kIso);
   const auto& result = std::get<WheelResult>(feature.analysis->found);
   EXPECT_NEAR(result.evaluation.wheel.radius_mm, 49.983123, 1e-6);
   EXPECT_NEAR(result.evaluation.wheel.radius_uncertainty_mm * 1e3, 0.100, 1e-3);
@@ -179,7 +179,7 @@ TEST(WheelInterval, ADepartureIsHeldToBothSides) {
   task.nominal_radius_mm = 49.983123;
   task.uncertainty->threshold_um = DeclaredInfluence{1.0};
   const auto verdict = [&](double tolerance_um) {
-    return evaluated(wheel, task, record::Form::kRadius, tolerance_um, kIso)
+    return evaluated_wheel(wheel, task, record::Form::kRadius, tolerance_um, kIso)
         .characteristics.at(0)
         .verdict;
   };
@@ -194,30 +194,32 @@ TEST(WheelInterval, W2AnArcNeverConforms) {
   const WheelTask task = task_of(wheel);
   for (const std::string_view rule : {kSimple, kIso}) {
     SCOPED_TRACE(rule);
-    const auto feature = evaluated(wheel, task, record::Form::kRunOut, 10.0, rule);
+    const auto feature = evaluated_wheel(wheel, task, record::Form::kRunOut, 10.0, rule);
     const auto& fim = feature.characteristics.at(0);
     EXPECT_EQ(fim.verdict, Verdict::kVoid);
     EXPECT_THAT(fim.reason.english(), HasSubstr("300 deg of the turn unseen"));
     EXPECT_NEAR(fim.value_mm().value() * 1e3, 5.651, 1e-3);
     EXPECT_NEAR(statement(fim).low_mm * 1e3, 4.21, kEnds_um);
     EXPECT_NEAR(statement(fim).high_mm * 1e3, 6.82, kEnds_um);
-    const Gate* gap = gate_of(feature, "gap");
+    const Gate* gap = wheel_gate(feature, "gap");
     ASSERT_NE(gap, nullptr);
     EXPECT_NEAR(gap->found.value(), 300.0, 0.01);
     EXPECT_EQ(gap->outcome, Gate::Outcome::kBounds);
-    EXPECT_EQ(evaluated(wheel, task, record::Form::kRunOut, 3.5, rule).characteristics[0].verdict,
-              Verdict::kDoesNotConform);
-    EXPECT_EQ(evaluated(wheel, task, record::Form::kRunOut, 4.0, rule).characteristics[0].verdict,
-              Verdict::kDoesNotConform);
+    EXPECT_EQ(
+        evaluated_wheel(wheel, task, record::Form::kRunOut, 3.5, rule).characteristics[0].verdict,
+        Verdict::kDoesNotConform);
+    EXPECT_EQ(
+        evaluated_wheel(wheel, task, record::Form::kRunOut, 4.0, rule).characteristics[0].verdict,
+        Verdict::kDoesNotConform);
     for (const double tolerance_um : {7.0, 12.0, 50.0, 1000.0}) {
       SCOPED_TRACE(tolerance_um);
       for (const record::Form form : {record::Form::kRunOut, record::Form::kRoundness}) {
-        EXPECT_EQ(evaluated(wheel, task, form, tolerance_um, rule).characteristics[0].verdict,
+        EXPECT_EQ(evaluated_wheel(wheel, task, form, tolerance_um, rule).characteristics[0].verdict,
                   Verdict::kVoid);
       }
     }
   }
-  const auto feature = evaluated(wheel, task, record::Form::kRadius, 30.0, kIso);
+  const auto feature = evaluated_wheel(wheel, task, record::Form::kRadius, 30.0, kIso);
   const auto& m = std::get<WheelResult>(feature.analysis->found).evaluation.wheel;
   EXPECT_NEAR(m.radius_mm, 49.99242, 1e-5);
   EXPECT_NEAR(m.radius_uncertainty_mm * 1e3, 2.666, 2e-3);
@@ -232,7 +234,7 @@ TEST(WheelInterval, W3AProudPointIsRunOut) {
     task.robust = robust;
     for (const std::string_view rule : {kSimple, kIso}) {
       SCOPED_TRACE(rule);
-      const auto feature = evaluated(wheel, task, record::Form::kRunOut, 20.0, rule);
+      const auto feature = evaluated_wheel(wheel, task, record::Form::kRunOut, 20.0, rule);
       const auto& fim = feature.characteristics.at(0);
       EXPECT_EQ(fim.verdict, Verdict::kDoesNotConform) << fim.reason;
       EXPECT_NEAR(fim.value_mm().value() * 1e3, 47.52, 0.01);
@@ -246,7 +248,7 @@ TEST(WheelInterval, W3AProudPointIsRunOut) {
       EXPECT_LT(effective->low_mm, 50.025186);
       EXPECT_GT(effective->high_mm, 50.025186);
       EXPECT_LT(effective->high_mm - effective->low_mm, 4e-3);
-      const auto round = evaluated(wheel, task, record::Form::kRoundness, 10.0, rule);
+      const auto round = evaluated_wheel(wheel, task, record::Form::kRoundness, 10.0, rule);
       EXPECT_EQ(round.characteristics[0].verdict, Verdict::kDoesNotConform);
     }
   }
@@ -258,7 +260,7 @@ TEST(WheelInterval, AChipIsRunOutWithTheRobustVariant) {
   wheel.points_mm[4].y() -= 45e-3;
   WheelTask task = task_of(wheel);
   task.robust = record::Switch::kOn;
-  const auto feature = evaluated(wheel, task, record::Form::kRunOut, 20.0, kIso);
+  const auto feature = evaluated_wheel(wheel, task, record::Form::kRunOut, 20.0, kIso);
   EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kDoesNotConform);
   EXPECT_GT(feature.characteristics.at(0).value_mm().value() * 1e3, 40.0);
 }
@@ -267,21 +269,23 @@ TEST(WheelInterval, ThereIsNoneOfWhatIsNotDeclared) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   WheelTask task = task_of(wheel);
   const auto reason = [&](record::Form form) {
-    const auto feature = evaluated(wheel, task, form, 20.0, kIso);
+    const auto feature = evaluated_wheel(wheel, task, form, 20.0, kIso);
     EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
     return feature.characteristics.at(0).reason.english();
   };
   const Influence axis_um = std::exchange(task.uncertainty->axis_um, std::nullopt);
   EXPECT_THAT(reason(record::Form::kRunOut), HasSubstr("axis_um"));
-  EXPECT_EQ(evaluated(wheel, task, record::Form::kRadius, 20.0, kIso).characteristics[0].verdict,
-            Verdict::kConforms);
+  EXPECT_EQ(
+      evaluated_wheel(wheel, task, record::Form::kRadius, 20.0, kIso).characteristics[0].verdict,
+      Verdict::kConforms);
   task.uncertainty->axis_um = axis_um;
   task.uncertainty->point_um.reset();
   EXPECT_THAT(reason(record::Form::kRadius), HasSubstr("point_um"));
   task.uncertainty.reset();
   EXPECT_THAT(reason(record::Form::kRunOut), HasSubstr("no influence"));
-  EXPECT_EQ(evaluated(wheel, task, record::Form::kRunOut, 20.0, kSimple).characteristics[0].verdict,
-            Verdict::kConforms);
+  EXPECT_EQ(
+      evaluated_wheel(wheel, task, record::Form::kRunOut, 20.0, kSimple).characteristics[0].verdict,
+      Verdict::kConforms);
 }
 
 // Between few points more than a tenth of the tolerance may be missing.
@@ -290,14 +294,14 @@ TEST(WheelInterval, LossBetweenPointsMakesABound) {
   const WheelTask task = task_of(wheel);
   for (const std::string_view rule : {kSimple, kIso}) {
     SCOPED_TRACE(rule);
-    const auto narrow = evaluated(wheel, task, record::Form::kRunOut, 16.0, rule);
+    const auto narrow = evaluated_wheel(wheel, task, record::Form::kRunOut, 16.0, rule);
     EXPECT_EQ(narrow.characteristics[0].verdict, Verdict::kVoid);
     EXPECT_THAT(narrow.characteristics[0].reason.english(), HasSubstr("a lower bound"));
-    EXPECT_EQ(gate_of(narrow, "loss-between-points")->outcome, Gate::Outcome::kBounds);
+    EXPECT_EQ(wheel_gate(narrow, "loss-between-points")->outcome, Gate::Outcome::kBounds);
     // A path does not rest on the effective radius of a bound.
     const auto& m = std::get<WheelResult>(narrow.analysis->found).evaluation.wheel;
     EXPECT_FALSE(m.effective_radius_mm());
-    const auto wide = evaluated(wheel, task, record::Form::kRunOut, 60.0, rule);
+    const auto wide = evaluated_wheel(wheel, task, record::Form::kRunOut, 60.0, rule);
     EXPECT_EQ(wide.characteristics[0].verdict, Verdict::kConforms);
   }
 }
@@ -313,7 +317,7 @@ TEST(WheelInterval, FourClustersHoldNoOval) {
   WheelTask task;
   task.nominal_radius_mm = 50.0;
   const auto feature =
-      evaluated(run_of(points_mm, task, {asked(record::Form::kRoundness, 2.0)}, kSimple));
+      evaluated_wheel(run_of(points_mm, task, {asked(record::Form::kRoundness, 2.0)}, kSimple));
   EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
   EXPECT_THAT(feature.characteristics.at(0).reason.english(), HasSubstr("unseen"));
 }
@@ -328,17 +332,17 @@ TEST(WheelInterval, APathForABoundOfTheEffectiveRadiusIsRefused) {
   task.surface->step_mm = 1.0;
   task.surface->radius = record::GroundSurfaceTask::Radius::kEffective;
   const auto path = [&](double tolerance_um) {
-    return evaluated(wheel, task, record::Form::kRunOut, tolerance_um, kSimple);
+    return evaluated_wheel(wheel, task, record::Form::kRunOut, tolerance_um, kSimple);
   };
   const auto narrow = path(16.0);
   const auto& refused = std::get<WheelResult>(narrow.analysis->found).evaluation;
   EXPECT_FALSE(refused.path);
   ASSERT_TRUE(refused.refused);
   EXPECT_THAT(refused.refused->what, HasSubstr("lower bound"));
-  EXPECT_EQ(gate_of(narrow, "path-radius")->outcome, Gate::Outcome::kVoids);
+  EXPECT_EQ(wheel_gate(narrow, "path-radius")->outcome, Gate::Outcome::kVoids);
   const auto wide = path(60.0);
   EXPECT_TRUE(std::get<WheelResult>(wide.analysis->found).evaluation.path);
-  EXPECT_EQ(gate_of(wide, "path-radius")->outcome, Gate::Outcome::kPassed);
+  EXPECT_EQ(wheel_gate(wide, "path-radius")->outcome, Gate::Outcome::kPassed);
 }
 
 // Wear on an arc moves the radius by far more than its noise.
@@ -349,7 +353,7 @@ TEST(WheelInterval, FormOnAnArcWidensTheRadiusOrVoidsIt) {
     wheel.points_mm[i] -= 4e-3 * outward;
   }
   const WheelTask task = task_of(wheel);
-  const auto wide = evaluated(wheel, task, record::Form::kRadius, 60.0, kIso);
+  const auto wide = evaluated_wheel(wheel, task, record::Form::kRadius, 60.0, kIso);
   const auto& m = std::get<WheelResult>(wide.analysis->found).evaluation.wheel;
   ASSERT_GT(m.correlation, fit::kCorrelationLimit);
   const double form_mm = 0.5 * m.deviation_mm * m.factors.radius;
@@ -357,12 +361,12 @@ TEST(WheelInterval, FormOnAnArcWidensTheRadiusOrVoidsIt) {
   const UncertaintyStatement& said = statement(wide.characteristics[0]);
   EXPECT_GT(0.5 * (said.high_mm - said.low_mm), form_mm);
   EXPECT_TRUE(std::ranges::is_sorted(said.values_mm));
-  EXPECT_EQ(gate_of(wide, "form-on-an-arc")->outcome, Gate::Outcome::kWarns);
+  EXPECT_EQ(wheel_gate(wide, "form-on-an-arc")->outcome, Gate::Outcome::kWarns);
   for (const std::string_view rule : {kSimple, kIso}) {
-    const auto narrow = evaluated(wheel, task, record::Form::kRadius, 3.9e3 * form_mm, rule);
+    const auto narrow = evaluated_wheel(wheel, task, record::Form::kRadius, 3.9e3 * form_mm, rule);
     EXPECT_EQ(narrow.characteristics[0].verdict, Verdict::kVoid);
     EXPECT_THAT(narrow.characteristics[0].reason.english(), HasSubstr("a quarter"));
-    EXPECT_EQ(gate_of(narrow, "form-on-an-arc")->outcome, Gate::Outcome::kVoids);
+    EXPECT_EQ(wheel_gate(narrow, "form-on-an-arc")->outcome, Gate::Outcome::kVoids);
   }
 }
 

@@ -109,16 +109,16 @@ Case with_gates() {
   return made;
 }
 
-nlohmann::json document_of(const Case& made) {
+nlohmann::json analysis_document(const Case& made) {
   return nlohmann::json::parse(write_json(made.record, made.evaluation));
 }
 
-std::string summary_of(const Case& made) {
+std::string analysis_summary(const Case& made) {
   return testing::one_line(write_summary(made.record, made.evaluation));
 }
 
 TEST(Gates, JsonHoldsEveryOneWithItsNumbersAndItsOutcome) {
-  const auto gates = document_of(with_gates())["features"][0]["gates"];
+  const auto gates = analysis_document(with_gates())["features"][0]["gates"];
   ASSERT_EQ(gates.size(), 3U);
   EXPECT_EQ(gates[0]["code"], "gap");
   EXPECT_EQ(gates[0]["outcome"], "passed");
@@ -135,8 +135,8 @@ TEST(Gates, JsonHoldsEveryOneWithItsNumbersAndItsOutcome) {
 
 TEST(Gates, AnAnalysisWithoutAnyHasAnEmptyListAndATouchedFeatureNone) {
   const Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync");
-  EXPECT_EQ(document_of(made)["features"][0]["gates"].dump(), "[]");
-  EXPECT_FALSE(document_of(cylinder_case(4, 7, 1))["features"][0].contains("gates"));
+  EXPECT_EQ(analysis_document(made)["features"][0]["gates"].dump(), "[]");
+  EXPECT_FALSE(analysis_document(cylinder_case(4, 7, 1))["features"][0].contains("gates"));
 }
 
 TEST(Gates, PageHasATableOfAllWithReasonsAsText) {
@@ -155,11 +155,11 @@ TEST(Gates, PageHasATableOfAllWithReasonsAsText) {
 
 TEST(Gates, TerminalNamesThoseThatDidNotPass) {
   Case made = with_gates();
-  EXPECT_THAT(summary_of(made),
+  EXPECT_THAT(analysis_summary(made),
               HasSubstr("gates 1 of 3 passed; noise-dominates: noise <b>is</b> most of it; "
                         "first-harmonic: 12.4 exceeds 7.5: check the gains"));
   for (Gate& one : made.evaluation.features.front().gates) one.outcome = Gate::Outcome::kPassed;
-  EXPECT_THAT(summary_of(made), Not(HasSubstr("gates")));
+  EXPECT_THAT(analysis_summary(made), Not(HasSubstr("gates")));
 }
 
 TEST(Gates, DmisAndQifNameThem) {
@@ -176,7 +176,7 @@ TEST(Gates, DmisAndQifNameThem) {
 
 TEST(AnalysisInterval, StandsInEveryWriter) {
   const Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync");
-  const auto asked = document_of(made)["features"][0]["characteristics"][0];
+  const auto asked = analysis_document(made)["features"][0]["characteristics"][0];
   EXPECT_NEAR(asked["quoted_um"], 1.6, 1e-9);
   const auto known = asked["uncertainty"];
   EXPECT_NEAR(known["sampled_points"]["high_um"], 3.2, 1e-9);
@@ -189,7 +189,7 @@ TEST(AnalysisInterval, StandsInEveryWriter) {
               HasSubstr("$$ F1T1: EM sync = 1.6 um, 95 % [0.1, 3.2]; as read 3.1 um"));
   EXPECT_THAT(write_qif(made.record, made.evaluation),
               HasSubstr("combinedUncertainty=\"0.0008\">0.0016<"));
-  EXPECT_THAT(summary_of(made), HasSubstr("1.6 um, 95 % within [0.1, 3.2] um"));
+  EXPECT_THAT(analysis_summary(made), HasSubstr("1.6 um, 95 % within [0.1, 3.2] um"));
   const std::string page = page_of(made);
   EXPECT_EQ(testing::first_unbalanced_tag(page), "");
   EXPECT_THAT(page, AllOf(HasSubstr("Uncertainty of"), HasSubstr("[0.1, 3.2]"),
@@ -217,7 +217,7 @@ TEST(AnalysisInterval, ThePageSaysWhyThereIsNone) {
 
 TEST(AnalysisInterval, AnUpperBoundIsNowhereAValue) {
   const Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync", true);
-  const auto asked = document_of(made)["features"][0]["characteristics"][0];
+  const auto asked = analysis_document(made)["features"][0]["characteristics"][0];
   EXPECT_TRUE(asked["quoted_um"].is_null());
   EXPECT_TRUE(asked["uncertainty"]["sampled_points"]["at_most"].get<bool>());
   EXPECT_THAT(write_results_csv(made.record, made.evaluation), HasSubstr(",,,3.2\n"));
@@ -225,8 +225,9 @@ TEST(AnalysisInterval, AnUpperBoundIsNowhereAValue) {
   EXPECT_THAT(qif, AllOf(HasSubstr(">0.0032<"), Not(HasSubstr("combinedUncertainty=")),
                          HasSubstr("none: the value is the upper bound, 97.5 % lie below")));
   EXPECT_TRUE(check_qif(qif).empty());
-  EXPECT_THAT(summary_of(made), AllOf(HasSubstr("<= 3.2 um"), HasSubstr("at most 3.2 um at the "),
-                                      Not(HasSubstr("within ["))));
+  EXPECT_THAT(analysis_summary(made),
+              AllOf(HasSubstr("<= 3.2 um"), HasSubstr("at most 3.2 um at the "),
+                    Not(HasSubstr("within ["))));
   const std::string page = page_of(made);
   EXPECT_EQ(testing::first_unbalanced_tag(page), "");
   EXPECT_THAT(page, AllOf(HasSubstr("<span class=\"value\">≤ 3.2</span>"),
