@@ -83,7 +83,7 @@ double sum_um(const std::vector<Wave>& waves, double angle_rad) {
   return sum;
 }
 
-record::Influence declared_as(double standard_uncertainty) {
+record::Influence declared(double standard_uncertainty) {
   record::DeclaredInfluence out;
   out.value = standard_uncertainty;
   return out;
