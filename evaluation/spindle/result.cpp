@@ -41,7 +41,7 @@ const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation
 
 /// Readings that contradict what is stated, or are none, falsify everything.
 std::optional<core::Phrase> contradiction_of(const SpindleResult& facts) {
-  if (facts.separation.contradictions.empty()) return facts.void_because;
+  if (facts.void_because || facts.separation.contradictions.empty()) return facts.void_because;
   return facts.separation.contradictions.front().said();
 }
 
