@@ -110,6 +110,8 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
   for (const Path& path : paths) {
     SCOPED_TRACE(path.reason);
     auto run = wheel_run();
+    // So wide that what 8 points may miss is below a tenth of it.
+    for (auto& asked : run.features.front().characteristics) asked.tolerance_mm = 0.3;
     path.spoil(run);
     const auto evaluation = evaluate(run);
     ASSERT_TRUE(evaluation);
