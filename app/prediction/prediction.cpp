@@ -50,12 +50,39 @@ core::Result<Predictions> predict_series(const plans::Plan& plan,
   return out;
 }
 
-/// The same of the calibration of a fixture, of which only its own touches show the values.
-Predictions predict_calibration(const record::Feature& of, std::size_t feature) {
+/// The planned touches of each ball in each combined pose.
+std::vector<evaluation::BallTouches> combined_touches(const plans::Forecast& forecast,
+                                                      std::size_t feature, int points) {
+  std::vector<evaluation::BallTouches> out;
+  for (const plans::ForecastStage& stage : forecast.stages) {
+    const bool combined = stage.pose.alpha_rad != 0.0 && stage.pose.beta_rad != 0.0;
+    if (stage.feature != static_cast<int>(feature) || !combined ||
+        stage.kind != plans::ForecastStage::Kind::kCloud) {
+      continue;
+    }
+    for (std::size_t i = 0; i < stage.contacts_W.size(); ++i) {
+      if (i % static_cast<std::size_t>(points) == 0) out.emplace_back();
+      out.back().push_back(stage.contacts_W[i]);
+    }
+  }
+  return out;
+}
+
+/// Predicts the uncertainties of the residuals of a calibration.
+core::Result<Predictions> predict_calibration(const plans::Plan& plan,
+                                              const plans::Forecast& forecast,
+                                              const record::RunRecord& expected,
+                                              std::size_t feature) {
+  const auto touches =
+      combined_touches(forecast, feature, plan.features[feature].rotary_axes->points);
+  const auto found = evaluation::predict_residual(expected, static_cast<int>(feature), touches);
+  if (!found) return core::fail(found.error());
   Predictions out;
-  for (const record::Characteristic& asked : of.characteristics) {
-    out.push_back(
-        not_predicted(feature, asked, evaluation::why_not_foretold(asked.form).value_or("")));
+  for (const record::Characteristic& asked : expected.features[feature].characteristics) {
+    std::string why = evaluation::why_not_foretold(asked.form).value_or("");
+    if (!found->why.empty()) why = found->why;
+    PredictedCharacteristic& one = out.emplace_back(not_predicted(feature, asked, std::move(why)));
+    if (found->why.empty()) one.residual = *found;
   }
   return out;
 }
@@ -74,7 +101,7 @@ core::Result<std::vector<PredictedCharacteristic>> predict_plan(const plans::Pla
   for (std::size_t i = 0; i < expected.features.size(); ++i) {
     if (record::is_analysis(expected.features[i].shape)) {
       auto analysis = plans::measures_by_touch(plan.features[i])
-                          ? core::Result<Predictions>(predict_calibration(expected.features[i], i))
+                          ? predict_calibration(plan, forecast, expected, i)
                           : predict_series(plan, expected, i);
       if (!analysis) return core::fail(analysis.error());
       std::move(analysis->begin(), analysis->end(), std::back_inserter(out));

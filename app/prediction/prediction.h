@@ -7,6 +7,7 @@
 
 #include "evaluation/prediction/predict.h"
 #include "evaluation/prediction/predict_analysis.h"
+#include "evaluation/prediction/predict_residual.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
 
@@ -21,6 +22,10 @@ struct PredictedCharacteristic {
   /// Of an analysis: what one simulated set of data with the seed `simulated_seed` gives.
   std::optional<evaluation::AnalysisPrediction> analysis = {};
   std::uint64_t simulated_seed = 0;
+
+  /// Of the calibration of a fixture: the uncertainty of its value, which `prediction.why` says
+  /// cannot be foretold.
+  std::optional<evaluation::ResidualPrediction> residual = {};
 
   /// Whether the interval of a surface is predicted.
   [[nodiscard]] bool states_surface() const { return !analysis && prediction.why.empty(); }

@@ -18,6 +18,8 @@ using evaluation::Measurand;
 using evaluation::PredictedStatement;
 using nlohmann::ordered_json;
 
+constexpr double kNormal95 = 1.96;  // half the width of 95 % of a normal distribution, in u
+
 std::string statement_row(const std::optional<PredictedStatement>& said) {
   if (!said) return {};
   const int digits = evaluation::decimals_for(said->expanded_mm());
@@ -52,7 +54,7 @@ std::string rows_without(const plans::Plan& plan,
          ++i) {
       names += (names.empty() ? "" : ", ") + predicted[i].characteristic.id;
     }
-    if (first.prediction.why.empty()) continue;
+    if (first.prediction.why.empty() || first.residual) continue;
     out += wrapped(fmt::format("{}, {}: none; {}", plan.features[first.feature].id, names,
                                first.prediction.why),
                    "  ", "    ");
@@ -125,6 +127,39 @@ std::string analysis_table(const plans::Plan& plan,
                              "the standard uncertainty by linear propagation of what the plan "
                              "declares. Nothing else is in them.",
                              first->simulated_seed, plan.simulation->seed),
+                 "  ", "    ");
+}
+
+double residual_u_mm(const PredictedCharacteristic& of) {
+  return of.characteristic.form == record::Form::kFixtureResidual ? of.residual->largest_u_mm
+                                                                  : of.residual->rms_u_mm;
+}
+
+/// What is predicted of calibrations of the fixture: the uncertainty of values that cannot be
+/// foretold.
+std::string residual_table(const plans::Plan& plan,
+                           const std::vector<PredictedCharacteristic>& predicted) {
+  std::string rows;
+  const PredictedCharacteristic* first = nullptr;
+  for (const PredictedCharacteristic& of : predicted) {
+    if (!of.residual) continue;
+    if (first == nullptr) first = &of;
+    const double u_um = core::micrometres(residual_u_mm(of));
+    const bool largest = of.characteristic.form == record::Form::kFixtureResidual;
+    rows +=
+        wrapped(fmt::format("{}, {}: u {}{:.2g} um, U {}{:.2g} um", plan.features[of.feature].id,
+                            of.characteristic.id, largest ? "at most " : "", u_um,
+                            largest ? "at most " : "", kNormal95 * u_um),
+                "  ", "    ");
+  }
+  if (first == nullptr) return {};
+  const evaluation::ResidualPrediction& p = *first->residual;
+  return "\nPredicted uncertainty of a calibration, before the first touch, 95 %\n" + rows +
+         wrapped(fmt::format("Linear propagation to {} ball centres of {:.2g} um each: touches "
+                             "(repeatability {}), ball_um, machine_uncertainty_um. U is {} u. The "
+                             "value itself cannot be foretold: {}.",
+                             p.centers, core::micrometres(p.center_u_mm), p.repeatability,
+                             kNormal95, first->prediction.why),
                  "  ", "    ");
 }
 
@@ -244,6 +279,20 @@ void add_analysis(const PredictedCharacteristic& of, ordered_json& out) {
   for (const auto& line : p.budget) out["budget"].push_back(budget_json(line));
 }
 
+/// The keys of the prediction of a calibration.
+void add_residual(const PredictedCharacteristic& of, ordered_json& out) {
+  const double u_um = core::micrometres(residual_u_mm(of));
+  out["coverage"] = 0.95;
+  out["from"] = "linear propagation";
+  out["value_not_foretold"] = of.prediction.why;
+  out["at_most"] = of.characteristic.form == record::Form::kFixtureResidual;
+  out["expanded_um"] = kNormal95 * u_um;
+  out["linear_standard_uncertainty_um"] = u_um;
+  out["ball_centers"] = of.residual->centers;
+  out["ball_center_standard_uncertainty_um"] = core::micrometres(of.residual->center_u_mm);
+  out["repeatability"] = of.residual->repeatability;
+}
+
 ordered_json candidate_json(const SamplingCandidate& c) {
   ordered_json out = {{"layers", c.sampling.layers},
                       {"points_per_layer", c.sampling.points_per_layer},
@@ -276,6 +325,7 @@ std::string prediction_table(const plans::Plan& plan,
   std::string out;
   if (states_any(predicted)) out += surface_table(plan, predicted);
   out += analysis_table(plan, predicted);
+  out += residual_table(plan, predicted);
   if (out.empty()) out += "\nPredicted interval, before the first touch: none\n";
   return out + rows_without(plan, predicted);
 }
@@ -318,6 +368,8 @@ ordered_json prediction_json(const plans::Plan& plan,
                         {"characteristic", of.characteristic.id}};
     if (of.analysis) {
       add_analysis(of, one);
+    } else if (of.residual) {
+      add_residual(of, one);
     } else if (!p.why.empty()) {
       one["none"] = p.why;
     } else {

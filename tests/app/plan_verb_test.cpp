@@ -114,7 +114,7 @@ TEST(PlanVerb, SaysOfEveryExampleWhatIsPredictedOrWhyNot) {
                     HasSubstr("none; it is what differs from part to part")));
   EXPECT_THAT(told("03_calibrate_fixture.json"),
               AllOf(HasSubstr("before the first touch: none"),
-                    HasSubstr("none; it is what the axes do together")));
+                    HasSubstr("none; no influence is declared: state `uncertainty`")));
   EXPECT_THAT(told("04_part_in_two_poses.json"), HasSubstr("intervals of clouds merged"));
   EXPECT_THAT(told("09_axle_points_file.json"), HasSubstr("its points come from a file"));
   EXPECT_THAT(told("14_bore_simulated.json"), HasSubstr("the plan declares no uncertainty"));
@@ -144,6 +144,29 @@ TEST(PlanVerb, PredictsAnalysesFromOneSimulatedSetOfData) {
     }
     EXPECT_GT(variance_um2, 0.0);
     EXPECT_NEAR(of["linear_standard_uncertainty_um"].get<double>(), std::sqrt(variance_um2), 1e-9);
+  }
+}
+
+TEST(PlanVerb, PredictsTheUncertaintyOfACalibration) {
+  const TemporaryFolder folder;
+  auto plan = nlohmann::json::parse(read(example("03_calibrate_fixture.json")));
+  plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", 0.1}, {"repeat_urad", 1}};
+  write(folder / "plan.json", plan.dump());
+  const Outcome told = rondure({"plan", folder / "plan.json"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(unbroken(told.out),
+              AllOf(HasSubstr("Predicted uncertainty of a calibration"), HasSubstr("u at most"),
+                    HasSubstr("the most that the qualification lets pass"),
+                    HasSubstr("The value itself cannot be foretold: it is what the axes do")));
+  EXPECT_LE(longest_line(told.out), 80U);
+  const Outcome json = rondure({"plan", folder / "plan.json", "--json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto document = nlohmann::json::parse(json.out);
+  ASSERT_EQ(document["prediction"].size(), 2U);
+  for (const auto& of : document["prediction"]) {
+    EXPECT_EQ(of["from"], "linear propagation");
+    EXPECT_GT(of["linear_standard_uncertainty_um"].get<double>(), 0.0);
+    EXPECT_GT(of["ball_centers"].get<int>(), 0);
   }
 }
 

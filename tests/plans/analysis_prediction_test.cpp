@@ -3,9 +3,13 @@
 
 #include "evaluation/prediction/predict_analysis.h"
 
+#include <variant>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "evaluation/analysis_result.h"
+#include "evaluation/prediction/predict_residual.h"
 #include "plans/forecast/expected_record.h"
 #include "plans/forecast/forecast.h"
 #include "random_inspection.h"
@@ -108,6 +112,75 @@ TEST(AnalysisPrediction, SaysWhyThereIsNone) {
   EXPECT_TRUE(evaluation::why_not_foretold(record::Form::kMotionAsynchronous));
   EXPECT_TRUE(evaluation::why_not_foretold(record::Form::kContourSpread));
   EXPECT_FALSE(evaluation::why_not_foretold(record::Form::kMotionSynchronous));
+}
+
+/// The balls of the combined poses of a calibration, touched where the forecast says.
+std::vector<evaluation::BallTouches> touches_of_balls(const Plan& plan) {
+  std::vector<evaluation::BallTouches> out;
+  const auto steps = forecast(plan);
+  EXPECT_TRUE(steps);
+  if (!steps) return out;
+  const auto points = static_cast<std::size_t>(plan.features[0].rotary_axes->points);
+  for (const ForecastStage& stage : steps->stages) {
+    if (stage.feature != 0 || stage.pose.alpha_rad == 0.0 || stage.pose.beta_rad == 0.0) continue;
+    for (std::size_t i = 0; i + points <= stage.contacts_W.size(); i += points) {
+      const auto first = stage.contacts_W.begin() + static_cast<std::ptrdiff_t>(i);
+      out.emplace_back(first, first + static_cast<std::ptrdiff_t>(points));
+    }
+  }
+  return out;
+}
+
+TEST(ResidualPrediction, IsTheBudgetOfACalibrationThatFollows) {
+  Plan plan = testing::plan_of("03_calibrate_fixture.json");
+  auto& said = plan.features[0].rotary_axes->uncertainty.emplace();
+  said.ball_um = record::DeclaredInfluence{0.1};
+  said.repeat_urad = said.reading_urad = record::DeclaredInfluence{1.0};
+  plan.uncertainty.emplace().probe.emplace().repeatability_um =
+      plan.simulation->probe.repeatability_um;
+  const auto balls = touches_of_balls(plan);
+  const auto told = evaluation::predict_residual(foretold_record(plan, 1), 0, balls);
+  ASSERT_TRUE(told) << told.error().what;
+  ASSERT_EQ(told->why, "");
+  const auto run = test::inspect(plan);
+  ASSERT_EQ(run.evaluation.features.size(), 1U);
+  const auto& found = run.evaluation.features[0];
+  ASSERT_TRUE(found.analysis);
+  const auto& facts = std::get<evaluation::RotaryResult>(found.analysis->found);
+  std::size_t centers = 0;
+  for (const auto& pose : facts.combined) centers += pose.points;
+  EXPECT_EQ(told->centers, centers);
+  // The run takes the scatter of its own touches, known to some 3 %.
+  EXPECT_NEAR(told->center_u_mm / facts.center_u_mm, 1.0, 0.12);
+  for (const auto& characteristic : found.characteristics) {
+    ASSERT_TRUE(characteristic.value && characteristic.value->uncertainty().result());
+    const auto& budget = characteristic.value->uncertainty().result()->budget;
+    ASSERT_EQ(budget.size(), 1U);
+    const double u_mm = budget[0].standard_uncertainty_mm;
+    if (characteristic.characteristic.form == record::Form::kFixtureResidualRms) {
+      EXPECT_NEAR(told->rms_u_mm * facts.noise_mm / told->center_u_mm, u_mm, 1e-9);
+    } else {
+      EXPECT_LE(u_mm, facts.noise_mm * (1.0 + 1e-9));
+      EXPECT_EQ(told->largest_u_mm, told->center_u_mm);
+    }
+  }
+}
+
+TEST(ResidualPrediction, SaysWhyThereIsNone) {
+  Plan plan = testing::plan_of("03_calibrate_fixture.json");
+  const auto balls = touches_of_balls(plan);
+  const auto undeclared = evaluation::predict_residual(foretold_record(plan, 1), 0, balls);
+  ASSERT_TRUE(undeclared);
+  EXPECT_THAT(undeclared->why, HasSubstr("no influence is declared"));
+  plan.features[0].rotary_axes->uncertainty.emplace();
+  const auto record = foretold_record(plan, 1);
+  const auto no_pose = evaluation::predict_residual(record, 0, {});
+  ASSERT_TRUE(no_pose);
+  EXPECT_THAT(no_pose->why, HasSubstr("no combined pose"));
+  const auto assumed = evaluation::predict_residual(record, 0, balls);
+  ASSERT_TRUE(assumed);
+  EXPECT_THAT(assumed->repeatability, HasSubstr("the most that the qualification lets pass"));
+  EXPECT_FALSE(evaluation::predict_residual(record, 1, balls));
 }
 
 TEST(AnalysisPrediction, RefusesAFeatureThatIsNoAnalysisOfSeries) {
