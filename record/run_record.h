@@ -164,7 +164,8 @@ struct Characteristic {
   std::optional<double> tolerance_mm;  ///< Upper limit: of a deviation, or the greatest size [mm].
   std::string drawing_zone;            ///< Grid square on the drawing; may be empty.
   std::vector<HarmonicLimit> harmonic_limits = {};  ///< For kHarmonicLimits, never empty there.
-  std::optional<double> lower_mm = {};              ///< Lower limit: the least size [mm].
+  /// Lower limit: the least size, or of a value with a sign, which has both limits [mm].
+  std::optional<double> lower_mm = {};
   Indication indication = {};  ///< With the defaults of the feature and of the plan.
 
   /// Whether there is a limit to judge by; else the value is reported only.

@@ -29,8 +29,10 @@ struct CharacteristicTask {
   std::optional<double> tolerance_um;
   std::string drawing_zone;
   std::vector<HarmonicLimitTask> harmonic_limits = {};  ///< For the form "harmonic-limits".
-  std::optional<double> lower_um = {};                  ///< Of a diameter: deviation from nominal.
+  /// Of a diameter or of the radius of a wheel: deviation from nominal.
+  std::optional<double> lower_um = {};
   std::optional<double> upper_um = {};
+  std::optional<double> symmetric_um = {};  ///< Both limits of a signed value: -T and +T.
   Indication indication = {};
 };
 
@@ -99,9 +101,14 @@ void describe(Visitor& v, CharacteristicTask& p) {
   const NumberSpec deviation = within(
       10'000.0,
       "Of a diameter: limit on the drawing as deviation from nominal.diameter_mm; of h6 at 30 mm "
-      "lower_um is -13 and upper_um 0. Either may be left out.");
+      "lower_um is -13 and upper_um 0. Either may be left out. Of the radius of a wheel: limits of "
+      "R - nominal_radius_mm with its sign, both.");
   v.number("lower_um", p.lower_um, deviation);
   v.number("upper_um", p.upper_um, deviation);
+  v.number("symmetric_um", p.symmetric_um,
+           above(0.0, 10'000.0,
+                 "Of the radius of a wheel: limits of R - nominal_radius_mm with its sign, minus "
+                 "and plus this value, instead of lower_um and upper_um."));
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
   v.list("harmonic_limits", p.harmonic_limits,
