@@ -449,7 +449,21 @@ void check_of_analysis(const Asked& asked) {
   KeyNames names;
   Indication all;
   describe(names, all);
-  for (const std::string_view key : names.keys) asked.refuse_idle(key, "the feature is no surface");
+  const bool of_axis = asked.task.form == Form::kAxisError;
+  for (const std::string_view key : names.keys) {
+    if (of_axis && record::takes(asked.task.form, key)) continue;
+    const bool axis_key = key == "axis" || key == "error";
+    asked.refuse_idle(
+        key, axis_key ? fmt::format("{} has no {}", with_article(name_of(asked.task.form)), key)
+                      : std::string("the feature is no surface"));
+  }
+  for (const std::string_view key : {"axis", "error"}) {
+    if (!of_axis || asked.given(key)) continue;
+    asked.refuse(key,
+                 fmt::format("this key is missing: an axis-error is that of one axis; give {}",
+                             key == "axis" ? "alpha or beta" : "EX, EY or EZ"),
+                 Code::kMissingKey);
+  }
   check_limits_of(asked);
   const record::CharacteristicTask& c = asked.task;
   const bool said = c.reference || asked.given("reference") || asked.feature().defaults.reference ||

@@ -141,7 +141,13 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
      {Form::kContourDeviation, "Contour", std::nullopt, {Shape::kContour}},
      {Form::kContourSpread, "Spread", std::nullopt, {Shape::kContour}},
      {Form::kFixtureResidual, "Left max", std::nullopt, {Shape::kRotaryAxes}},
-     {Form::kFixtureResidualRms, "Left rms", std::nullopt, {Shape::kRotaryAxes}}});
+     {Form::kFixtureResidualRms, "Left rms", std::nullopt, {Shape::kRotaryAxes}},
+     {Form::kAxisError,
+      "E max",
+      std::nullopt,
+      {Shape::kRotaryAxes},
+      "axis error",
+      LimitKind::kSigned}});
 
 [[nodiscard]] constexpr const FormFacts& facts_of(Form form) {
   return kFormFacts[static_cast<std::size_t>(form)];

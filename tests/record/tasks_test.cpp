@@ -402,7 +402,7 @@ TEST(Characteristics, OfAnalysesCarryTheirOwnDecisionRule) {
        {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
         Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
         Form::kContourDeviation, Form::kContourSpread, Form::kFixtureResidual,
-        Form::kFixtureResidualRms}) {
+        Form::kFixtureResidualRms, Form::kAxisError}) {
     SCOPED_TRACE(name_of(form));
     CharacteristicTask asked;
     asked.form = form;
