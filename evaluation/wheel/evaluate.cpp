@@ -127,16 +127,17 @@ std::vector<Eigen::Vector2d> points_of(const record::Series& series) {
 }
 
 core::Result<AnalysisValue> departure(const WheelResult& facts,
-                                      const std::optional<double>& tolerance_mm) {
+                                      const record::Characteristic& asked) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   const std::optional<double>& nominal_mm = facts.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
   AnalysisValue out;
-  out.value_mm = std::abs(m.radius_mm - *nominal_mm);
+  const double departure_mm = m.radius_mm - *nominal_mm;
+  out.value_mm = has_signed_limits(asked) ? departure_mm : std::abs(departure_mm);
   out.detail = core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
   if (!m.radius_void_because.empty()) {
     out.void_because = m.radius_void_because;
-  } else if (auto reason = form_moves_radius(m, tolerance_mm)) {
+  } else if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
     out.void_because = *std::move(reason);
   }
   return out;
@@ -200,7 +201,7 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
                                      const record::Characteristic& characteristic) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   if (characteristic.form == record::Form::kRadius) {
-    return departure(facts, characteristic.tolerance_mm);
+    return departure(facts, characteristic);
   }
   if (characteristic.form == record::Form::kRoundness) return roundness(facts, characteristic);
   if (!m.runout) return core::fail(core::Code::kNoAxis, m.runout_absent);

@@ -90,7 +90,7 @@ Gate correlation_gate(const fit::WheelMeasurement& m,
   out.reason = core::phrase("form may move R by {} um to each side", um(form_mm));
   for (const record::Characteristic& asked : characteristics) {
     if (asked.form != record::Form::kRadius) continue;
-    if (auto reason = form_moves_radius(m, asked.tolerance_mm)) {
+    if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
       out.outcome = Outcome::kVoids;
       out.reason = *std::move(reason);
     }
@@ -152,6 +152,16 @@ std::optional<core::Phrase> unseen_because(const WheelResult& facts,
       "between points {:.1f} deg apart up to {} um may be missing, more than a tenth of the "
       "tolerance of {} um: the value is a lower bound; measure more points",
       found.gap_rad / kDegree, um(*found.loss_mm), um(*tolerance_mm));
+}
+
+bool has_signed_limits(const record::Characteristic& characteristic) {
+  return characteristic.lower_mm.has_value();
+}
+
+std::optional<double> radius_tolerance_mm(const record::Characteristic& characteristic) {
+  const std::optional<double>& upper_mm = characteristic.tolerance_mm;
+  if (!upper_mm || !characteristic.lower_mm) return upper_mm;
+  return 0.5 * (*upper_mm - *characteristic.lower_mm);
 }
 
 std::optional<core::Phrase> form_moves_radius(const fit::WheelMeasurement& wheel,

@@ -10,6 +10,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/uncertainty/curve_trials.h"
+#include "evaluation/wheel/internal/unseen.h"
 #include "evaluation/wheel/result.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/references/min_zone_circle.h"
@@ -334,12 +335,13 @@ UncertaintyStatus interval_of(const WheelResult& result, const Edge& edge, Quant
 }
 
 /// Widens a statement by as much on either side: what form may move the value by has no
-/// distribution. A departure is not below 0.
-void widen(double by_mm, UncertaintyResult& result) {
+/// distribution.
+/// @param least_mm  What the value is never below: 0 of an amount.
+void widen(double by_mm, double least_mm, UncertaintyResult& result) {
   UncertaintyStatement& said = result.sampled;
   const double middle = said.estimate_mm;
-  for (double& v : said.values_mm) v = std::max(0.0, v + (v < middle ? -by_mm : by_mm));
-  said.low_mm = std::max(0.0, said.low_mm - by_mm);
+  for (double& v : said.values_mm) v = std::max(least_mm, v + (v < middle ? -by_mm : by_mm));
+  said.low_mm = std::max(least_mm, said.low_mm - by_mm);
   said.high_mm += by_mm;
   said.standard_uncertainty_mm = std::hypot(said.standard_uncertainty_mm, by_mm);
   result.notes.push_back(core::phrase(
@@ -348,9 +350,10 @@ void widen(double by_mm, UncertaintyResult& result) {
       core::um(by_mm)));
 }
 
-/// The interval of |R - R_nom|: trials of the signed departure, folded at 0. Its upper end lies
-/// within T only where both ends of the signed interval lie within +-T.
-UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge,
+/// The interval of R - R_nom with its sign, or of its amount: trials of the signed departure, then
+/// folded at 0. The upper end of these lies within T only where both ends of the signed interval
+/// lie within +-T.
+UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, bool with_sign,
                                   const UncertaintyOptions& options) {
   const WheelInfluencesTask& said = *result.declared;
   const fit::WheelMeasurement& m = result.evaluation.wheel;
@@ -363,12 +366,14 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge,
     return points * point_mm + drawn.scale_1 * m.radius_mm + drawn.threshold_mm + drawn.wear_mm +
            drawn.squareness_rad * oval_mm;
   };
+  const auto judged = [&](double value_mm) { return with_sign ? value_mm : std::abs(value_mm); };
   TrialValues trials;
-  trials.as_measured_mm = std::abs(departure_mm);
+  trials.signed_value = with_sign;
+  trials.as_measured_mm = judged(departure_mm);
   for (int t = 0; t < options.least_trials; ++t) {
     const double points = normal_draw(options.seed, "wheel.radius", 0, t);
     trials.values_mm.push_back(
-        std::abs(departure_mm + shift(points, draw_of(said, options.seed, t))));
+        judged(departure_mm + shift(points, draw_of(said, options.seed, t))));
   }
   const Influences u = standard_of(said);
   const std::vector<LinearTerm> terms = {{"edge-points", point_mm},
@@ -379,7 +384,10 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge,
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
   auto found =
       statement_of_trials(std::move(trials), terms, declaration_of(said, depends), options);
-  if (const double form_mm = m.form_in_radius_mm(); found && form_mm > 0.0) widen(form_mm, *found);
+  const double least_mm = with_sign ? -HUGE_VAL : 0.0;
+  if (const double form_mm = m.form_in_radius_mm(); found && form_mm > 0.0) {
+    widen(form_mm, least_mm, *found);
+  }
   return stated(std::move(found), options);
 }
 
@@ -419,7 +427,7 @@ std::vector<UncertaintyStatus> intervals_of(const WheelResult& result,
   std::vector<UncertaintyStatus> out;
   for (const record::Characteristic& asked : characteristics) {
     if (asked.form == record::Form::kRadius) {
-      out.push_back(radius_interval(result, *edge, options));
+      out.push_back(radius_interval(result, *edge, has_signed_limits(asked), options));
       continue;
     }
     const auto value = value_of(result, asked);

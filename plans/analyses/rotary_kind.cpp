@@ -20,7 +20,7 @@ namespace {
 using core::Code;
 
 constexpr std::array kRotaryForms = {record::Form::kFixtureResidual,
-                                     record::Form::kFixtureResidualRms};
+                                     record::Form::kFixtureResidualRms, record::Form::kAxisError};
 constexpr std::size_t kLeastStations = 3;  // with the zero pose four, as a cubic needs
 constexpr std::size_t kLeastPoses = 5;
 

@@ -114,7 +114,9 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
     json["lower_limit_mm"] = optional_json(limit_in(unit, asked.lower_mm));
     json["upper_limit_mm"] = optional_json(limit_in(unit, asked.tolerance_mm));
   } else if (asked.lower_mm) {
+    json["tolerance_um"] = nullptr;
     json["lower_limit_um"] = optional_json(limit_in(unit, asked.lower_mm));
+    json["upper_limit_um"] = optional_json(limit_in(unit, asked.tolerance_mm));
   }
   if (!indication.datum.empty()) json["datum"] = indication.datum;
   if (const Filter filter = indication.filter.value_or(Filter::kNone); filter != Filter::kNone) {

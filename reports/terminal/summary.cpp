@@ -207,11 +207,14 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
 }
 
-/// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm".
+/// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm", of a value with a sign "-20 to 5
+/// um".
 std::string limits_text(const record::Characteristic& asked) {
   if (!asked.toleranced()) return tr("no limit");
-  if (evaluation::unit_of(asked) == core::LengthUnit::kUm && !asked.lower_mm)
-    return trf("limit {} um", um(*asked.tolerance_mm));
+  if (evaluation::unit_of(asked) == core::LengthUnit::kUm) {
+    if (!asked.lower_mm) return trf("limit {} um", um(*asked.tolerance_mm));
+    if (asked.tolerance_mm) return trf("{} to {} um", um(*asked.lower_mm), um(*asked.tolerance_mm));
+  }
   constexpr double kSteps = 1e6;  // of a nanometre: limits are sums of a nominal and a deviation
   const auto mm = [](double length_mm) { return core::decimal(core::on_grid(length_mm, kSteps)); };
   if (!asked.lower_mm) return trf("at most {} mm", mm(*asked.tolerance_mm));

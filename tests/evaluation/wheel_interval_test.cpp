@@ -152,6 +152,34 @@ TEST(WheelInterval, W1TheRuleOfTheIntervalAcceptsLessThanTheValueAsMeasured) {
   EXPECT_EQ(verdict(record::Form::kRadius, 16.5, kIso), Verdict::kDoesNotConform);
 }
 
+/// R - 50 mm of W-1 is -16.877 um, u 0.100 um.
+TEST(WheelInterval, W1TheSignOfTheDepartureCounts) {
+  const auto wheel = test::specified_wheel(1, kAllRound);
+  const auto judged = [&](double lower_um, double upper_um, std::string_view rule) {
+    record::Characteristic radius = asked(record::Form::kRadius, upper_um);
+    radius.lower_mm = lower_um * 1e-3;
+    return evaluated_wheel(run_of(wheel.points_mm, task_of(wheel), {radius}, rule))
+        .characteristics.at(0);
+  };
+  const CharacteristicResult within = judged(-20.0, 5.0, kIso);
+  EXPECT_EQ(within.verdict, Verdict::kConforms) << within.reason;
+  EXPECT_NEAR(within.value_mm().value() * 1e3, -16.877, 1e-3);
+  const UncertaintyStatement& said = statement(within);
+  EXPECT_FALSE(said.at_most);
+  EXPECT_NEAR(said.estimate_mm * 1e3, -16.877, 0.02);
+  EXPECT_NEAR(said.low_mm * 1e3, -16.877 - 1.96 * 0.1, 0.03);
+  EXPECT_NEAR(said.high_mm * 1e3, -16.877 + 1.96 * 0.1, 0.03);
+  for (const std::string_view rule : {kSimple, kIso}) {
+    SCOPED_TRACE(rule);
+    EXPECT_EQ(judged(-5.0, 20.0, rule).verdict, Verdict::kDoesNotConform);
+    EXPECT_EQ(judged(-16.5, 20.0, rule).verdict, Verdict::kDoesNotConform);
+    EXPECT_EQ(judged(-17.2, 17.2, rule).verdict, Verdict::kConforms);
+  }
+  EXPECT_EQ(judged(-17.0, 17.0, kSimple).verdict, Verdict::kConforms);
+  EXPECT_EQ(judged(-17.0, 17.0, kIso).verdict, Verdict::kUndecided);
+  EXPECT_EQ(judged(-30.0, -16.8, kIso).verdict, Verdict::kUndecided);
+}
+
 TEST(WheelInterval, W1RadiusWithWhatIsDeclaredOfIt) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   WheelTask task = task_of(wheel);
@@ -367,6 +395,13 @@ TEST(WheelInterval, FormOnAnArcWidensTheRadiusOrVoidsIt) {
     EXPECT_EQ(narrow.characteristics[0].verdict, Verdict::kVoid);
     EXPECT_THAT(narrow.characteristics[0].reason.english(), HasSubstr("a quarter"));
     EXPECT_EQ(wheel_gate(narrow, "form-on-an-arc")->outcome, Gate::Outcome::kVoids);
+    // Of two limits half their distance counts, wherever they lie.
+    record::Characteristic with_sign = asked(record::Form::kRadius, 6.9e3 * form_mm);
+    with_sign.lower_mm = -0.9 * form_mm;
+    const auto between = evaluated_wheel(run_of(wheel.points_mm, task, {with_sign}, rule));
+    EXPECT_EQ(between.characteristics[0].verdict, Verdict::kVoid);
+    EXPECT_THAT(between.characteristics[0].reason.english(), HasSubstr("a quarter"));
+    EXPECT_EQ(wheel_gate(between, "form-on-an-arc")->outcome, Gate::Outcome::kVoids);
   }
 }
 

@@ -377,6 +377,24 @@ TEST(Characteristics, LimitTheRangeOfSizesByTheRangeItself) {
   }
 }
 
+TEST(Characteristics, OfTheRadiusOfAWheelHaveLimitsWithTheirSigns) {
+  CharacteristicTask asked;
+  asked.form = Form::kRadius;
+  asked.tolerance_um = 20.0;  // of the amount
+  EXPECT_EQ(characteristic_of(asked).tolerance_mm, 20.0 * core::kMicrometre);
+  EXPECT_FALSE(characteristic_of(asked).lower_mm);
+  asked.tolerance_um.reset();
+  EXPECT_FALSE(characteristic_of(asked).toleranced());
+  asked.symmetric_um = 20.0;
+  EXPECT_EQ(characteristic_of(asked).lower_mm, -20.0 * core::kMicrometre);
+  EXPECT_EQ(characteristic_of(asked).tolerance_mm, 20.0 * core::kMicrometre);
+  asked.symmetric_um.reset();
+  asked.lower_um = -20.0;
+  asked.upper_um = -5.0;
+  EXPECT_EQ(characteristic_of(asked, 30.0).lower_mm, -20.0 * core::kMicrometre);
+  EXPECT_EQ(characteristic_of(asked, 30.0).tolerance_mm, -5.0 * core::kMicrometre);
+}
+
 TEST(Characteristics, OfAnalysesCarryTheirOwnDecisionRule) {
   std::array<CharacteristicLevel, 1> levels;
   levels[0].decision_rule.emplace().rule = DecisionRuleTask::Rule::kJcgm106;
@@ -384,7 +402,7 @@ TEST(Characteristics, OfAnalysesCarryTheirOwnDecisionRule) {
        {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
         Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
         Form::kContourDeviation, Form::kContourSpread, Form::kFixtureResidual,
-        Form::kFixtureResidualRms}) {
+        Form::kFixtureResidualRms, Form::kAxisError}) {
     SCOPED_TRACE(name_of(form));
     CharacteristicTask asked;
     asked.form = form;

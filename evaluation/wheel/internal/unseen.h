@@ -23,6 +23,12 @@ struct BetweenPoints {
 [[nodiscard]] std::optional<core::Phrase> unseen_because(
     const WheelResult& facts, const record::Characteristic& characteristic);
 
+/// Whether R - R_nom is judged with its sign, between two limits, instead of its amount.
+[[nodiscard]] bool has_signed_limits(const record::Characteristic& characteristic);
+/// What the departure of a radius may be to each side: of two limits half their distance.
+[[nodiscard]] std::optional<double> radius_tolerance_mm(
+    const record::Characteristic& characteristic);
+
 /// Why form makes the radius of an arc void: it may move it by more than a quarter of the
 /// tolerance.
 [[nodiscard]] std::optional<core::Phrase> form_moves_radius(
