@@ -124,12 +124,10 @@ BetweenPoints between_points(const WheelResult& facts, record::Form form) {
   BetweenPoints out;
   out.gap_rad = fit::angular_order(facts.points_mm, center_mm).largest_gap_rad;
   if (!m.sees_whole_turn()) return out;
-  const auto& errors = facts.task.wheel.errors;
-  const auto amplitudes = fit::found_amplitudes(
-      facts.points_mm, center_mm, errors ? std::optional(errors->point_mm) : std::nullopt);
+  const auto amplitudes = fit::found_amplitudes(facts.points_mm, center_mm);
+  out.held = static_cast<int>(amplitudes.size());
   // Points in four clusters hold the eccentricity, but no oval: what they miss has no bound.
-  constexpr std::size_t kLeastOrders = 2;
-  if (amplitudes.size() >= kLeastOrders) {
+  if (out.held >= kOrdersOfLobes) {
     out.loss_mm = fit::loss_in_gap_mm(out.gap_rad, amplitudes, runout ? 1 : 2);
   }
   return out;
@@ -140,11 +138,17 @@ std::optional<core::Phrase> unseen_because(const WheelResult& facts,
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   if (characteristic.form == record::Form::kRadius) return std::nullopt;
   const BetweenPoints found = between_points(facts, characteristic.form);
-  if (!m.sees_whole_turn() || !found.loss_mm) {
+  if (!m.sees_whole_turn()) {
     return core::phrase(
         "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
         "deviation; measure the whole turn",
         std::max(m.order.largest_gap_rad, found.gap_rad) / kDegree);
+  }
+  if (!found.loss_mm) {
+    return core::phrase(
+        "the places of the points hold lobes up to order {} only, those up to order {} matter: the "
+        "value is a lower bound; measure at least {} points evenly about the turn",
+        found.held, kOrdersOfLobes, 2 * kOrdersOfLobes + 1);
   }
   const auto& tolerance_mm = characteristic.tolerance_mm;
   if (!tolerance_mm || *found.loss_mm <= kLossShare * *tolerance_mm) return std::nullopt;

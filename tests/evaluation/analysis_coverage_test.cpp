@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -213,9 +214,9 @@ Inspection asynchronous_inspection(std::uint64_t k) {
   return out;
 }
 
-Inspection wheel_inspection(std::uint64_t k) {
+Inspection inspection_of_wheel(std::uint64_t k, std::vector<double> places_rad) {
   Normals draws(3'000'000 + k);
-  SimulatedWheel world = worked_wheel(whole_turn());
+  SimulatedWheel world = worked_wheel(std::move(places_rad));
   world.eccentricity_rad = draws.phase_rad();
   for (Wave& lobe : world.lobes) lobe.phase_rad = draws.phase_rad();
   record::WheelTask task;
@@ -229,6 +230,8 @@ Inspection wheel_inspection(std::uint64_t k) {
                                          asked(Form::kRoundness)};
   return out;
 }
+
+Inspection wheel_inspection(std::uint64_t k) { return inspection_of_wheel(k, whole_turn()); }
 
 /// Errors of the axes and of four parts as in the worked case of the contour, phases drawn.
 SimulatedContour drawn_contour(Normals& draws) {
@@ -324,8 +327,11 @@ TEST(SpindleCoverage, IsOfTheIntervalThatTheVerdictFollows) {
   expect_judged_by_it(spindle_inspection(7));
 }
 TEST(WheelCoverage, IsOfTheIntervalThatTheVerdictFollows) {
-  Inspection made = wheel_inspection(7);
-  // A roundness near such limits is only a bound: a tenth of them may lie between the points.
+  // Of 16 points, a tenth of limits near the values may lie between them: only bounds.
+  std::vector<double> places_rad;
+  for (int i = 0; i < 64; ++i) places_rad.push_back(core::kTwoPi * i / 64.0);
+  Inspection made = inspection_of_wheel(7, std::move(places_rad));
+  // The same of a roundness of 64 points.
   made.run.features[0].characteristics.pop_back();
   expect_judged_by_it(made);
 }
