@@ -85,7 +85,7 @@ Gate correlation_gate(const fit::WheelMeasurement& m,
   Gate out = gate("form-on-an-arc", core::phrase("correlation of neighbouring residuals"),
                   m.correlation, fit::kCorrelationLimit);
   const double form_mm = m.form_in_radius_mm();
-  if (form_mm == 0.0) return out;  // all round, form moves the radius little
+  if (form_mm == 0.0) return out;
   out.outcome = Outcome::kWarns;
   out.reason = core::phrase("form may move R by {} um to each side", um(form_mm));
   for (const record::Characteristic& asked : characteristics) {
@@ -177,7 +177,8 @@ std::vector<Gate> gates_of(const WheelResult& result,
     if (runout || asked.form == record::Form::kRoundness) out.push_back(loss_gate(result, asked));
   }
   for (Gate& one : quadruple_gates(result)) out.push_back(std::move(one));
-  out.push_back(correlation_gate(m, characteristics));
+  // All round, form moves the radius little, whatever the residuals are.
+  if (!m.order.closed()) out.push_back(correlation_gate(m, characteristics));
   if (result.task.path) out.push_back(path_gate(result.evaluation));
   return out;
 }

@@ -428,6 +428,24 @@ TEST(WheelInterval, FormOnAnArcWidensTheRadiusOrVoidsIt) {
   }
 }
 
+// Slow form all round is no arc: a correlation above its limit beside "passed" would contradict it.
+TEST(WheelInterval, FormOnAnArcIsNoGateOfTheWholeTurn) {
+  test::Points2 points_mm;
+  for (int i = 0; i < 64; ++i) {
+    const double angle = core::kTwoPi * i / 64.0;
+    const double radius_mm = 50.0 + 2e-3 * std::cos(2.0 * angle);
+    points_mm.emplace_back(radius_mm * std::cos(angle), radius_mm * std::sin(angle));
+  }
+  WheelTask task;
+  task.nominal_radius_mm = 50.0;
+  const auto feature =
+      evaluated_wheel(run_of(points_mm, task, {asked(record::Form::kRadius, 30.0)}, kSimple));
+  const auto& m = std::get<WheelResult>(feature.analysis->found).evaluation.wheel;
+  EXPECT_GT(m.correlation, fit::kCorrelationLimit);
+  EXPECT_TRUE(std::ranges::none_of(feature.gates,
+                                   [](const Gate& gate) { return gate.code == "form-on-an-arc"; }));
+}
+
 /// Counts how often the intervals of run-out and roundness hold the truth at the points.
 TEST(WheelInterval, HoldsTheTruthAtThePointsAsOftenAsSpecified) {
   constexpr int kWheels = 200;

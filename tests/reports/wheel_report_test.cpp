@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
+#include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/wheel/result.h"
 #include "record/run_record.h"
 #include "reports/data/json.h"
 #include "reports/escaping.h"
@@ -222,6 +224,19 @@ TEST(WheelReport, ShowsTheEdgeBeforeTheNumbers) {
     at = html.find(next, at);
     ASSERT_NE(at, std::string::npos) << next;
   }
+}
+
+// u(R) is that of the declared errors where the plan declares them.
+TEST(WheelReport, SaysWhatTheUncertaintyOfTheRadiusIsMadeOf) {
+  auto run = wheel_run();
+  run.features[0].settings.push_back(number("uncertainty/point_um/value", 2.0));
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto& m = std::get<WheelResult>(evaluation->features[0].analysis->found).evaluation.wheel;
+  EXPECT_NEAR(m.radius_uncertainty_mm, 2e-3 * m.factors.radius, 1e-9);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("from the declared errors of point, scale, threshold and wear"));
+  EXPECT_THAT(html, Not(HasSubstr("uncertainty from the scatter of the points alone")));
 }
 
 TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {
