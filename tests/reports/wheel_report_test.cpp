@@ -1,5 +1,6 @@
 // A wheel feature from its series to the reports.
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -237,6 +238,30 @@ TEST(WheelReport, SaysWhatTheUncertaintyOfTheRadiusIsMadeOf) {
   const std::string html = write_html(run, *evaluation);
   EXPECT_THAT(html, HasSubstr("from the declared errors of point, scale, threshold and wear"));
   EXPECT_THAT(html, Not(HasSubstr("uncertainty from the scatter of the points alone")));
+}
+
+// The budget of an analysis is linear propagation, which knows a sign, but no shift.
+TEST(WheelReport, BudgetHasTheChangeForOneStandardUncertaintyAndNoShift) {
+  auto run = wheel_run();
+  auto& settings = run.features[0].settings;
+  settings.push_back(number("uncertainty/point_um/value", 0.5));
+  settings.push_back(number("uncertainty/threshold_um/value", 1.0));
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("for +1 u"));
+  EXPECT_THAT(html, Not(HasSubstr("mean shift")));
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  const auto& radius = written["features"][0]["characteristics"][0];
+  ASSERT_FALSE(radius["uncertainty"].is_null()) << radius.dump();
+  int lines = 0;
+  for (const auto& line : radius["uncertainty"]["budget"]) {
+    EXPECT_TRUE(line["shift_um"].is_null());
+    EXPECT_NEAR(std::abs(line["per_u_um"].get<double>()),
+                line["standard_uncertainty_um"].get<double>(), 1e-9);
+    ++lines;
+  }
+  EXPECT_GE(lines, 2);
 }
 
 TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {
