@@ -241,7 +241,7 @@ core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, in
   facts.options = contour_options(*task);
   facts.feature_id = result.feature.id;
   facts.influences = task->uncertainty;
-  facts.sampling_ms = task->sampling_ms;
+  facts.sampling_ms = task->sampling_ms.value_or(0.0);
   const auto parts = parts_of(record, index);
   if (auto checked = check_traces(record, index, parts.size(), result); !checked) {
     return tl::unexpected(checked.error());

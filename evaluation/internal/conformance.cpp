@@ -1,7 +1,6 @@
 #include "evaluation/internal/conformance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -266,13 +265,6 @@ void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, J
   out.outcome = *std::move(outcome);
 }
 
-/// Severity of a verdict: the least severe first.
-int severity(Verdict verdict) {
-  constexpr std::array kOrder = {Verdict::kNotToleranced, Verdict::kConforms, Verdict::kUndecided,
-                                 Verdict::kDoesNotConform, Verdict::kVoid};
-  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
-}
-
 /// How far a value is from its nearest limit, below 0 beyond it; without limits infinite.
 double margin_mm(const JudgedValue& value) {
   double out = HUGE_VAL;
@@ -496,18 +488,17 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 }
 
 Verdict overall(const std::vector<FeatureResult>& features) {
-  // Decreasing severity. What does not conform is proven, whatever else could not be judged.
-  constexpr std::array kOrder = {Verdict::kDoesNotConform, Verdict::kVoid, Verdict::kUndecided,
-                                 Verdict::kConforms};
-  for (const Verdict verdict : kOrder) {
-    for (const FeatureResult& feature : features) {
-      if (verdict == Verdict::kVoid && feature.failure) return verdict;
-      for (const CharacteristicResult& c : feature.characteristics) {
-        if (c.characteristic.toleranced() && c.verdict == verdict) return verdict;
-      }
+  Verdict out = Verdict::kNotToleranced;
+  const auto take = [&](Verdict verdict) {
+    if (severity(verdict) > severity(out)) out = verdict;
+  };
+  for (const FeatureResult& feature : features) {
+    if (feature.failure) take(Verdict::kVoid);
+    for (const CharacteristicResult& c : feature.characteristics) {
+      if (c.characteristic.toleranced()) take(c.verdict);
     }
   }
-  return Verdict::kNotToleranced;
+  return out;
 }
 
 }  // namespace rondure::evaluation

@@ -4,6 +4,7 @@
 #include <complex>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -225,15 +226,16 @@ class Values {
 
   /// @param limit_mm  Of a mask: the line of the value, to which every amplitude is brought.
   /// @return NaN where there is no value.
+  /// @param order  Of a mask: one harmonic alone; none: the one that is nearest to its limit.
   [[nodiscard]] double of(const State& state, const record::Characteristic& asked,
-                          const AnalysisValue& measured) const {
+                          const AnalysisValue& measured, std::optional<int> order = {}) const {
     switch (asked.form) {
       case Form::kRoundness:
         return roundness(state, asked.reference);
       case Form::kRoundnessRms:
         return std::sqrt(0.5) * state.profile_mm.cwiseProduct(transmission_).norm();
       case Form::kHarmonicLimits:
-        return mask(state, asked) * measured.limit_mm.value_or(0.0);
+        return mask(state.profile_mm, asked, order) * measured.limit_mm.value_or(0.0);
       case Form::kMotionSynchronous:
         return std::max(width(model_.motion_waves() * state.x_mm),
                         width(model_.motion_waves() * state.y_mm));
@@ -242,6 +244,17 @@ class Values {
       default:
         return state.gain * std::max(asynchronous(state, 0), asynchronous(state, 1));
     }
+  }
+
+  /// The harmonics of a mask that bind.
+  [[nodiscard]] std::vector<int> binding(const Eigen::VectorXd& profile_mm,
+                                         const record::Characteristic& asked) const {
+    std::vector<int> out;
+    if (asked.form != Form::kHarmonicLimits) return out;
+    for (const fit::RecoveredHarmonic& h : facts_.separation.harmonics) {
+      if (mask(profile_mm, asked, h.order) > kBindingShare) out.push_back(h.order);
+    }
+    return out;
   }
 
  private:
@@ -257,14 +270,15 @@ class Values {
     return found ? found->total_mm : std::nan("");
   }
 
-  /// The greatest amplitude in parts of its limit.
-  [[nodiscard]] double mask(const State& state, const record::Characteristic& asked) const {
+  /// The greatest amplitude in parts of its limit, or that of one order.
+  [[nodiscard]] double mask(const Eigen::VectorXd& profile_mm, const record::Characteristic& asked,
+                            std::optional<int> order) const {
     double worst = 0.0;
     Eigen::Index row = 0;
     for (const fit::RecoveredHarmonic& h : facts_.separation.harmonics) {
-      const double amplitude = state.profile_mm.segment(row, 2).norm();
+      const double amplitude = profile_mm.segment(row, 2).norm();
       for (const record::HarmonicLimit& line : asked.harmonic_limits) {
-        if (h.order >= line.first && h.order <= line.last)
+        if (h.order >= line.first && h.order <= line.last && order.value_or(h.order) == h.order)
           worst = std::max(worst, amplitude / line.amplitude_mm);
       }
       row += 2;
@@ -328,6 +342,8 @@ class SpindleTrials {
   }
 
   [[nodiscard]] Values values() const { return {facts_, model_}; }
+  /// The profile of the readings, errors of the probes as the first harmonic shows them.
+  [[nodiscard]] const Eigen::VectorXd& profile_mm() const { return base_.profile_mm; }
   [[nodiscard]] const std::vector<ProbeSource>& sources() const { return sources_; }
 
   /// A trial: noise and, unless `noise_only`, errors of the probes.
@@ -497,6 +513,8 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
     TrialValues all;
     std::vector<double> noise_mm;
     std::vector<LinearTerm> terms;
+    std::optional<int> order = {};  ///< One line of a mask.
+    std::size_t lines = 1;          ///< Of so many.
   };
   std::vector<UncertaintyStatus> out = none({});
   std::vector<Asked> wanted;
@@ -509,9 +527,17 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
     Asked one{c, *measured, {}, {}, {}};
     one.all.as_measured_mm = measured->value_mm;
     wanted.push_back(std::move(one));
+    // After its mask, each line that binds.
+    const std::vector<int> lines = values.binding(trials.profile_mm(), characteristics[c]);
+    for (const int order : lines) {
+      Asked line{c, *measured, {}, {}, {}, order, lines.size()};
+      const State read{trials.profile_mm(), {}, {}};
+      line.all.as_measured_mm = values.of(read, characteristics[c], *measured, order);
+      wanted.push_back(std::move(line));
+    }
   }
   const auto value = [&](const State& state, const Asked& one) {
-    return values.of(state, characteristics[one.index], one.measured);
+    return values.of(state, characteristics[one.index], one.measured, one.order);
   };
   const auto turns = [&](const Asked& one) {  // a random field has no core
     return characteristics[one.index].form != Form::kMotionAsynchronous;
@@ -542,14 +568,20 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
   }
   const auto declaration =
       probe_declaration(*result.influences, result.arm, result.separation.noise_mm);
-  for (Asked& one : wanted) {
+  std::vector<std::vector<UncertaintyStatement>> lines(characteristics.size());
+  for (Asked& one : std::views::reverse(wanted)) {  // the lines before their mask
     one.terms.push_back({"probe-noise", deviation_of(one.noise_mm)});
-    auto stated =
-        statement_of_trials(std::move(one.all), std::move(one.terms), declaration, options);
+    auto stated = statement_of_trials(std::move(one.all), std::move(one.terms), declaration,
+                                      options_of_line(options, one.lines));
     if (!stated) {
       out[one.index] = UncertaintyStatus::none(stated.error().said());
       continue;
     }
+    if (one.order) {
+      lines[one.index].push_back(std::move(stated->sampled));
+      continue;
+    }
+    hold_lines_together(lines[one.index], *stated);
     for (core::Phrase& note : notes_of(result, characteristics[one.index], highest_motion)) {
       stated->notes.push_back(std::move(note));
     }

@@ -381,4 +381,28 @@ core::Result<UncertaintyResult> statement_of_trials(TrialValues values,
   return out;
 }
 
+UncertaintyOptions options_of_line(UncertaintyOptions options, std::size_t lines) {
+  constexpr double kMostCoverage = 0.999;
+  const auto count = static_cast<double>(std::max<std::size_t>(1, lines));
+  options.coverage = std::min(kMostCoverage, 1.0 - (1.0 - options.coverage) / count);
+  return options;
+}
+
+void hold_lines_together(std::span<const UncertaintyStatement> lines, UncertaintyResult& greatest) {
+  UncertaintyStatement& said = greatest.sampled;
+  if (lines.empty() || said.at_most) return;
+  double low_mm = 0.0;
+  double high_mm = 0.0;
+  for (const UncertaintyStatement& line : lines) {
+    low_mm = std::max(low_mm, line.low_mm);
+    high_mm = std::max(high_mm, line.high_mm);
+  }
+  said.low_mm = std::min(low_mm, said.estimate_mm);
+  said.high_mm = std::max(high_mm, said.estimate_mm);
+  greatest.notes.push_back(core::phrase(
+      "of {} amplitudes above a third of their limits, each with its own interval, which hold "
+      "together; brought to one limit",
+      lines.size()));
+}
+
 }  // namespace rondure::evaluation

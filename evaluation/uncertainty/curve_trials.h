@@ -132,4 +132,18 @@ struct LinearTerm {
     TrialValues values, std::vector<LinearTerm> terms, std::vector<InfluenceStatement> declaration,
     const UncertaintyOptions& options);
 
+/// A line of a mask binds where its amplitude is above this share of its limit.
+constexpr double kBindingShare = 1.0 / 3.0;
+
+/// Options for the interval of one of `lines` lines of a mask: coverage 1 - (1 - P) / lines, at
+/// most 0.999, so that the intervals of all hold together with P.
+[[nodiscard]] UncertaintyOptions options_of_line(UncertaintyOptions options, std::size_t lines);
+
+/// Gives the greatest of several amplitudes, brought to one limit, the ends of their own intervals:
+/// it ends below the limit where all of them do, and begins above it where one of them does. Its
+/// distribution stays that of the greatest: the share of trials below the limit is that in which
+/// every amplitude holds its own. An upper bound stays as it is.
+/// @param lines  Statements with options_of_line(); empty: nothing binds, nothing changes.
+void hold_lines_together(std::span<const UncertaintyStatement> lines, UncertaintyResult& greatest);
+
 }  // namespace rondure::evaluation

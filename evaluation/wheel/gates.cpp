@@ -85,7 +85,7 @@ Gate correlation_gate(const fit::WheelMeasurement& m,
   Gate out = gate("form-on-an-arc", core::phrase("correlation of neighbouring residuals"),
                   m.correlation, fit::kCorrelationLimit);
   const double form_mm = m.form_in_radius_mm();
-  if (form_mm == 0.0) return out;  // all round, form moves the radius little
+  if (form_mm == 0.0) return out;
   out.outcome = Outcome::kWarns;
   out.reason = core::phrase("form may move R by {} um to each side", um(form_mm));
   for (const record::Characteristic& asked : characteristics) {
@@ -124,12 +124,10 @@ BetweenPoints between_points(const WheelResult& facts, record::Form form) {
   BetweenPoints out;
   out.gap_rad = fit::angular_order(facts.points_mm, center_mm).largest_gap_rad;
   if (!m.sees_whole_turn()) return out;
-  const auto& errors = facts.task.wheel.errors;
-  const auto amplitudes = fit::found_amplitudes(
-      facts.points_mm, center_mm, errors ? std::optional(errors->point_mm) : std::nullopt);
+  const auto amplitudes = fit::found_amplitudes(facts.points_mm, center_mm);
+  out.held = static_cast<int>(amplitudes.size());
   // Points in four clusters hold the eccentricity, but no oval: what they miss has no bound.
-  constexpr std::size_t kLeastOrders = 2;
-  if (amplitudes.size() >= kLeastOrders) {
+  if (out.held >= kOrdersOfLobes) {
     out.loss_mm = fit::loss_in_gap_mm(out.gap_rad, amplitudes, runout ? 1 : 2);
   }
   return out;
@@ -140,11 +138,17 @@ std::optional<core::Phrase> unseen_because(const WheelResult& facts,
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   if (characteristic.form == record::Form::kRadius) return std::nullopt;
   const BetweenPoints found = between_points(facts, characteristic.form);
-  if (!m.sees_whole_turn() || !found.loss_mm) {
+  if (!m.sees_whole_turn()) {
     return core::phrase(
         "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
         "deviation; measure the whole turn",
         std::max(m.order.largest_gap_rad, found.gap_rad) / kDegree);
+  }
+  if (!found.loss_mm) {
+    return core::phrase(
+        "the places of the points hold lobes up to order {} only, those up to order {} matter: the "
+        "value is a lower bound; measure at least {} points evenly about the turn",
+        found.held, kOrdersOfLobes, 2 * kOrdersOfLobes + 1);
   }
   const auto& tolerance_mm = characteristic.tolerance_mm;
   if (!tolerance_mm || *found.loss_mm <= kLossShare * *tolerance_mm) return std::nullopt;
@@ -183,7 +187,8 @@ std::vector<Gate> gates_of(const WheelResult& result,
     if (runout || asked.form == record::Form::kRoundness) out.push_back(loss_gate(result, asked));
   }
   for (Gate& one : quadruple_gates(result)) out.push_back(std::move(one));
-  out.push_back(correlation_gate(m, characteristics));
+  // All round, form moves the radius little, whatever the residuals are.
+  if (!m.order.closed()) out.push_back(correlation_gate(m, characteristics));
   if (result.task.path) out.push_back(path_gate(result.evaluation));
   return out;
 }

@@ -16,8 +16,7 @@ constexpr double kWorstShare = 4.0;  ///< Variance of a coefficient over that of
 
 }  // namespace
 
-std::vector<double> found_amplitudes(PlanePoints points_mm, const Eigen::Vector2d& center_mm,
-                                     const std::optional<double>& point_mm) {
+std::vector<double> found_amplitudes(PlanePoints points_mm, const Eigen::Vector2d& center_mm) {
   const auto n = static_cast<Eigen::Index>(points_mm.size());
   const auto count = static_cast<double>(n);
   const int highest = std::min(kHighestOrder, static_cast<int>((n - 1) / 2));
@@ -50,11 +49,7 @@ std::vector<double> found_amplitudes(PlanePoints points_mm, const Eigen::Vector2
   const Eigen::VectorXd parts = inverse * (columns.leftCols(2 * held + 1).transpose() * distances);
   std::vector<double> out;
   for (Eigen::Index k = 1; k <= held; ++k) {
-    const double amplitude = std::hypot(parts(2 * k - 1), parts(2 * k));
-    const double share = 0.5 * (inverse(2 * k - 1, 2 * k - 1) + inverse(2 * k, 2 * k));
-    // As the core of a measured curve: beyond this, noise alone is less than one in ten curves.
-    const double noise = point_mm.value_or(0.0) * std::sqrt(share * 2.0 * std::log(10.0 * count));
-    out.push_back(k == 1 || amplitude > noise ? amplitude : 0.0);
+    out.push_back(std::hypot(parts(2 * k - 1), parts(2 * k)));
   }
   return out;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,12 +14,11 @@ namespace rondure::fit {
 ///
 /// By least squares, up to the highest order, at most 15, for which the places of the points hold
 /// every amplitude within twice the uncertainty that even places would give: a gap ends them.
-/// @param point_mm  Standard deviation of a point along its radius: an amplitude from order 2 on
-///                  that does not stand out of it is 0. None: all count as found.
+/// Noise of the points makes them larger on average; they count as found, because a lobe that does
+/// not stand out of the noise may be there all the same.
 /// @return Empty where not even order 1 is held (an arc): eccentricity is never extrapolated.
 [[nodiscard]] std::vector<double> found_amplitudes(PlanePoints points_mm,
-                                                   const Eigen::Vector2d& center_mm,
-                                                   const std::optional<double>& point_mm);
+                                                   const Eigen::Vector2d& center_mm);
 
 /// Most that a peak to valley can lose in a gap between points:
 /// sum over k of 2 A_k (1 - cos(min(k gap / 2, pi))) [mm].

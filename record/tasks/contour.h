@@ -47,7 +47,9 @@ struct ContourTask {
   double pre_filter_upr = 0.0;
   BaseCircle base_circle = BaseCircle::kLimacon;
   MainJournal main_journal = MainJournal::kAsIs;
-  double sampling_ms = 0.0;  ///< From sample to sample of the control; 0: not known.
+  /// From sample to sample of the control; left out or 0: not known. Without a default: a journal
+  /// of this version that was written before the key must still be read.
+  std::optional<double> sampling_ms;
   double stable_from = 0.9;
   double partly_from = 0.5;
   std::optional<ContourInfluencesTask> uncertainty;

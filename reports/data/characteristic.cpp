@@ -34,7 +34,8 @@ Json budget_json(const evaluation::BudgetLine& line) {
   return {{"name", line.name},
           {"measurand", name_of(line.measurand)},
           {"standard_uncertainty_um", in_um(line.standard_uncertainty_mm)},
-          {"shift_um", in_um(line.shift_mm)},
+          {"shift_um", line.per_u_mm ? Json(nullptr) : Json(in_um(line.shift_mm))},
+          {"per_u_um", line.per_u_mm ? Json(in_um(*line.per_u_mm)) : Json(nullptr)},
           {"share", line.share_1}};
 }
 

@@ -217,9 +217,14 @@ std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget) {
     svg.text(kFrom - 10.0, y + 16.0, "end", "label", tr(line->name));
     svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
              line->measurand == evaluation::Measurand::kWholeSurface ? "share surface" : "share");
+    const std::string size = um(line->standard_uncertainty_mm);
+    const std::string share = fixed(100.0 * line->share_1, 0);
+    // Linear propagation knows no shift, but how the value changes.
     svg.text(end + 8.0, y + 16.0, "start", "label",
-             trf("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
-                 fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));
+             line->per_u_mm ? trf("{} \u00b5m, {} %; {} \u00b5m for +1 u", size, share,
+                                  signed_um(*line->per_u_mm))
+                            : trf("{} \u00b5m, {} %; mean shift {} \u00b5m", size, share,
+                                  signed_um(line->shift_mm)));
     y += kRow;
   }
   return svg.str();

@@ -159,7 +159,7 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
                  "the sum of squares, mean shift of the value. Blue: at the sampled points, shares "
                  "among themselves; orange: of the whole surface, share of all.")
             : tr("Budget: what each influence does alone, ranked: standard uncertainty, share of "
-                 "the sum of squares, mean shift of the value."));
+                 "the sum of squares, change of the value for +1 standard uncertainty."));
   }
   return html + declaration(u.declaration);
 }

@@ -412,7 +412,9 @@ std::string words_of_wheel() {
                    tr("Greatest distance of the edge from the spindle axis: what cuts deepest.")) +
          explained("R, u(R)",
                    tr("Mean distance of the points from the centre of the edge, and its standard "
-                      "uncertainty from the scatter of the points alone.")) +
+                      "uncertainty: from the declared errors of point, scale, threshold and wear; "
+                      "where those of a point are not declared, from the scatter of the points "
+                      "alone.")) +
          explained("kappa",
                    tr("Factor by which the centre of one quadruple of points amplifies the "
                       "error of a point."));

@@ -138,7 +138,8 @@ TEST(ShortArc, IsToldFromTheWholeTurn) {
     EXPECT_NEAR(run_out.value->value_mm() / kMicrometre, 11.335, 5e-4);
     EXPECT_EQ(judged_one(whole, rule, Form::kRunOut, 8.0).verdict, Verdict::kDoesNotConform);
   }
-  EXPECT_EQ(judged_one(whole, kIso, Form::kRunOut, 12.0).verdict, Verdict::kUndecided);
+  // 1.41 um may be missing between the points, more than a tenth of 12 um.
+  EXPECT_EQ(judged_one(whole, kIso, Form::kRunOut, 12.0).verdict, Verdict::kVoid);
 }
 
 // ---- A proud point and the robust rule ----------------------------------------------------------

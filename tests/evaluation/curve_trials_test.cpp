@@ -328,6 +328,42 @@ TEST(CurveTrials, LeavesAnUpperBoundWhereMoreThanAQuarterIsNoise) {
   EXPECT_FALSE(statement_of_trials(trials, {}, {}, {})->sampled.at_most);
 }
 
+// ISO 14253-1 of a mask: each amplitude with its own interval at 1 - 0.05/m.
+TEST(CurveTrials, LinesOfAMaskHoldTogether) {
+  EXPECT_NEAR(options_of_line({}, 5).coverage, 0.99, 1e-12);
+  EXPECT_NEAR(options_of_line({}, 1).coverage, 0.95, 1e-12);
+  EXPECT_NEAR(options_of_line({}, 1000).coverage, 0.999, 1e-12);
+  const auto line = [](double low_mm, double high_mm) {
+    UncertaintyStatement out;
+    out.low_mm = low_mm;
+    out.high_mm = high_mm;
+    return out;
+  };
+  UncertaintyResult greatest;
+  greatest.sampled.estimate_mm = 9e-3;
+  greatest.sampled.low_mm = 8e-3;
+  greatest.sampled.high_mm = 10e-3;
+  const UncertaintyResult alone = greatest;
+  hold_lines_together({}, greatest);
+  EXPECT_EQ(greatest.sampled.high_mm, alone.sampled.high_mm);
+  EXPECT_TRUE(greatest.notes.empty());
+  // The widest line ends last, though another one is the greatest.
+  const std::vector<UncertaintyStatement> lines = {line(8.5e-3, 9.5e-3), line(4e-3, 12e-3)};
+  hold_lines_together(lines, greatest);
+  EXPECT_EQ(greatest.sampled.low_mm, 8.5e-3);
+  EXPECT_EQ(greatest.sampled.high_mm, 12e-3);
+  EXPECT_EQ(greatest.notes.size(), 1U);
+  DecisionRule rule;
+  rule.kind = DecisionRule::Kind::kIso14253;
+  const auto verdict = [&](double limit_mm) {
+    const auto outcome = apply_rule(rule, {9e-3, greatest.sampled}, {{}, limit_mm});
+    return outcome ? outcome->verdict : Verdict::kVoid;
+  };
+  EXPECT_EQ(verdict(11e-3), Verdict::kUndecided);
+  EXPECT_EQ(verdict(12.1e-3), Verdict::kConforms);
+  EXPECT_EQ(verdict(8.4e-3), Verdict::kDoesNotConform);
+}
+
 TEST(CurveTrials, SaysWhatIsWrongWithTheTrials) {
   TrialValues trials;
   trials.values_mm.assign(99, 1.0 * kMicron);

@@ -14,6 +14,7 @@
 #include "evaluation/internal/fixture_use.h"
 #include "evaluation/rotary/internal/axis_extreme.h"
 #include "evaluation/rotary/internal/combined_field.h"
+#include "evaluation/rotary/internal/gates.h"
 #include "evaluation/rotary/result.h"
 #include "fit/rotary/reading.h"
 #include "fixture/calibration.h"
@@ -310,6 +311,30 @@ TEST(RotaryCalibration, TakesAFixtureHeldByFriction) {
   EXPECT_GE(share_inside(*found), 0.80);  // readings of the zero poses are common to all stations
   // 66 um where the reading is ignored.
   EXPECT_LT(found->calibration.verification.rms_mm, 8e-3);
+}
+
+// Touches without noise explain nothing; their digits leave a residual all the same. A residual of
+// some um that nothing explains is no such thing.
+TEST(RotaryCalibration, DigitsOfTouchesDependOnNoAngle) {
+  const auto evaluation = evaluate(calibration_run({}));
+  ASSERT_TRUE(evaluation);
+  const RotaryResult* found = result_of(evaluation->features.at(0));
+  ASSERT_NE(found, nullptr);
+  RotaryResult facts = *found;
+  ASSERT_FALSE(facts.combined.empty());
+  const auto outcome = [&](double rms_mm, double expected_mm) {
+    facts.calibration.verification.rms_mm = rms_mm;
+    facts.calibration.verification.expected_mm = expected_mm;
+    const std::vector<Gate> gates = rotary_gates(facts, {});
+    const auto at = std::ranges::find(gates, std::string("depends-on-both"), &Gate::code);
+    EXPECT_NE(at, gates.end());
+    return at == gates.end() ? Gate::Outcome::kVoids : at->outcome;
+  };
+  EXPECT_EQ(outcome(1e-10, 1e-12), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(1e-10, 0.0), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(2e-3, 0.0), Gate::Outcome::kVoids);
+  EXPECT_EQ(outcome(2e-3, 0.6e-3), Gate::Outcome::kVoids);
+  EXPECT_EQ(outcome(1e-3, 0.6e-3), Gate::Outcome::kPassed);
 }
 
 TEST(RotaryCalibration, IsVoidWhereTheOtherAxisStandsTooFarOff) {

@@ -467,6 +467,19 @@ TEST(Characteristics, TakeNothingThatTheirFormDoesNotKnow) {
   EXPECT_EQ(characteristic_of(asked, 0.0, levels).reference, Reference::kLeastSquares);
 }
 
+// A journal of this version may be older than the key; what is always written would be asked of it.
+TEST(Tasks, AContourWritesTheSamplingTimeOnlyWhereThePlanStatesIt) {
+  const auto states = [](const std::vector<Setting>& settings) {
+    return std::any_of(settings.begin(), settings.end(),
+                       [](const Setting& setting) { return setting.name == "sampling_ms"; });
+  };
+  ContourTask task;
+  EXPECT_FALSE(states(settings_of_task(task)));
+  task.sampling_ms = 4.0;
+  EXPECT_TRUE(states(settings_of_task(task)));
+  comes_back(task);
+}
+
 TEST(Tasks, RefuseAWholeNumberThatIsNone) {
   for (const double samples : {720.5, 1e300, -1.0}) {
     SCOPED_TRACE(samples);

@@ -1,5 +1,6 @@
 // A wheel feature from its series to the reports.
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
+#include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/wheel/result.h"
 #include "record/run_record.h"
 #include "reports/data/json.h"
 #include "reports/escaping.h"
@@ -85,13 +88,22 @@ TEST(WheelReport, JudgesRadiusRunOutAndRoundnessOfWorkedExample1) {
   EXPECT_NEAR(results[1].value_mm().value() * 1e3, 35.393, 1.6e-3);
   EXPECT_EQ(results[1].verdict, evaluation::Verdict::kDoesNotConform);
   EXPECT_LT(results[2].value_mm().value() * 1e3, 4.535);
-  // Third order, 2.3 um: between points 45 deg apart 2.8 um of it may be missing.
+  // Eight points hold no lobes above order 3.
   EXPECT_EQ(results[2].verdict, evaluation::Verdict::kVoid);
   EXPECT_THAT(results[2].reason, HasSubstr("a lower bound"));
   auto wide = wheel_run();
   wide.features.front().characteristics[2].tolerance_mm = 0.030;
-  EXPECT_EQ(evaluate(wide)->features.at(0).characteristics[2].verdict,
-            evaluation::Verdict::kConforms);
+  EXPECT_EQ(evaluate(wide)->features.at(0).characteristics[2].verdict, evaluation::Verdict::kVoid);
+}
+
+/// The wheel of wheel_run() with other points.
+record::RunRecord run_of(const test::Points2& points) {
+  auto run = wheel_run();
+  run.series.front().values.clear();
+  for (const auto& p : points) {
+    run.series.front().values.insert(run.series.front().values.end(), {p.x(), p.y()});
+  }
+  return run;
 }
 
 // Every path to void of an analysis of series (analysis.cpp), in the evaluation and in the reports.
@@ -109,8 +121,9 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
        [](auto& r) { r.header.decision_rule = "iso-14253-1"; }}};
   for (const Path& path : paths) {
     SCOPED_TRACE(path.reason);
-    auto run = wheel_run();
-    // So wide that what 8 points may miss is below a tenth of it.
+    auto run = run_of(test::arc_points(16, 360.0, 50.0, 2e-4, 3, {12.02, -7.0}));
+    run.features.front().settings[4].text = "least-squares";
+    // So wide that what 16 points may miss is below a tenth of it.
     for (auto& asked : run.features.front().characteristics) asked.tolerance_mm = 0.3;
     path.spoil(run);
     const auto evaluation = evaluate(run);
@@ -127,16 +140,6 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
                   HasSubstr(in_sentence(core::Phrase(capitalised(result.reason.english())))));
     }
   }
-}
-
-/// The wheel of wheel_run() with other points.
-record::RunRecord run_of(const test::Points2& points) {
-  auto run = wheel_run();
-  run.series.front().values.clear();
-  for (const auto& p : points) {
-    run.series.front().values.insert(run.series.front().values.end(), {p.x(), p.y()});
-  }
-  return run;
 }
 
 // 8 points on 60 deg show 5.6 um of 11.7: within 10 um they prove nothing, above 5 um they do.
@@ -222,6 +225,43 @@ TEST(WheelReport, ShowsTheEdgeBeforeTheNumbers) {
     at = html.find(next, at);
     ASSERT_NE(at, std::string::npos) << next;
   }
+}
+
+// u(R) is that of the declared errors where the plan declares them.
+TEST(WheelReport, SaysWhatTheUncertaintyOfTheRadiusIsMadeOf) {
+  auto run = wheel_run();
+  run.features[0].settings.push_back(number("uncertainty/point_um/value", 2.0));
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto& m = std::get<WheelResult>(evaluation->features[0].analysis->found).evaluation.wheel;
+  EXPECT_NEAR(m.radius_uncertainty_mm, 2e-3 * m.factors.radius, 1e-9);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("from the declared errors of point, scale, threshold and wear"));
+  EXPECT_THAT(html, Not(HasSubstr("uncertainty from the scatter of the points alone")));
+}
+
+// The budget of an analysis is linear propagation, which knows a sign, but no shift.
+TEST(WheelReport, BudgetHasTheChangeForOneStandardUncertaintyAndNoShift) {
+  auto run = wheel_run();
+  auto& settings = run.features[0].settings;
+  settings.push_back(number("uncertainty/point_um/value", 0.5));
+  settings.push_back(number("uncertainty/threshold_um/value", 1.0));
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("for +1 u"));
+  EXPECT_THAT(html, Not(HasSubstr("mean shift")));
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  const auto& radius = written["features"][0]["characteristics"][0];
+  ASSERT_FALSE(radius["uncertainty"].is_null()) << radius.dump();
+  int lines = 0;
+  for (const auto& line : radius["uncertainty"]["budget"]) {
+    EXPECT_TRUE(line["shift_um"].is_null());
+    EXPECT_NEAR(std::abs(line["per_u_um"].get<double>()),
+                line["standard_uncertainty_um"].get<double>(), 1e-9);
+    ++lines;
+  }
+  EXPECT_GE(lines, 2);
 }
 
 TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {

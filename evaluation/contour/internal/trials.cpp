@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -151,6 +153,7 @@ struct Asked {
   bool convex = true;
   bool is_signed = false;
   bool has_budget = true;  ///< Of an index, which is no length, none is printed.
+  std::size_t lines = 1;   ///< Of how many lines of a mask it is one, for its coverage.
 };
 
 /// The budget of every number. One draw of an influence serves all of them.
@@ -217,8 +220,8 @@ std::vector<UncertaintyStatus> states(const CurveModel& model, const std::vector
   auto budgets = budgets_of(model, asked);
   std::vector<UncertaintyStatus> out;
   for (std::size_t a = 0; a < asked.size(); ++a) {
-    auto stated =
-        statement_of_trials(std::move(found[a]), std::move(budgets[a]), model.declaration, options);
+    auto stated = statement_of_trials(std::move(found[a]), std::move(budgets[a]), model.declaration,
+                                      options_of_line(options, asked[a].lines));
     if (!stated) {
       out.push_back(UncertaintyStatus::none(stated.error().said()));
       continue;
@@ -807,6 +810,49 @@ MaskShare worst_share(const Curves& curves, const std::vector<record::HarmonicLi
   return out;
 }
 
+/// The greatest share of its limit that one harmonic takes in any part; 0 outside the mask.
+double harmonic_share(const Curves& curves, const std::vector<record::HarmonicLimit>& mask,
+                      int order) {
+  std::vector<record::HarmonicLimit> own;
+  for (const record::HarmonicLimit& line : mask) {
+    if (order >= line.first && order <= line.last) own.push_back({order, order, line.amplitude_mm});
+  }
+  return worst_share(curves, own).share;
+}
+
+/// The amplitudes of a mask that bind, each brought to the limit of the worst.
+std::vector<Asked> mask_lines(const record::Characteristic& asked, const ContourTrials& trials) {
+  const double limit_mm = worst_share(trials.total(), asked.harmonic_limits).limit_mm;
+  std::vector<Asked> out;
+  for (int k = 2; k <= trials.basis().highest; ++k) {
+    const double share = harmonic_share(trials.total(), asked.harmonic_limits, k);
+    if (share <= kBindingShare) continue;
+    Asked line;
+    line.value = [&mask = asked.harmonic_limits, limit_mm, k](const Curves& curves) {
+      return harmonic_share(curves, mask, k) * limit_mm;
+    };
+    line.as_measured = share * limit_mm;
+    line.has_budget = false;
+    out.push_back(std::move(line));
+  }
+  for (Asked& line : out) line.lines = out.size();
+  return out;
+}
+
+/// The interval of a mask from those of its lines.
+UncertaintyStatus of_mask_lines(const UncertaintyStatus& greatest,
+                                std::span<const UncertaintyStatus> lines) {
+  if (!greatest.result()) return greatest;
+  std::vector<UncertaintyStatement> said;
+  for (const UncertaintyStatus& line : lines) {
+    if (!line.result()) return line;
+    said.push_back(line.result()->sampled);
+  }
+  UncertaintyResult result = *greatest.result();
+  hold_lines_together(said, result);
+  return UncertaintyStatus::stated(std::move(result), greatest.coverage_1());
+}
+
 /// Whether the harmonic that decides is among those of the trials: the value is that of all
 /// harmonics of the mask.
 bool is_nearest(const MaskShare& worst, const core::Result<AnalysisValue>& measured) {
@@ -938,13 +984,22 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
     numbers.push_back(asked_of(asked[a], facts, trials));
     rows.push_back(a);
   }
+  // After the numbers, the lines of their masks.
+  std::vector<std::pair<std::size_t, std::size_t>> of_mask;  // first and count
+  for (const std::size_t row : rows) {
+    std::vector<Asked> lines;
+    if (asked[row].form == Form::kHarmonicLimits) lines = mask_lines(asked[row], trials);
+    of_mask.emplace_back(numbers.size(), lines.size());
+    std::ranges::move(lines, std::back_inserter(numbers));
+  }
   if (numbers.empty()) return out;
   const auto found = states(trials.gauge_model(trials.total(), "total"), numbers, options);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out[rows[i]] =
         asked[rows[i]].form == Form::kContourSpread
             ? with_note(found[i], process_note(facts.study.total->spread, facts.names.size()))
-            : found[i];
+            : of_mask_lines(found[i],
+                            std::span(found).subspan(of_mask[i].first, of_mask[i].second));
   }
   return out;
 }
