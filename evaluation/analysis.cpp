@@ -11,6 +11,7 @@
 #include "evaluation/internal/conformance.h"
 #include "evaluation/internal/temperature_gates.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
 
@@ -33,9 +34,10 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = result.failure ? result.failure->said() : core::phrase("there is no result");
     return;
   }
+  const auto chain = chain_fault(result);
   const auto value = value_of(*result.analysis, asked);
   if (!value) {
-    out.reason = value.error().said();
+    out.reason = chain.value_or(value.error().said());
     return;
   }
   if (!std::isfinite(value->value_mm)) {
@@ -47,7 +49,9 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
-  if (value->void_because && !proves) {
+  if (chain) {  // before all else: also a bound would rest on what the other feature gave
+    out.reason = *chain;
+  } else if (value->void_because && !proves) {
     out.reason = *value->void_because;
   } else if (record.ending != "finished") {
     out.reason = core::phrase("the run did not finish");
@@ -110,8 +114,21 @@ core::Phrase sampling_text(const AnalysisResult& result) {
 
 namespace {
 
+/// The wheels among the features before one, for those that take values of them.
+EarlierWheel wheel_among(std::span<const FeatureResult> earlier) {
+  return [earlier](const std::string& id) -> core::Result<const WheelResult*> {
+    const auto producer = producer_of(id, earlier);
+    if (!producer) return core::fail(producer.error());
+    const auto* const wheel = std::get_if<WheelResult>(&(*producer)->analysis->found);
+    if (wheel != nullptr) return wheel;
+    return core::fail(core::Code::kMeaning,
+                      core::phrase("it takes a value of feature {}, which is no wheel", id));
+  };
+}
+
 /// Evaluates the series of a feature, or says why they cannot be.
-void evaluate_series(const record::RunRecord& record, int index, FeatureResult& result) {
+void evaluate_series(const record::RunRecord& record, int index,
+                     std::span<const FeatureResult> earlier, FeatureResult& result) {
   const bool recorded =
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
@@ -129,7 +146,7 @@ void evaluate_series(const record::RunRecord& record, int index, FeatureResult& 
       keep(evaluate_spindle(record, index, result), result);
       break;
     case record::Shape::kWheel:
-      keep(evaluate_wheel(record, index, result), result);
+      keep(evaluate_wheel(record, index, wheel_among(earlier), result), result);
       break;
     case record::Shape::kContour:
       keep(evaluate_contour(record, index, result), result);
@@ -145,7 +162,8 @@ void evaluate_series(const record::RunRecord& record, int index, FeatureResult& 
 }  // namespace
 
 FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
-                                const std::optional<fit::ProbeTip>& probe) {
+                                const std::optional<fit::ProbeTip>& probe,
+                                std::span<const FeatureResult> earlier) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
   if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
@@ -153,7 +171,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
     keep(evaluate_rotary(record, index, result), result);
   } else {
     result.temperatures = temperatures_of_series(record, index);
-    evaluate_series(record, index, result);
+    evaluate_series(record, index, earlier, result);
   }
   std::vector<Gate> gates = temperature_gates(record, result);
   result.gates.insert(result.gates.begin(), gates.begin(), gates.end());

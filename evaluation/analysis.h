@@ -7,13 +7,12 @@
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/results/analysis_value.h"
+#include "evaluation/results/evaluation.h"
 #include "evaluation/results/stated_value.h"
 #include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
-
-struct FeatureResult;
 
 struct AnalysisResult;  // analysis_result.h
 
@@ -36,12 +35,15 @@ struct AnalysisResult;  // analysis_result.h
 /// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
 /// bits.
 /// @param probe  The qualification of the run, for an analysis of touches.
+/// @param earlier  The features before it, evaluated and judged: it may take values of them.
 [[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
-                                              const std::optional<fit::ProbeTip>& probe);
+                                              const std::optional<fit::ProbeTip>& probe,
+                                              std::span<const FeatureResult> earlier = {});
 
 /// Fills the characteristics of an analysed feature and applies the rule to them. A characteristic
-/// is void without a result or a value, outside the temperature limits, where the value proves
-/// nothing, when the run did not finish, or when its rule needs an interval and there is none.
+/// is void without a result or a value, with a value of a void feature, outside the temperature
+/// limits, where the value proves nothing, when the run did not finish, or when its rule needs an
+/// interval and there is none.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result);
 

@@ -3,8 +3,10 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/wheel/internal/measured_axis.h"
 #include "evaluation/wheel/internal/unseen.h"
 #include "evaluation/wheel/result.h"
 #include "record/tasks/settings.h"
@@ -177,6 +179,18 @@ core::Result<AnalysisValue> roundness(const WheelResult& facts,
   return out;
 }
 
+/// Gives a wheel the axis that an earlier feature found, or says why there is none.
+std::optional<core::Phrase> take_axis(const std::string& id, const EarlierWheel& earlier,
+                                      WheelResult& facts) {
+  const auto producer = earlier(id);
+  if (!producer) return producer.error().said();
+  auto axis = measured_axis(**producer, id);
+  if (!axis) return axis.error().said();
+  facts.task.wheel.axis_mm = axis->center_mm;
+  facts.measured_axis = *std::move(axis);
+  return std::nullopt;
+}
+
 /// Where the tolerances of run-out make a bound of it, everything that states it says so, and no
 /// path rests on the effective radius.
 void bound_runout(std::span<const record::Characteristic> characteristics, WheelResult& facts) {
@@ -222,7 +236,10 @@ ValueOperator operator_of(const WheelResult& facts, const record::Characteristic
                    m.points, core::Phrase(fit::name_of(m.mode)));
   core::Phrase reference = core::as_it_is(reference_of(characteristic));
   if (characteristic.form == record::Form::kRunOut) {
-    reference = core::phrase("full indicator movement about the given axis");
+    reference = facts.measured_axis
+                    ? core::phrase("full indicator movement about the axis of feature {}",
+                                   facts.measured_axis->feature)
+                    : core::phrase("full indicator movement about the given axis");
   } else if (characteristic.form != record::Form::kRoundness) {
     reference = m.mean == fit::WheelMean::kLeastSquares
                     ? core::phrase("mean distance from the least-squares centre")
@@ -248,7 +265,7 @@ core::Phrase sampling_text(const WheelResult& facts) {
 }
 
 core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,
-                                         FeatureResult& result) {
+                                         const EarlierWheel& earlier, FeatureResult& result) {
   const auto asked = record::task_of<WheelTask>(result.feature.settings);
   if (!asked) return tl::unexpected(asked.error());
   auto task = path_task(*asked);
@@ -257,12 +274,20 @@ core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int in
   facts.points_mm = points_of(*record.data_of(index, "data"));
   facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
   facts.declared = asked->uncertainty;
+  std::optional<core::Phrase> chain;
+  if (asked->axis_from) {
+    chain = take_axis(asked->axis_from->feature, earlier, facts);
+    result.gates.push_back(chain_gate(asked->axis_from->feature, chain));
+  }
   auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
   if (!evaluation) return tl::unexpected(evaluation.error());
   facts.evaluation = *std::move(evaluation);
+  if (chain) facts.evaluation.wheel.runout_absent = *chain;
   bound_runout(result.feature.characteristics, facts);
   facts.effective_radius = effective_radius_interval(facts, uncertainty_options(record));
-  result.gates = gates_of(facts, result.feature.characteristics);
+  for (Gate& gate : gates_of(facts, result.feature.characteristics)) {
+    result.gates.push_back(std::move(gate));
+  }
   result.warnings = facts.evaluation.wheel.warnings;
   if (facts.evaluation.path) {
     const auto& more = facts.evaluation.path->warnings;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,15 +58,42 @@ double drawn(const Influence& influence, std::uint64_t seed, std::string_view id
              : uniform_draw(seed, id, instance, trial);
 }
 
+/// Moves the axis by a vector.
+void shift_axis(const Eigen::Vector2d& by_mm, Influences& drawn) {
+  drawn.axis_x_mm += by_mm.x();
+  drawn.axis_z_mm += by_mm.y();
+}
+
+/// Adds the errors of an axis that another feature found: the noise of its points, and the
+/// squareness of the stage, whose draw moves the points of this wheel as well. The scale of the
+/// stage moves points and axis alike: of it remains what it makes of the eccentricity, nothing.
+void add_measured_axis(const MeasuredAxis& axis, std::uint64_t seed, int trial,
+                       Influences& drawn_influences) {
+  if (axis.root_mm) {
+    const std::string id = "wheel.center " + axis.feature;
+    const auto draw = [&](std::uint64_t direction) {
+      return normal_draw(seed, id, direction, trial);
+    };
+    shift_axis(*axis.root_mm * Eigen::Vector2d(draw(0), draw(1)), drawn_influences);
+  }
+  const double squareness_rad = record::u_of(axis.squareness_urad) * kMicroradian *
+                                drawn(axis.squareness_urad, seed, "stage.squareness", 0, trial);
+  shift_axis(squareness_rad * axis.per_squareness_mm, drawn_influences);
+}
+
 /// Drawn influences of a trial. Features that name the same stage share its draws.
-Influences draw_of(const WheelInfluencesTask& said, std::uint64_t seed, int trial) {
+Influences draw_of(const WheelResult& result, std::uint64_t seed, int trial) {
+  const WheelInfluencesTask& said = *result.declared;
   const Influences u = standard_of(said);
-  return {u.axis_x_mm * drawn(said.axis_um, seed, "wheel.axis", 0, trial),
-          u.axis_z_mm * drawn(said.axis_um, seed, "wheel.axis", 1, trial),
-          u.scale_1 * drawn(said.scale_ppm, seed, "stage.scale", 0, trial),
-          u.squareness_rad * drawn(said.squareness_urad, seed, "stage.squareness", 0, trial),
-          u.threshold_mm * drawn(said.threshold_um, seed, "wheel.threshold", 0, trial),
-          u.wear_mm * drawn(said.wear_um, seed, "wheel.wear", 0, trial)};
+  Influences out = {
+      u.axis_x_mm * drawn(said.axis_um, seed, "wheel.axis", 0, trial),
+      u.axis_z_mm * drawn(said.axis_um, seed, "wheel.axis", 1, trial),
+      u.scale_1 * drawn(said.scale_ppm, seed, "stage.scale", 0, trial),
+      u.squareness_rad * drawn(said.squareness_urad, seed, "stage.squareness", 0, trial),
+      u.threshold_mm * drawn(said.threshold_um, seed, "wheel.threshold", 0, trial),
+      u.wear_mm * drawn(said.wear_um, seed, "wheel.wear", 0, trial)};
+  if (result.measured_axis) add_measured_axis(*result.measured_axis, seed, trial, out);
+  return out;
 }
 
 enum class Quantity { kRunOut, kEffectiveRadius, kLsRoundness, kMzRoundness };
@@ -263,10 +291,22 @@ InfluenceStatement statement_of(std::string name, const Influence& influence,
   return {std::move(name), true, text};
 }
 
-std::vector<InfluenceStatement> declaration_of(const WheelInfluencesTask& said,
-                                               const Depends& depends) {
+InfluenceStatement statement_of(const MeasuredAxis& axis) {
+  if (!axis.root_mm) return {"measured-axis", false, core::phrase("not declared")};
+  return {"measured-axis", true,
+          core::phrase("{} and {} um across, by the points of feature {}",
+                       core::um(axis.root_mm->col(0).norm()), core::um(axis.root_mm->col(1).norm()),
+                       axis.feature)};
+}
+
+std::vector<InfluenceStatement> declaration_of(const WheelResult& result, const Depends& depends) {
+  const WheelInfluencesTask& said = *result.declared;
   std::vector<InfluenceStatement> out = {statement_of("edge-points", said.point_um, "um")};
-  if (depends.axis) out.push_back(statement_of("wheel-axis", said.axis_um, "um"));
+  if (depends.axis) {
+    if (result.measured_axis) out.push_back(statement_of(*result.measured_axis));
+    // Of a measured axis it is what that moved since: another influence, which may be missing.
+    out.push_back(statement_of("wheel-axis", said.axis_um, "um"));
+  }
   if (depends.scale) out.push_back(statement_of("stage-scale", said.scale_ppm, "ppm"));
   if (depends.squareness) {
     out.push_back(statement_of("stage-squareness", said.squareness_urad, "urad"));
@@ -278,26 +318,45 @@ std::vector<InfluenceStatement> declaration_of(const WheelInfluencesTask& said,
   return out;
 }
 
-std::vector<LinearTerm> budget_of(const Edge& edge, Quantity quantity,
-                                  const WheelInfluencesTask& said) {
+std::vector<LinearTerm> budget_of(const WheelResult& result, const Edge& edge, Quantity quantity) {
+  const WheelInfluencesTask& said = *result.declared;
+  const auto& axis = result.measured_axis;
   const Influences u = standard_of(said);
   const Depends depends = depends_of(quantity);
   const std::vector<double> found_mm = edge.found_mm();
-  const auto alone = [&](double Influences::*member) {
+  const auto change = [&](const Influences& one_u, const Eigen::Vector2d& axis_shift_mm) {
     return per_u([&](double k) {
-      Influences one;
-      one.*member = k * (u.*member);
+      Influences one = {k * one_u.axis_x_mm,      k * one_u.axis_z_mm,    k * one_u.scale_1,
+                        k * one_u.squareness_rad, k * one_u.threshold_mm, k * one_u.wear_mm};
+      shift_axis(k * axis_shift_mm, one);
       return edge.value(quantity, found_mm, one);
     });
+  };
+  const auto alone = [&](double Influences::*member) {
+    Influences one;
+    one.*member = u.*member;
+    return change(one, Eigen::Vector2d::Zero());
   };
   std::vector<LinearTerm> out = {
       {"edge-points", edge.per_point(quantity, record::u_of(said.point_um) * kMicrometre)}};
   if (depends.axis) {
     out.push_back({"wheel-axis-x", alone(&Influences::axis_x_mm)});
     out.push_back({"wheel-axis-z", alone(&Influences::axis_z_mm)});
+    if (axis && axis->root_mm) {
+      out.push_back({"measured-axis-major", change({}, axis->root_mm->col(0))});
+      out.push_back({"measured-axis-minor", change({}, axis->root_mm->col(1))});
+    }
   }
   if (depends.scale) out.push_back({"stage-scale", alone(&Influences::scale_1)});
-  if (depends.squareness) out.push_back({"stage-squareness", alone(&Influences::squareness_rad)});
+  if (depends.squareness) {
+    Influences one;
+    one.squareness_rad = u.squareness_rad;
+    Eigen::Vector2d axis_shift_mm = Eigen::Vector2d::Zero();
+    if (depends.axis && axis) {
+      axis_shift_mm = record::u_of(axis->squareness_urad) * kMicroradian * axis->per_squareness_mm;
+    }
+    out.push_back({"stage-squareness", change(one, axis_shift_mm)});
+  }
   if (depends.common) {
     out.push_back({"edge-threshold", alone(&Influences::threshold_mm)});
     out.push_back({"wheel-wear", alone(&Influences::wear_mm)});
@@ -314,7 +373,14 @@ UncertaintyStatus stated(core::Result<UncertaintyResult> found, const Uncertaint
 UncertaintyStatus interval_of(const WheelResult& result, const Edge& edge, Quantity quantity,
                               double as_measured_mm, const UncertaintyOptions& options) {
   const WheelInfluencesTask& said = *result.declared;
-  if (depends_of(quantity).axis && !said.axis_um) {
+  const auto& axis = result.measured_axis;
+  if (depends_of(quantity).axis && axis && !axis->root_mm) {
+    return UncertaintyStatus::none(
+        core::phrase("feature {} gives the axis and declares no point_um: the uncertainty of the "
+                     "axis is not known",
+                     axis->feature));
+  }
+  if (depends_of(quantity).axis && !axis && !said.axis_um) {
     return UncertaintyStatus::none(core::phrase(
         "axis_um, the uncertainty of the axis, is not declared: run-out and effective radius "
         "depend on it"));
@@ -325,12 +391,12 @@ UncertaintyStatus interval_of(const WheelResult& result, const Edge& edge, Quant
   trials.as_measured_mm = as_measured_mm;
   trials.core_center_mm = edge.value(quantity, draws.core_mm(), {});
   for (int t = 0; t < options.least_trials; ++t) {
-    const Influences drawn = draw_of(said, options.seed, t);
+    const Influences drawn = draw_of(result, options.seed, t);
     trials.values_mm.push_back(edge.value(quantity, draws.draw(t), drawn));
     trials.core_mm.push_back(edge.value(quantity, draws.core_draw(t), drawn));
   }
-  return stated(statement_of_trials(std::move(trials), budget_of(edge, quantity, said),
-                                    declaration_of(said, depends_of(quantity)), options),
+  return stated(statement_of_trials(std::move(trials), budget_of(result, edge, quantity),
+                                    declaration_of(result, depends_of(quantity)), options),
                 options);
 }
 
@@ -373,7 +439,7 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
   for (int t = 0; t < options.least_trials; ++t) {
     const double points = normal_draw(options.seed, "wheel.radius", 0, t);
     trials.values_mm.push_back(
-        judged(departure_mm + shift(points, draw_of(said, options.seed, t))));
+        judged(departure_mm + shift(points, draw_of(result, options.seed, t))));
   }
   const Influences u = standard_of(said);
   const std::vector<LinearTerm> terms = {{"edge-points", point_mm},
@@ -383,7 +449,7 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
                                          {"stage-squareness", u.squareness_rad * oval_mm}};
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
   auto found =
-      statement_of_trials(std::move(trials), terms, declaration_of(said, depends), options);
+      statement_of_trials(std::move(trials), terms, declaration_of(result, depends), options);
   const double least_mm = with_sign ? -HUGE_VAL : 0.0;
   if (const double form_mm = m.form_in_radius_mm(); found && form_mm > 0.0) {
     widen(form_mm, least_mm, *found);

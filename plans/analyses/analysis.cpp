@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analyses/internal/feature_references.h"
 #include "plans/analyses/internal/series_file.h"
 #include "plans/schema/json_text.h"
 #include "record/sha256.h"
@@ -184,6 +185,7 @@ void check_analysis(const Plan& plan, std::size_t index, Findings& findings) {
   if (findings.is_given(section) && findings.sound(section)) {
     kind->check(feature, section, findings);
   }
+  check_references(plan, index, findings);
   check_data(plan, index, *kind, findings);
 }
 

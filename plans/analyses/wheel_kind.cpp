@@ -43,21 +43,38 @@ struct Checker {
   }
 };
 
-void check_axis(const FeaturePlan& feature, const Checker& checker) {
-  const WheelTask& plan = *feature.wheel;
+/// The axis as two numbers, or as a value of an earlier feature (check_references()).
+void check_source_of_axis(const WheelTask& plan, const Checker& checker) {
+  if (plan.axis_from) {
+    for (const std::string_view key : {"axis_x_mm", "axis_z_mm"}) {
+      if (!checker.given(key)) continue;
+      checker.contradiction(key, "the axis is that of an earlier feature (axis_from); remove one");
+    }
+    if (plan.mode == WheelTask::Mode::kEnvelope) {
+      checker.contradiction("axis_from",
+                            "run-out cannot be stated in envelope mode; remove the axis, or "
+                            "measure indexed");
+    }
+    return;
+  }
   if (plan.axis_x_mm.has_value() != plan.axis_z_mm.has_value()) {
     checker.missing(plan.axis_x_mm ? "axis_z_mm" : "axis_x_mm", "the axis has x and z");
   }
-  const bool envelope = plan.mode == WheelTask::Mode::kEnvelope;
-  if (envelope && plan.axis_x_mm) {
+  if (plan.mode == WheelTask::Mode::kEnvelope && plan.axis_x_mm) {
     checker.contradiction("axis_x_mm",
                           "run-out cannot be stated in envelope mode; remove the axis, or measure "
                           "indexed");
   }
+}
+
+void check_axis(const FeaturePlan& feature, const Checker& checker) {
+  const WheelTask& plan = *feature.wheel;
+  check_source_of_axis(plan, checker);
+  const bool envelope = plan.mode == WheelTask::Mode::kEnvelope;
   for (const record::CharacteristicTask& c : feature.characteristics) {
     if (c.form == record::Form::kRunOut && envelope) {
       checker.contradiction("mode", "run-out is asked for, which a turning wheel does not show");
-    } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm) {
+    } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm && !plan.axis_from) {
       checker.missing("axis_x_mm", "run-out needs the spindle axis");
     }
     if (c.form == record::Form::kRadius && !plan.nominal_radius_mm) {
