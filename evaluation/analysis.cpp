@@ -9,7 +9,7 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
-#include "evaluation/internal/temperature_gates.h"
+#include "evaluation/results/temperature_gates.h"
 #include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"

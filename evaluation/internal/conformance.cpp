@@ -9,7 +9,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
-#include "evaluation/internal/temperature_gates.h"
+#include "evaluation/results/temperature_gates.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/part/contacts.h"
 #include "evaluation/part/find.h"

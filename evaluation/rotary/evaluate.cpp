@@ -10,8 +10,8 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "core/utc.h"
-#include "evaluation/internal/conformance.h"
 #include "evaluation/results/evaluation.h"
+#include "evaluation/results/temperature_gates.h"
 #include "evaluation/rotary/internal/combined_field.h"
 #include "evaluation/rotary/internal/gates.h"
 #include "evaluation/rotary/result.h"
@@ -602,7 +602,7 @@ core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int 
   if (!facts) return tl::unexpected(facts.error());
   if (auto growth = growth_gate(*facts, result)) result.gates.push_back(*std::move(growth));
   // Those of the temperature are listed with the gates of every analysis.
-  facts->withheld = temperature_fault(record, result);
+  facts->withheld = voided_by(temperature_gates(record, result));
   if (!facts->withheld) facts->withheld = voided_by(result.gates);
   if (result.temperatures && !result.temperatures->declared) {
     facts->calibration.temperature_degC = result.temperatures->mean_degC;

@@ -73,7 +73,7 @@ FirstHarmonic observe_first_harmonic(const ThreeProbeResult& result,
     const auto& h = result.mean_readings_mm[at];
     out.sum_mm +=
         w[at] * (means.first([&](std::size_t n) { return h[n]; }) - result.drift_mm[at] * ramp_1);
-    const Complex turn = std::polar(w[at], angles[at]);
+    const Complex turn = w[at] * std::polar(1.0, angles[at]);  // a weight may be below 0
     const Complex sideways = Complex(0.0, 1.0) * turn;
     set(out.sensitivity, kFirstGain + i, 0.5 * (plus * turn + minus * std::conj(turn)));
     set(out.sensitivity, kFirstAngle + i, 0.5 * (plus * sideways + minus * std::conj(sideways)));

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
 #include "fit/rotary/reading.h"
-#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {
@@ -18,12 +18,16 @@ using core::kMicroradian;
 
 double station_gate_rad(const Plan& plan, const record::RotaryTask& rotary) {
   std::vector<Eigen::Vector3d> balls;
-  for (const record::BallTask& ball : rotary.balls) balls.push_back(vector3(ball.center_mm));
-  return fit::station_gate_rad(fit::largest_lever_mm(balls, vector3(plan.fixture->axis_offset_mm)));
+  for (const record::BallTask& ball : rotary.balls) balls.emplace_back(Eigen::Vector3d::Map(ball.center_mm.data()));
+  return fit::station_gate_rad(fit::largest_lever_mm(balls, Eigen::Vector3d::Map(plan.fixture->axis_offset_mm.data())));
 }
 
 double repeatability_rad(const record::RotaryTask& rotary) {
   return rotary.uncertainty ? record::u_of(rotary.uncertainty->repeat_urad) * kMicroradian : 0.0;
+}
+
+std::string angles_text(const core::Pose& pose) {
+  return fmt::format("({:.4f}, {:.4f}) deg", pose.alpha_rad / kDegree, pose.beta_rad / kDegree);
 }
 
 core::Result<void> check_zero(double reads_rad, double limit_rad, const char* axis,
@@ -32,7 +36,7 @@ core::Result<void> check_zero(double reads_rad, double limit_rad, const char* ax
   return core::machine_fault(
       fmt::format("in pose {} {} reads {:.4f} deg and must be 0 within {:.4f} deg, or its own "
                   "errors enter those of the other axis; set it closer to 0, then resume",
-                  in_degrees(commanded), axis, reads_rad / kDegree, limit_rad / kDegree));
+                  angles_text(commanded), axis, reads_rad / kDegree, limit_rad / kDegree));
 }
 
 }  // namespace
@@ -81,7 +85,7 @@ core::Result<void> check_station_reached(const Plan& plan, std::size_t feature,
     return core::machine_fault(fmt::format(
         "the fixture was sent to {} and reads {}: {:.4g} deg apart, the limit is {:.4g} deg; the "
         "drive missed its target; check it, then resume",
-        in_degrees(commanded), in_degrees(reached), missed_rad / kDegree, drive_rad / kDegree));
+        angles_text(commanded), angles_text(reached), missed_rad / kDegree, drive_rad / kDegree));
   }
   constexpr double kZero_rad = 1e-9;
   const double limit_rad = station_gate_rad(plan, *rotary);

@@ -1,4 +1,4 @@
-#include "evaluation/internal/temperature_gates.h"
+#include "evaluation/results/temperature_gates.h"
 
 #include <algorithm>
 #include <optional>
