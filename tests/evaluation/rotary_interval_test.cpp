@@ -585,15 +585,15 @@ TEST(AxisError, TheStationFarthestFromTheMiddleDecides) {
 }
 
 TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
-  using Indication = record::Indication;
+  using AxisIndication = record::Indication;
   Bench bench;
   bench.declared.emplace();
   record::RunRecord run = calibration_run(bench);
   auto& asked = run.features[0].characteristics;
   asked.clear();
-  for (const auto axis : {Indication::Axis::kAlpha, Indication::Axis::kBeta}) {
+  for (const auto axis : {AxisIndication::Axis::kAlpha, AxisIndication::Axis::kBeta}) {
     for (const auto error :
-         {Indication::AxisError::kX, Indication::AxisError::kY, Indication::AxisError::kZ}) {
+         {AxisIndication::AxisError::kX, AxisIndication::AxisError::kY, AxisIndication::AxisError::kZ}) {
       asked.push_back(axis_error_of(axis, error, -1.0, 1.0));
     }
   }
@@ -620,14 +620,14 @@ TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
 }
 
 TEST(AxisError, TheSignOfTheErrorCounts) {
-  using Indication = record::Indication;
+  using AxisIndication = record::Indication;
   Bench bench;
   bench.declared.emplace();
   record::RunRecord run = calibration_run(bench);
   run.header.decision_rule = "iso-14253-1";
   const auto judged = [&](double lower_mm, double upper_mm) {
     run.features[0].characteristics = {
-        axis_error_of(Indication::Axis::kAlpha, Indication::AxisError::kY, lower_mm, upper_mm)};
+        axis_error_of(AxisIndication::Axis::kAlpha, AxisIndication::AxisError::kY, lower_mm, upper_mm)};
     const auto evaluation = evaluate(run);
     EXPECT_TRUE(evaluation);
     return evaluation->features.at(0).characteristics.at(0);
