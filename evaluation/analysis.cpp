@@ -9,6 +9,9 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
+#include "evaluation/results/temperature_gates.h"
+#include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
 
@@ -22,7 +25,8 @@ std::optional<double> nominal_limit(const record::Characteristic& asked) {
 }
 
 void judge(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-           const FeatureResult& result, CharacteristicResult& out) {
+           const FeatureResult& result, const UncertaintyStatus& interval,
+           CharacteristicResult& out) {
   record::Characteristic& asked = out.characteristic;
   asked.tolerance_mm = nominal_limit(asked);
   out.verdict = Verdict::kVoid;
@@ -30,23 +34,24 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = result.failure ? result.failure->said() : core::phrase("there is no result");
     return;
   }
+  const auto chain = chain_fault(result);
   const auto value = value_of(*result.analysis, asked);
   if (!value) {
-    out.reason = value.error().said();
+    out.reason = chain.value_or(value.error().said());
     return;
   }
   if (!std::isfinite(value->value_mm)) {
     out.reason = core::phrase("the computation gave no finite number");
     return;
   }
-  out.value.emplace(
-      symbol_of(asked), value->value_mm,
-      operator_of(*result.analysis, asked, temperature_words(result)),
-      UncertaintyStatus::none(core::phrase("intervals are computed of touches and points only")));
+  out.value.emplace(symbol_of(asked), value->value_mm,
+                    operator_of(*result.analysis, asked, temperature_words(result)), interval);
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
-  if (value->void_because && !proves) {
+  if (chain) {  // before all else: also a bound would rest on what the other feature gave
+    out.reason = *chain;
+  } else if (value->void_because && !proves) {
     out.reason = *value->void_because;
   } else if (record.ending != "finished") {
     out.reason = core::phrase("the run did not finish");
@@ -54,6 +59,13 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = *std::move(fault);
   } else {
     apply(rule, out);
+    if (value->void_because && out.verdict != Verdict::kDoesNotConform) {
+      // The value as read is above the limit, but its interval is not: a bound proves no more.
+      out.verdict = Verdict::kVoid;
+      out.reason = *value->void_because;
+      out.outcome.reset();
+      out.risks.reset();
+    }
     if (!value->detail.empty()) out.reason = core::phrase("{} ({})", out.reason, value->detail);
   }
 }
@@ -84,6 +96,14 @@ ValueOperator operator_of(const AnalysisResult& result,
       result.found);
 }
 
+std::vector<UncertaintyStatus> intervals_of(const AnalysisResult& result,
+                                            std::span<const record::Characteristic> characteristics,
+                                            const UncertaintyOptions& options) {
+  return std::visit(
+      [&](const auto& found) { return intervals_of(found, characteristics, options); },
+      result.found);
+}
+
 core::Phrase filter_text(const AnalysisResult& result) {
   return std::visit([](const auto& found) { return filter_text(found); }, result.found);
 }
@@ -92,16 +112,23 @@ core::Phrase sampling_text(const AnalysisResult& result) {
   return std::visit([](const auto& found) { return sampling_text(found); }, result.found);
 }
 
-FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
-                                const std::optional<fit::ProbeTip>& probe) {
-  FeatureResult result;
-  result.feature = record.features[static_cast<std::size_t>(index)];
-  result.temperatures = temperatures_of(record, {});         // series have no touch temperatures
-  if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
-    if (probe) result.tip_radius_mm = probe->radius_mm;
-    keep(evaluate_rotary(record, index, result), result);
-    return result;
-  }
+namespace {
+
+/// The wheels among the features before one, for those that take values of them.
+EarlierWheel wheel_among(std::span<const FeatureResult> earlier) {
+  return [earlier](const std::string& id) -> core::Result<const WheelResult*> {
+    const auto producer = producer_of(id, earlier);
+    if (!producer) return core::fail(producer.error());
+    const auto* const wheel = std::get_if<WheelResult>(&(*producer)->analysis->found);
+    if (wheel != nullptr) return wheel;
+    return core::fail(core::Code::kMeaning,
+                      core::phrase("it takes a value of feature {}, which is no wheel", id));
+  };
+}
+
+/// Evaluates the series of a feature, or says why they cannot be.
+void evaluate_series(const record::RunRecord& record, int index,
+                     std::span<const FeatureResult> earlier, FeatureResult& result) {
   const bool recorded =
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
@@ -112,14 +139,14 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
   if (!recorded || !named) {
     result.failure =
         core::Error{core::Code::kNoPoints, "the run ended before its data were kept", {}};
-    return result;
+    return;
   }
   switch (result.feature.shape) {
     case record::Shape::kSpindle:
       keep(evaluate_spindle(record, index, result), result);
       break;
     case record::Shape::kWheel:
-      keep(evaluate_wheel(record, index, result), result);
+      keep(evaluate_wheel(record, index, wheel_among(earlier), result), result);
       break;
     case record::Shape::kContour:
       keep(evaluate_contour(record, index, result), result);
@@ -130,15 +157,40 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
           fmt::format("this version does not evaluate a {}", record::name_of(result.feature.shape)),
           {}};
   }
+}
+
+}  // namespace
+
+FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                const std::optional<fit::ProbeTip>& probe,
+                                std::span<const FeatureResult> earlier) {
+  FeatureResult result;
+  result.feature = record.features[static_cast<std::size_t>(index)];
+  if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
+    if (probe) result.tip_radius_mm = probe->radius_mm;
+    keep(evaluate_rotary(record, index, result), result);
+  } else {
+    result.temperatures = temperatures_of_series(record, index);
+    evaluate_series(record, index, earlier, result);
+  }
+  std::vector<Gate> gates = temperature_gates(record, result);
+  result.gates.insert(result.gates.begin(), gates.begin(), gates.end());
   return result;
 }
 
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result) {
-  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+  const std::vector<record::Characteristic>& asked = result.feature.characteristics;
+  std::vector<UncertaintyStatus> intervals(asked.size(), UncertaintyStatus::none({}));
+  if (result.analysis) {
+    intervals = intervals_of(*result.analysis, asked, uncertainty_options(record));
+  }
+  for (std::size_t c = 0; c < asked.size(); ++c) {
     CharacteristicResult out;
-    out.characteristic = characteristic;
-    judge(record, rule, result, out);
+    out.characteristic = asked[c];
+    const auto& own = asked[c].indication.decision_rule;
+    judge(record, own ? core::Result<DecisionRule>(rule_of(*own)) : rule, result, intervals[c],
+          out);
     result.characteristics.push_back(std::move(out));
   }
 }

@@ -1,23 +1,29 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/results/analysis_value.h"
+#include "evaluation/results/evaluation.h"
 #include "evaluation/results/stated_value.h"
 #include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
 
-struct FeatureResult;
-
 struct AnalysisResult;  // analysis_result.h
 
 /// The value of a characteristic, or why there is none.
 [[nodiscard]] core::Result<AnalysisValue> value_of(const AnalysisResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of the values that characteristics ask for, in their order, from one set of
+/// trials; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const AnalysisResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 /// How the value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
 [[nodiscard]] ValueOperator operator_of(const AnalysisResult& result,
                                         const record::Characteristic& characteristic,
@@ -29,13 +35,15 @@ struct AnalysisResult;  // analysis_result.h
 /// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
 /// bits.
 /// @param probe  The qualification of the run, for an analysis of touches.
+/// @param earlier  The features before it, evaluated and judged: it may take values of them.
 [[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
-                                              const std::optional<fit::ProbeTip>& probe);
+                                              const std::optional<fit::ProbeTip>& probe,
+                                              std::span<const FeatureResult> earlier = {});
 
 /// Fills the characteristics of an analysed feature and applies the rule to them. A characteristic
-/// is void without a result or a value, outside the temperature limits, where the value proves
-/// nothing, when the run did not finish, or when the rule needs an interval: no interval is
-/// computed for series yet.
+/// is void without a result or a value, with a value of a void feature, outside the temperature
+/// limits, where the value proves nothing, when the run did not finish, or when its rule needs an
+/// interval and there is none.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result);
 

@@ -525,11 +525,15 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   out.probe = evaluate_probe(record);
   const FixtureFacts facts = fixture_facts(record);
   out.fixture = facts.use;
-  // A verdict may need other features, such as a datum: all are evaluated before one is judged.
+  // The verdict on a surface may need other features, such as a datum: all are evaluated before one
+  // is judged. An analysis is judged at once: a later one may take a value of it, unless it is
+  // void.
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     const int index = static_cast<int>(i);
     if (record::is_analysis(record.features[i].shape)) {
-      out.features.push_back(evaluate_analysis(record, index, out.probe));
+      FeatureResult analysed = evaluate_analysis(record, index, out.probe, out.features);
+      decide_analysis(record, out.rule, analysed);
+      out.features.push_back(std::move(analysed));
       continue;
     }
     auto feature = evaluate_feature(record, index, out.probe, facts.kinematics);
@@ -543,12 +547,9 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   PartFindings found = find_all(record, out.features, out.probe);
   for (std::size_t i = 0; i < out.features.size(); ++i) {
     FeatureResult& feature = out.features[i];
-    if (record::is_analysis(feature.feature.shape)) {
-      decide_analysis(record, out.rule, feature);
-    } else {
-      decide(record, out.rule, out.probe, found[i], feature);
-      apply_calibration(out.fixture, feature);
-    }
+    if (record::is_analysis(feature.feature.shape)) continue;
+    decide(record, out.rule, out.probe, found[i], feature);
+    apply_calibration(out.fixture, feature);
   }
   out.verdict = overall(out.features);
   return checked;

@@ -22,6 +22,7 @@
 #include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/rotary_axes.h"
+#include "record/tasks/run.h"
 #include "record/tasks/spindle.h"
 #include "record/tasks/surface.h"
 #include "record/tasks/uncertainty.h"
@@ -191,6 +192,7 @@ struct EnvironmentPlan {
   double max_degC = 22.0;
   double temperature_uncertainty_K = 0.1;
   std::optional<double> assumed_degC;  ///< Temperature of part and scales when not measured.
+  double max_drift_K = record::EnvironmentSettings{}.max_drift_K;
 };
 
 /// The keys that count depend on the type of the feature.

@@ -25,8 +25,9 @@ struct SimulatedWheelPlan {
   int points = 12;
   double arc_from_deg = 0.0;
   double arc_to_deg = 360.0;
-  int chipped_point = 0;  ///< Number of the point, from 1; 0: none.
-  double chip_um = 0.0;
+  int chipped_point = 0;  ///< Number of the point in the middle of the chip, from 1; 0: none.
+  double chip_um = 0.0;   ///< > 0: a proud grain.
+  double chip_width_deg = 1.0;
 };
 
 }  // namespace rondure::plans

@@ -30,6 +30,8 @@ struct Indication {
   enum class Association { kOneSided, kEqualised, kLs, kZone };
   enum class Filter { kNone, kGaussian, kRobustGaussian, kSpline };
   enum class Outliers { kNone, kFiveScales };
+  enum class Axis { kAlpha, kBeta };    ///< Of a fixture.
+  enum class AxisError { kX, kY, kZ };  ///< EX, EY, EZ of a rotary axis.
 
   Parameter parameter = Parameter::kTotal;
   Size size = Size::kLP;
@@ -43,6 +45,8 @@ struct Indication {
   std::optional<double> angle_deg;  ///< Nominal, of an angularity.
   std::optional<double> from_mm;    ///< Restricted portion, part z; none: to the end.
   std::optional<double> to_mm;
+  std::optional<Axis> axis;  ///< Of an axis-error.
+  std::optional<AxisError> error;
   std::vector<std::string> datum;  ///< "A-B", "C": letters or ids of features.
   // The following keys have defaults of the feature and of the plan.
   std::optional<Association> association;
@@ -117,6 +121,15 @@ constexpr auto words_of(Indication::Filter) {
                                       {Filter::kRobustGaussian, "robust-gaussian"},
                                       {Filter::kSpline, "spline"}});
 }
+constexpr auto words_of(Indication::Axis) {
+  using Axis = Indication::Axis;
+  return std::to_array<Word<Axis>>({{Axis::kAlpha, "alpha"}, {Axis::kBeta, "beta"}});
+}
+constexpr auto words_of(Indication::AxisError) {
+  using AxisError = Indication::AxisError;
+  return std::to_array<Word<AxisError>>(
+      {{AxisError::kX, "EX"}, {AxisError::kY, "EY"}, {AxisError::kZ, "EZ"}});
+}
 constexpr auto words_of(Indication::Outliers) {
   using Outliers = Indication::Outliers;
   return std::to_array<Word<Outliers>>(
@@ -181,6 +194,11 @@ void describe(Visitor& v, Indication& p) {
       "from_mm", p.from_mm,
       within(10'000.0, "Restricted portion: its lower end, part z. Left out: of the feature."));
   v.number("to_mm", p.to_mm, within(10'000.0, "Restricted portion: its upper end, part z."));
+  v.text("axis", p.axis,
+         {.meaning = "Of an axis-error: alpha, the base-fixed axis of the fixture, or beta, the "
+                     "carried one."});
+  v.text("error", p.error,
+         {.meaning = "Of an axis-error: EX, EY or EZ, the shift along this axis of the machine."});
   v.texts("datum", p.datum,
           {.empty_allowed = false,
            .meaning = "Datums in their order, each the letter or id of a feature, or a common "

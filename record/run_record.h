@@ -59,6 +59,7 @@ enum class Form {
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
   kFixtureResidual,     ///< Largest distance of a ball from its predicted position.
   kFixtureResidualRms,  ///< Root mean square of these distances.
+  kAxisError,           ///< Largest of one error of a rotary axis over its stations.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
 /// kStartPose: no search, the cloud of the start pose. kMerged: no search, one cloud from several
@@ -122,7 +123,8 @@ constexpr auto words_of(Form) {
                                     {Form::kContourDeviation, "contour-deviation"},
                                     {Form::kContourSpread, "contour-spread"},
                                     {Form::kFixtureResidual, "fixture-residual"},
-                                    {Form::kFixtureResidualRms, "fixture-residual-rms"}});
+                                    {Form::kFixtureResidualRms, "fixture-residual-rms"},
+                                    {Form::kAxisError, "axis-error"}});
 }
 constexpr auto words_of(Reference) {
   return std::to_array<Word<Reference>>({{Reference::kMinimumZone, "mz"},
@@ -164,7 +166,8 @@ struct Characteristic {
   std::optional<double> tolerance_mm;  ///< Upper limit: of a deviation, or the greatest size [mm].
   std::string drawing_zone;            ///< Grid square on the drawing; may be empty.
   std::vector<HarmonicLimit> harmonic_limits = {};  ///< For kHarmonicLimits, never empty there.
-  std::optional<double> lower_mm = {};              ///< Lower limit: the least size [mm].
+  /// Lower limit: the least size, or of a value with a sign, which has both limits [mm].
+  std::optional<double> lower_mm = {};
   Indication indication = {};  ///< With the defaults of the feature and of the plan.
 
   /// Whether there is a limit to judge by; else the value is reported only.

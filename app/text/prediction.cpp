@@ -18,6 +18,8 @@ using evaluation::Measurand;
 using evaluation::PredictedStatement;
 using nlohmann::ordered_json;
 
+constexpr double kNormal95 = 1.96;  // half the width of 95 % of a normal distribution, in u
+
 std::string statement_row(const std::optional<PredictedStatement>& said) {
   if (!said) return {};
   const int digits = evaluation::decimals_for(said->expanded_mm());
@@ -52,7 +54,7 @@ std::string rows_without(const plans::Plan& plan,
          ++i) {
       names += (names.empty() ? "" : ", ") + predicted[i].characteristic.id;
     }
-    if (first.prediction.why.empty()) continue;
+    if (first.prediction.why.empty() || first.residual) continue;
     out += wrapped(fmt::format("{}, {}: none; {}", plan.features[first.feature].id, names,
                                first.prediction.why),
                    "  ", "    ");
@@ -66,7 +68,7 @@ std::string assumptions(const std::vector<PredictedCharacteristic>& predicted) {
   std::string repeatability;
   for (const PredictedCharacteristic& of : predicted) {
     const evaluation::Prediction& p = of.prediction;
-    if (!p.why.empty()) continue;
+    if (!of.states_surface()) continue;
     if (!p.repeatability.empty()) repeatability = p.repeatability;
     const auto same = std::find_if(forms.begin(), forms.end(),
                                    [&](const auto& form) { return form.first == p.form; });
@@ -88,9 +90,101 @@ std::string assumptions(const std::vector<PredictedCharacteristic>& predicted) {
                        "  ", "    ");
 }
 
+/// Rows of one characteristic of an analysis.
+std::string analysis_rows(const plans::Plan& plan, const PredictedCharacteristic& of) {
+  const evaluation::AnalysisPrediction& p = *of.analysis;
+  std::string out = fmt::format("  {}, {}\n", plan.features[of.feature].id, of.characteristic.id);
+  const int digits = evaluation::decimals_for(p.expanded_mm());
+  out += fmt::format("    {:<18} {:>11.{}f} {:>8.{}f} {:>8.{}f} {:>8.{}f} {:>8.{}f}\n",
+                     p.at_most ? "at most" : "", core::micrometres(p.expected_mm), digits,
+                     core::micrometres(p.below_mm), digits, core::micrometres(p.above_mm), digits,
+                     core::micrometres(p.expanded_mm()), digits, core::micrometres(p.linear_u_mm),
+                     std::min(digits + 1, 4));
+  const std::string largest = largest_of(p.budget);
+  return out + wrapped(largest.empty() ? "nothing: no influence is declared" : largest, "    from ",
+                       "      ");
+}
+
+/// The predictions of analyses, with what they rest on.
+std::string analysis_table(const plans::Plan& plan,
+                           const std::vector<PredictedCharacteristic>& predicted) {
+  std::string rows;
+  const PredictedCharacteristic* first = nullptr;
+  for (const PredictedCharacteristic& of : predicted) {
+    if (!of.analysis) continue;
+    if (first == nullptr) first = &of;
+    rows += analysis_rows(plan, of);
+  }
+  if (first == nullptr) return {};
+  return fmt::format("\nPredicted interval of analyses, before the first reading, {:.4g} %, um\n",
+                     100.0 * first->analysis->coverage_1) +
+         fmt::format("    {:<18} {:>11} {:>8} {:>8} {:>8} {:>8}\n", "", "expected", "-", "+", "U",
+                     "u") +
+         rows +
+         wrapped(fmt::format("One set of data, simulated with the seed {} in place of {} and "
+                             "evaluated as in a run: part, machine and scatter are those of "
+                             "`simulation`. U is half the width of the interval, by trials; u is "
+                             "the standard uncertainty by linear propagation of what the plan "
+                             "declares. Nothing else is in them.",
+                             first->simulated_seed, plan.simulation->seed),
+                 "  ", "    ");
+}
+
+double residual_u_mm(const PredictedCharacteristic& of) {
+  return of.characteristic.form == record::Form::kFixtureResidual ? of.residual->largest_u_mm
+                                                                  : of.residual->rms_u_mm;
+}
+
+/// What is predicted of calibrations of the fixture: the uncertainty of values that cannot be
+/// foretold.
+std::string residual_table(const plans::Plan& plan,
+                           const std::vector<PredictedCharacteristic>& predicted) {
+  std::string rows;
+  const PredictedCharacteristic* first = nullptr;
+  for (const PredictedCharacteristic& of : predicted) {
+    if (!of.residual) continue;
+    if (first == nullptr) first = &of;
+    const double u_um = core::micrometres(residual_u_mm(of));
+    const bool largest = of.characteristic.form == record::Form::kFixtureResidual;
+    rows +=
+        wrapped(fmt::format("{}, {}: u {}{:.2g} um, U {}{:.2g} um", plan.features[of.feature].id,
+                            of.characteristic.id, largest ? "at most " : "", u_um,
+                            largest ? "at most " : "", kNormal95 * u_um),
+                "  ", "    ");
+  }
+  if (first == nullptr) return {};
+  const evaluation::ResidualPrediction& p = *first->residual;
+  return "\nPredicted uncertainty of a calibration, before the first touch, 95 %\n" + rows +
+         wrapped(fmt::format("Linear propagation to {} ball centres of {:.2g} um each: touches "
+                             "(repeatability {}), ball_um, machine_uncertainty_um. U is {} u. The "
+                             "value itself cannot be foretold: {}.",
+                             p.centers, core::micrometres(p.center_u_mm), p.repeatability,
+                             kNormal95, first->prediction.why),
+                 "  ", "    ");
+}
+
 bool states_any(const std::vector<PredictedCharacteristic>& predicted) {
   return std::any_of(predicted.begin(), predicted.end(),
-                     [](const auto& of) { return of.prediction.why.empty(); });
+                     [](const auto& of) { return of.states_surface(); });
+}
+
+/// The predictions of surfaces, at least one of which has an interval.
+std::string surface_table(const plans::Plan& plan,
+                          const std::vector<PredictedCharacteristic>& predicted) {
+  const auto first = std::find_if(predicted.begin(), predicted.end(),
+                                  [](const auto& of) { return of.states_surface(); });
+  std::string out = fmt::format("\nPredicted interval, before the first touch, {:.4g} %, um\n",
+                                100.0 * first->prediction.coverage_1);
+  out += fmt::format("    {:<24} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}\n", "", "expected", "-", "+",
+                     "width", "U", "U 9/10");
+  for (const PredictedCharacteristic& of : predicted) {
+    if (of.states_surface()) out += characteristic_rows(plan, of);
+  }
+  return out + assumptions(predicted) +
+         wrapped(
+             "U is half the width, the mean over such parts; nine of ten have at most U 9/10. "
+             "Only what the plan declares is in it.",
+             "  ", "    ");
 }
 
 std::string candidate_row(const SamplingCandidate& c, const SamplingSearch& of, bool best) {
@@ -131,6 +225,25 @@ std::string advice(const SamplingSearch& of, double target_mm) {
   return out;
 }
 
+/// The features that are analyses: their data are no sampling of a surface.
+std::vector<std::string> analyses_of(const plans::Plan& plan) {
+  std::vector<std::string> out;
+  for (const plans::FeaturePlan& feature : plan.features) {
+    if (record::is_analysis(feature.type)) out.push_back(feature.id);
+  }
+  return out;
+}
+
+/// That no samplings of analyses are searched; empty for a plan without any.
+std::string analyses_not_searched(const plans::Plan& plan) {
+  const std::vector<std::string> ids = analyses_of(plan);
+  if (ids.empty()) return {};
+  return wrapped(fmt::format("--target-U proposes samplings of touched surfaces only, and none for "
+                             "{}.",
+                             fmt::join(ids, ", ")),
+                 "  ", "  ");
+}
+
 ordered_json statement_json(const std::optional<PredictedStatement>& said) {
   if (!said) return nullptr;
   return {{"expected_um", core::micrometres(said->expected_mm)},
@@ -147,6 +260,37 @@ ordered_json budget_json(const evaluation::BudgetLine& line) {
           {"standard_uncertainty_um", core::micrometres(line.standard_uncertainty_mm)},
           {"shift_um", core::micrometres(line.shift_mm)},
           {"share", line.share_1}};
+}
+
+/// The keys of the prediction of an analysis.
+void add_analysis(const PredictedCharacteristic& of, ordered_json& out) {
+  const evaluation::AnalysisPrediction& p = *of.analysis;
+  out["coverage"] = p.coverage_1;
+  out["from"] = "one simulated set of data";
+  out["simulated_seed"] = of.simulated_seed;
+  out["as_read_um"] = core::micrometres(p.as_read_mm);
+  out["expected_um"] = core::micrometres(p.expected_mm);
+  out["at_most"] = p.at_most;
+  out["below_um"] = core::micrometres(p.below_mm);
+  out["above_um"] = core::micrometres(p.above_mm);
+  out["expanded_um"] = core::micrometres(p.expanded_mm());
+  out["linear_standard_uncertainty_um"] = core::micrometres(p.linear_u_mm);
+  out["budget"] = ordered_json::array();
+  for (const auto& line : p.budget) out["budget"].push_back(budget_json(line));
+}
+
+/// The keys of the prediction of a calibration.
+void add_residual(const PredictedCharacteristic& of, ordered_json& out) {
+  const double u_um = core::micrometres(residual_u_mm(of));
+  out["coverage"] = 0.95;
+  out["from"] = "linear propagation";
+  out["value_not_foretold"] = of.prediction.why;
+  out["at_most"] = of.characteristic.form == record::Form::kFixtureResidual;
+  out["expanded_um"] = kNormal95 * u_um;
+  out["linear_standard_uncertainty_um"] = u_um;
+  out["ball_centers"] = of.residual->centers;
+  out["ball_center_standard_uncertainty_um"] = core::micrometres(of.residual->center_u_mm);
+  out["repeatability"] = of.residual->repeatability;
 }
 
 ordered_json candidate_json(const SamplingCandidate& c) {
@@ -178,32 +322,20 @@ ordered_json changes_json(const SamplingSearch& of) {
 std::string prediction_table(const plans::Plan& plan,
                              const std::vector<PredictedCharacteristic>& predicted) {
   if (predicted.empty()) return {};
-  std::string out = "\nPredicted interval, before the first touch";
-  if (!states_any(predicted)) {
-    out += ": none\n";
-  } else {
-    const auto first = std::find_if(predicted.begin(), predicted.end(),
-                                    [](const auto& of) { return of.prediction.why.empty(); });
-    out += fmt::format(", {:.4g} %, um\n", 100.0 * first->prediction.coverage_1);
-    out += fmt::format("    {:<24} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}\n", "", "expected", "-", "+",
-                       "width", "U", "U 9/10");
-  }
-  for (const PredictedCharacteristic& of : predicted) {
-    if (of.prediction.why.empty()) out += characteristic_rows(plan, of);
-  }
-  out += rows_without(plan, predicted);
-  out += assumptions(predicted);
-  if (!states_any(predicted)) return out;
-  return out +
-         wrapped(
-             "U is half the width, the mean over such parts; nine of ten have at most U 9/10. "
-             "Only what the plan declares is in it.",
-             "  ", "    ");
+  std::string out;
+  if (states_any(predicted)) out += surface_table(plan, predicted);
+  out += analysis_table(plan, predicted);
+  out += residual_table(plan, predicted);
+  if (out.empty()) out += "\nPredicted interval, before the first touch: none\n";
+  return out + rows_without(plan, predicted);
 }
 
 std::string search_table(const plans::Plan& plan, const std::vector<SamplingSearch>& searches,
                          double target_mm) {
-  if (searches.empty()) return "\nNo feature is touched, so no sampling can be proposed.\n";
+  const std::string not_searched = analyses_not_searched(plan);
+  if (searches.empty()) {
+    return "\nNo feature is touched, so no sampling can be proposed.\n" + not_searched;
+  }
   std::string out;
   for (const SamplingSearch& of : searches) {
     out += fmt::format("\nSamplings of {} for U of at most {:.6g} um {}\n",
@@ -223,6 +355,7 @@ std::string search_table(const plans::Plan& plan, const std::vector<SamplingSear
         "  U 9/10 does: the U that nine of ten parts stay below.\n";
     out += advice(of, target_mm);
   }
+  if (!not_searched.empty()) out += "\n" + not_searched;
   return out;
 }
 
@@ -233,7 +366,11 @@ ordered_json prediction_json(const plans::Plan& plan,
     const evaluation::Prediction& p = of.prediction;
     ordered_json one = {{"feature", plan.features[of.feature].id},
                         {"characteristic", of.characteristic.id}};
-    if (!p.why.empty()) {
+    if (of.analysis) {
+      add_analysis(of, one);
+    } else if (of.residual) {
+      add_residual(of, one);
+    } else if (!p.why.empty()) {
       one["none"] = p.why;
     } else {
       one["coverage"] = p.coverage_1;
@@ -264,7 +401,9 @@ ordered_json search_json(const plans::Plan& plan, const std::vector<SamplingSear
     for (const auto& c : of.candidates) one["candidates"].push_back(candidate_json(c));
     features.push_back(std::move(one));
   }
-  return {{"expanded_um", core::micrometres(target_mm)}, {"features", features}};
+  return {{"expanded_um", core::micrometres(target_mm)},
+          {"features", features},
+          {"not_searched", analyses_of(plan)}};
 }
 
 }  // namespace rondure::app

@@ -45,7 +45,14 @@ core::Result<int> rows_in(const std::string& text, const RecordArguments& argume
     if (table.error().code == core::Code::kNoPoints) return 0;
     return core::fail(table.error());
   }
-  const auto rows = static_cast<int>(table->values.size() / names.size());
+  if (table->columns.size() != names.size()) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("the table holds a {}, which a recording does not write; give "
+                                  "another file",
+                                  record::kTemperatureColumn),
+                      arguments.out);
+  }
+  const auto rows = static_cast<int>(table->rows());
   for (int i = 0; i < rows; ++i) {
     const std::string here =
         core::shortest(table->values[static_cast<std::size_t>(i) * names.size()]);

@@ -59,6 +59,9 @@ std::string circle_lines(const fit::WheelMeasurement& m) {
       "\n  arc       {:.1f} deg covered; a point error shows {:.2f} times in the centre, {:.2f} in "
       "R; tau {:.2f}\n",
       core::degrees(m.order.coverage_rad()), m.factors.center, m.factors.radius, m.correlation);
+  if (const std::string why = m.radius_void_because; !why.empty()) {
+    out += fmt::format("            centre and radius prove nothing: {}\n", why);
+  }
   return out;
 }
 

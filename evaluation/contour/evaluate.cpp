@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/contour/internal/gates.h"
+#include "evaluation/contour/internal/trials.h"
 #include "evaluation/contour/result.h"
+#include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/evaluation.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/settings.h"
@@ -131,10 +134,8 @@ core::Result<AnalysisValue> mask_value(const ContourResult& facts,
   return out;
 }
 
-}  // namespace
-
-core::Result<AnalysisValue> value_of(const ContourResult& facts,
-                                     const record::Characteristic& asked) {
+core::Result<AnalysisValue> measured_value(const ContourResult& facts,
+                                           const record::Characteristic& asked) {
   switch (asked.form) {
     case Form::kContourDeviation:
       return deviation_value(facts);
@@ -145,6 +146,59 @@ core::Result<AnalysisValue> value_of(const ContourResult& facts,
     default:
       return core::fail(Code::kMeaning, fmt::format("a contour has no {}", name_of(asked.form)));
   }
+}
+
+/// The words of a curve: "stable" needs the lower end of the interval of the index. Without an
+/// interval there is none, and of a void curve there is no word at all.
+void word_from_interval(std::optional<fit::Repeatability>& curve, ContourNumber::Curve which,
+                        const std::vector<ContourNumber>& numbers, double stable, bool voided) {
+  if (!curve) return;
+  curve->no_word = voided;
+  for (const ContourNumber& number : numbers) {
+    if (number.curve != which || number.kind != ContourNumber::Kind::kIndex) continue;
+    const auto& stated = number.uncertainty.result();
+    if (stated) curve->index_low = stated->sampled.low_mm;
+  }
+  if (!curve->index_low && curve->index.value_or(0.0) >= stable) curve->no_word = true;
+}
+
+void keep_words(ContourResult& facts) {
+  using Curve = ContourNumber::Curve;
+  const double stable = facts.options.limits.stable;
+  const auto keep = [&](std::optional<fit::Repeatability>& curve, Curve which, bool voided) {
+    word_from_interval(curve, which, facts.numbers, stable, voided);
+  };
+  keep(facts.study.total, Curve::kTotal, facts.total_void.has_value());
+  keep(facts.study.following, Curve::kFollowing, facts.following_void.has_value());
+  keep(facts.study.rest, Curve::kRest, facts.rest_void.has_value());
+  keep(facts.study.main, Curve::kMain, false);
+}
+
+/// Pins whose traces were not recorded.
+core::Result<void> check_traces(const record::RunRecord& record, int index, std::size_t parts,
+                                FeatureResult& result) {
+  const bool pin_alone = record.data_of(index, fmt::format("pin {}", parts + 1)) != nullptr &&
+                         record.data_of(index, fmt::format("axes {}", parts + 1)) == nullptr;
+  if (!pin_alone) return {};
+  const core::Phrase reason =
+      core::phrase("part {} has no traces of the axes: its f and n are not known", parts + 1);
+  result.gates.push_back({"traces",
+                          core::phrase("traces of whole turns without a missing sample"),
+                          {},
+                          {},
+                          "",
+                          Gate::Outcome::kVoids,
+                          reason});
+  return core::fail(Code::kNoPoints, reason);
+}
+
+}  // namespace
+
+core::Result<AnalysisValue> value_of(const ContourResult& facts,
+                                     const record::Characteristic& asked) {
+  auto out = measured_value(facts, asked);
+  if (out && facts.total_void) out->void_because = facts.total_void;
+  return out;
 }
 
 core::Phrase filter_text(const ContourResult& facts) {
@@ -185,12 +239,31 @@ core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, in
   if (!task) return tl::unexpected(task.error());
   ContourResult facts;
   facts.options = contour_options(*task);
+  facts.feature_id = result.feature.id;
+  facts.influences = task->uncertainty;
+  facts.sampling_ms = task->sampling_ms.value_or(0.0);
   const auto parts = parts_of(record, index);
+  if (auto checked = check_traces(record, index, parts.size(), result); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  const auto add = [&](std::vector<Gate> gates) {
+    for (Gate& gate : gates) result.gates.push_back(std::move(gate));
+  };
+  add(position_gates(parts, facts.options));
   auto study = fit::contour_study(parts, facts.options);
-  if (!study) return tl::unexpected(study.error());
+  if (!study) {
+    add(failed_gates(study.error()));
+    return tl::unexpected(study.error());
+  }
   facts.study = *std::move(study);
   facts.names = names_of(*task, parts.size());
-  result.warnings = facts.study.warnings;
+  add(contour_gates(result.feature.characteristics, facts));
+  for (const core::Error& warning : facts.study.warnings) {
+    if (!is_gate(warning, facts.options)) result.warnings.push_back(warning);
+  }
+  facts.study.warnings = result.warnings;  // said once
+  facts.numbers = contour_numbers(facts, uncertainty_options(record));
+  keep_words(facts);
   return facts;
 }
 

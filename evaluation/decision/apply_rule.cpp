@@ -19,6 +19,12 @@ tl::unexpected<core::Error> no_verdict(core::Phrase why) {
   return core::fail(core::Code::kMeaning, std::move(why));
 }
 
+/// Whether the whole interval lies beyond a limit.
+bool beyond(const UncertaintyStatement& known, const Limits& limits) {
+  return (limits.upper_mm && known.low_mm > *limits.upper_mm) ||
+         (limits.lower_mm && known.high_mm < *limits.lower_mm);
+}
+
 /// Acceptance and rejection limits of a rule, on the scale of the compared value.
 struct Zones {
   double compared_mm = 0.0;
@@ -316,9 +322,79 @@ core::Phrase verdict_sentence(const DecisionRule& rule, const KnownValue& value,
   return {};
 }
 
+/// The limit that an upper bound of a value is held against: the upper one where there is one.
+double limit_of_bound(const Limits& limits) {
+  return limits.upper_mm ? *limits.upper_mm : *limits.lower_mm;
+}
+
+/// Whether a bound proves the verdict of a rule by itself, whatever a guard factor below 1 or a
+/// risk allows. An upper bound proves no lower limit, but 0, which no such value is below.
+bool bound_proves(const UncertaintyStatement& known, const Limits& limits, Verdict verdict) {
+  if (verdict == Verdict::kConforms) {
+    const bool above = !limits.lower_mm || *limits.lower_mm <= 0.0;
+    return above && (!limits.upper_mm || known.high_mm <= *limits.upper_mm);
+  }
+  return verdict == Verdict::kDoesNotConform && beyond(known, limits);
+}
+
+/// Why there is no verdict on a value of which only an upper bound is known, or nothing.
+std::optional<core::Phrase> obstacle_to_bound(const DecisionRule& rule, const KnownValue& value,
+                                              const Limits& limits, Verdict verdict) {
+  if (bound_proves(*value.statement, limits, verdict)) return std::nullopt;
+  return core::phrase(
+      "noise and influences make up so much of the value that it is only known to be at most {}; "
+      "under the rule {} that proves nothing at the {} limit of {}: lower the noise, or average "
+      "more readings",
+      with_unit(value, value.statement->high_mm), core::Phrase(name_of(rule.kind)),
+      limits.upper_mm ? core::phrase("upper") : core::phrase("lower"),
+      limit_text(value, limit_of_bound(limits)));
+}
+
+/// The sentence about a value of which only an upper bound is known.
+core::Phrase bound_sentence(const KnownValue& value, const Limits& limits, Verdict verdict) {
+  const UncertaintyStatement& known = *value.statement;
+  if (verdict == Verdict::kConforms) {
+    return core::phrase(
+        "the value is at most {}, within the limit of {}; noise and influences hide the rest",
+        with_unit(value, known.high_mm), limit_text(value, limit_of_bound(limits)));
+  }
+  if (limits.upper_mm && known.low_mm > *limits.upper_mm) {
+    return core::phrase(
+        "the whole interval lies beyond the limit of {}: it begins at {}, although noise and "
+        "influences make up much of the value as read",
+        limit_text(value, *limits.upper_mm), with_unit(value, known.low_mm));
+  }
+  return core::phrase("the value is at most {}, below the lower limit of {}",
+                      with_unit(value, known.high_mm), limit_text(value, *limits.lower_mm));
+}
+
+/// Why two limits that are closer than the ends of the interval leave a verdict open, or nothing.
+/// Where the whole interval lies beyond a limit the verdict stands.
+std::optional<core::Phrase> incapability(const KnownValue& value, const Limits& limits,
+                                         Verdict verdict) {
+  const UncertaintyStatement& known = *value.statement;
+  if (!limits.lower_mm || !limits.upper_mm) return std::nullopt;
+  const double width_mm = known.high_mm - known.low_mm;
+  const double apart_mm = *limits.upper_mm - *limits.lower_mm;
+  if (width_mm <= apart_mm) return std::nullopt;
+  if (verdict == Verdict::kDoesNotConform && beyond(known, limits)) return std::nullopt;
+  return core::phrase(
+      "capability: the interval is {:.3f} um wide, the limits are {:g} um apart; no value can be "
+      "proven to lie between them",
+      micrometres(width_mm), micrometres(apart_mm));
+}
+
 /// Why a value that was read beyond a limit is undecided although its corrected value is within.
 core::Phrase read_beyond_sentence(const KnownValue& value, const Limits& limits,
                                   double corrected_mm) {
+  if (value.statement->at_most) {
+    return core::phrase(
+        "read beyond the limit of {}: {}; free of noise and influences it is at most {}, within "
+        "the "
+        "limit: neither verdict is proven",
+        limit_text(value, limit_of_bound(limits)), with_unit(value, value.measured_mm),
+        with_unit(value, value.statement->high_mm));
+  }
   if (has_tolerance(value, limits)) {
     return core::phrase(
         "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
@@ -365,13 +441,27 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
                   : p <= rule.producer_risk_1     ? Verdict::kDoesNotConform
                                                   : Verdict::kUndecided;
   }
+  const bool bound = rule.needs_interval() && value.statement->at_most;
+  if (bound) {
+    if (const auto why = obstacle_to_bound(rule, value, limits, out.verdict)) {
+      return no_verdict(*why);
+    }
+  }
+  if (rule.needs_interval()) {
+    if (auto why = incapability(value, limits, out.verdict)) {
+      out.verdict = Verdict::kUndecided;
+      out.sentence = *std::move(why);
+      return out;
+    }
+  }
   const bool read_beyond = !limits.hold(value.measured_mm) && !rule.judge_corrected;
   if (rule.needs_interval() && read_beyond && out.verdict == Verdict::kConforms) {
     out.verdict = Verdict::kUndecided;
     out.sentence = read_beyond_sentence(value, limits, zones.compared_mm);
     return out;
   }
-  out.sentence = verdict_sentence(rule, value, limits, zones, out);
+  out.sentence = bound ? bound_sentence(value, limits, out.verdict)
+                       : verdict_sentence(rule, value, limits, zones, out);
   if (rule.needs_interval() && rule.judge_corrected) {
     out.sentence = core::phrase("{}; corrected values are judged, by agreement", out.sentence);
   }

@@ -123,9 +123,14 @@ struct RuleOutcome {
 /// compares with their distance. One limit of a size leaves N:1 no tolerance.
 /// Under every rule, a measured value beyond a limit does not conform unless corrected values are
 /// judged: the correction grows with the declared noise, and the party that benefits declares it.
+/// A statement with `at_most` is an upper bound: besides what the rule asks, hi <= T must hold to
+/// conform and lo > T not to, whatever the guard factor and the risks; else the verdict is void.
+/// Two limits nearer than the ends of the interval leave it undecided (capability), unless the
+/// whole interval lies beyond one of them.
 /// @param limits  At least one; the lower below the upper. T > 0.
 /// @return  The outcome; or kMeaning with the reason for a void verdict: no interval for the
-///          measurand of the rule, N:1 does not apply, the prior gives the measurement no weight.
+///          measurand of the rule, N:1 does not apply, the prior gives the measurement no weight,
+///          an upper bound that proves nothing.
 /// Sources: ISO 14253-1:2017; JCGM 106:2012, 7 to 9; ASME B89.7.3.1-2001.
 [[nodiscard]] core::Result<RuleOutcome> apply_rule(const DecisionRule& rule,
                                                    const KnownValue& value, const Limits& limits);

@@ -1,5 +1,8 @@
 #include "evaluation/decision/verdict.h"
 
+#include <algorithm>
+#include <array>
+
 namespace rondure::evaluation {
 
 std::string_view name_of(Verdict verdict) {
@@ -16,6 +19,12 @@ std::string_view name_of(Verdict verdict) {
       return "not toleranced";
   }
   return "void";
+}
+
+int severity(Verdict verdict) {
+  constexpr std::array kOrder = {Verdict::kNotToleranced, Verdict::kConforms, Verdict::kUndecided,
+                                 Verdict::kVoid, Verdict::kDoesNotConform};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
 }
 
 }  // namespace rondure::evaluation

@@ -11,4 +11,9 @@ enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranc
 /// "conforms", "does not conform", "undecided", "void", "not toleranced".
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
+/// Severity of a verdict, for the verdict on several lines or on several limits of one: the most
+/// severe is that of all. From the least: not toleranced, conforms, undecided, void, does not
+/// conform. What does not conform is proven, whatever else could not be judged.
+[[nodiscard]] int severity(Verdict verdict);
+
 }  // namespace rondure::evaluation

@@ -1,7 +1,6 @@
 #include "evaluation/internal/conformance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -10,6 +9,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
+#include "evaluation/results/temperature_gates.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/part/contacts.h"
 #include "evaluation/part/find.h"
@@ -265,13 +265,6 @@ void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, J
   out.outcome = *std::move(outcome);
 }
 
-/// Severity of a verdict: the least severe first.
-int severity(Verdict verdict) {
-  constexpr std::array kOrder = {Verdict::kNotToleranced, Verdict::kConforms, Verdict::kUndecided,
-                                 Verdict::kDoesNotConform, Verdict::kVoid};
-  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), verdict) - kOrder.begin());
-}
-
 /// How far a value is from its nearest limit, below 0 beyond it; without limits infinite.
 double margin_mm(const JudgedValue& value) {
   double out = HUGE_VAL;
@@ -426,24 +419,11 @@ core::Phrase temperature_words(const FeatureResult& result) {
 
 std::optional<core::Phrase> temperature_fault(const record::RunRecord& record,
                                               const FeatureResult& result) {
-  const record::Header& header = record.header;
-  const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
-                       result.feature.strategy != record::Strategy::kSeries;
-  const auto stated = record::task_of<record::EnvironmentSettings>(record.settings, "environment/");
-  if (!stated) return stated.error().said();
-  if (!touched && !stated->declared) return std::nullopt;
-  if (!result.temperatures) {
-    return core::phrase(
-        "the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "
-        "machine reports, or declare environment.assumed_degC in the plan",
-        header.temperature_min_degC, header.temperature_max_degC);
+  for (Gate& gate : temperature_gates(record, result)) {
+    if (gate.outcome == Gate::Outcome::kVoids) return std::move(gate.reason);
   }
-  for (const double value : {result.temperatures->least_degC, result.temperatures->greatest_degC}) {
-    if (value >= header.temperature_min_degC && value <= header.temperature_max_degC) continue;
-    return core::phrase("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
-                        header.temperature_min_degC, header.temperature_max_degC);
-  }
-  const bool cloud = touched && !result.analysis;
+  const bool cloud = result.feature.strategy != record::Strategy::kPointsFile &&
+                     !record::is_analysis(result.feature.shape);
   if (cloud && asks_for_20_degC(result.feature) && !result.thermal) {
     return core::phrase(
         "the temperature of the scales was not measured, so nothing is brought to 20 degC: use a "
@@ -508,19 +488,17 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 }
 
 Verdict overall(const std::vector<FeatureResult>& features) {
-  // Decreasing severity; void first, because it prevents any overall verdict.
-  constexpr std::array kOrder = {Verdict::kVoid, Verdict::kDoesNotConform, Verdict::kUndecided,
-                                 Verdict::kConforms};
-  const auto failed = [](const FeatureResult& feature) { return feature.failure.has_value(); };
-  if (std::any_of(features.begin(), features.end(), failed)) return Verdict::kVoid;
-  for (const Verdict verdict : kOrder) {
-    for (const FeatureResult& feature : features) {
-      for (const CharacteristicResult& c : feature.characteristics) {
-        if (c.characteristic.toleranced() && c.verdict == verdict) return verdict;
-      }
+  Verdict out = Verdict::kNotToleranced;
+  const auto take = [&](Verdict verdict) {
+    if (severity(verdict) > severity(out)) out = verdict;
+  };
+  for (const FeatureResult& feature : features) {
+    if (feature.failure) take(Verdict::kVoid);
+    for (const CharacteristicResult& c : feature.characteristics) {
+      if (c.characteristic.toleranced()) take(c.verdict);
     }
   }
-  return Verdict::kNotToleranced;
+  return out;
 }
 
 }  // namespace rondure::evaluation

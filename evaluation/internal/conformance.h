@@ -50,8 +50,8 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
 /// Applies the rule to a characteristic that has a stated, valid value.
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);
 
-/// Void when a feature failed; else the worst verdict of all toleranced characteristics, in the
-/// order void, does not conform, undecided, conforms; not toleranced when there is none.
+/// The worst verdict of all toleranced characteristics, in the order does not conform, void,
+/// undecided, conforms; not toleranced when there is none. A feature that failed is void.
 [[nodiscard]] Verdict overall(const std::vector<FeatureResult>& features);
 
 }  // namespace rondure::evaluation

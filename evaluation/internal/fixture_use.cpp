@@ -1,8 +1,11 @@
 #include "evaluation/internal/fixture_use.h"
 
+#include <cmath>
 #include <utility>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "fit/rotary/reading.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
 
@@ -25,6 +28,40 @@ fixture::CalibrationDemand demand_of(const record::RunRecord& record,
   out.highest = {said.max_alpha_deg * core::kDegree, said.max_beta_deg * core::kDegree};
   out.axis_point_mm = Eigen::Vector3d::Map(said.axis_point_mm.data());
   out.axis_offset_mm = Eigen::Vector3d::Map(said.axis_offset_mm.data());
+  return out;
+}
+
+void make_void(const core::Phrase& reason, FeatureResult& result) {
+  for (CharacteristicResult& characteristic : result.characteristics) {
+    characteristic.verdict = Verdict::kVoid;
+    characteristic.reason = reason;
+    characteristic.outcome.reset();
+    characteristic.risks.reset();
+  }
+}
+
+/// The gate of the growth of the fixture from its calibration to its use; none where that is not
+/// known. A cloud of one pose moves as a whole; where poses are combined by the kinematics, an axis
+/// that moved by more than the calibration leaves makes that figure untrue.
+std::optional<Gate> growth_gate(const FixtureUse& use, const FeatureResult& result) {
+  if (!use.expansion_1_K || !use.temperature_degC || !result.temperatures) return std::nullopt;
+  const double change_K = std::abs(result.temperatures->mean_degC - *use.temperature_degC);
+  const double growth_mm = *use.expansion_1_K * use.axis_height_mm * change_K;
+  const double limit_mm = fit::StationGateOptions().point_u_mm / 3.0;
+  Gate out;
+  out.code = "calibration-temperature";
+  out.condition = core::phrase("shift of the axes since the calibration, by temperature");
+  out.found = growth_mm / core::kMicrometre;
+  out.limit = limit_mm / core::kMicrometre;
+  out.unit = "um";
+  if (growth_mm <= limit_mm) return out;
+  const bool combined = result.merged && !result.merged->joint;
+  const bool voids = combined && growth_mm > use.residual_max_mm;
+  out.outcome = voids ? Gate::Outcome::kVoids : Gate::Outcome::kWarns;
+  out.reason = core::phrase(
+      "{:.2f} K from the temperature of the calibration of the fixture move its axes by {} um "
+      "(limit {} um; the calibration claims {} um): calibrate at the temperature of use",
+      change_K, core::um(growth_mm), core::um(limit_mm), core::um(use.residual_max_mm));
   return out;
 }
 
@@ -57,6 +94,10 @@ FixtureFacts fixture_facts(const record::RunRecord& record) {
   use.residual_rms_mm = calibration->verification.rms_mm;
   use.residual_max_mm = calibration->verification.max_mm;
   use.residual_tilt_rad = calibration->verification.max_tilt_rad;
+  use.temperature_degC =
+      calibration->temperature_degC ? calibration->temperature_degC : assumed_degC(record);
+  use.expansion_1_K = calibration->expansion_1_K;
+  use.axis_height_mm = std::abs(calibration->axis_point_mm.z());
   if (auto holds = fixture::check_calibration(*calibration, demand_of(record, *said)); !holds) {
     use.invalid = holds.error();
   }
@@ -67,13 +108,18 @@ FixtureFacts fixture_facts(const record::RunRecord& record) {
 
 void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& result) {
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
-  if (!use || !use->invalid || !touched) return;
-  for (CharacteristicResult& characteristic : result.characteristics) {
-    characteristic.verdict = Verdict::kVoid;
-    characteristic.reason = use->invalid->said();
-    characteristic.outcome.reset();
-    characteristic.risks.reset();
+  if (!use || !touched) return;
+  if (use->invalid) {
+    make_void(use->invalid->said(), result);
+    return;
   }
+  auto growth = growth_gate(*use, result);
+  if (!growth) return;
+  if (growth->outcome == Gate::Outcome::kVoids) make_void(growth->reason, result);
+  if (growth->outcome == Gate::Outcome::kWarns) {
+    result.warnings.push_back({core::Code::kInconsistent, growth->reason.english(), {}});
+  }
+  result.gates.push_back(*std::move(growth));
 }
 
 }  // namespace rondure::evaluation

@@ -19,7 +19,8 @@ struct FixtureFacts {
 /// the record.
 [[nodiscard]] FixtureFacts fixture_facts(const record::RunRecord& record);
 
-/// Makes the characteristics of a touched feature void when the calibration does not hold.
+/// Makes the characteristics of a touched feature void when the calibration does not hold, and
+/// checks how far temperature has moved the axes since: a gate of the feature.
 void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& result);
 
 }  // namespace rondure::evaluation

@@ -108,6 +108,7 @@ bool is_found(const record::Feature& feature, const record::Characteristic& aske
     case Form::kContourSpread:
     case Form::kFixtureResidual:
     case Form::kFixtureResidualRms:
+    case Form::kAxisError:
       break;
   }
   return false;

@@ -13,6 +13,7 @@
 #include "evaluation/decision/decision.h"
 #include "evaluation/decision/verdict.h"
 #include "evaluation/results/clamping.h"
+#include "evaluation/results/gate.h"
 #include "evaluation/results/merged_poses.h"
 #include "evaluation/results/stated_value.h"
 #include "evaluation/results/thermal.h"
@@ -109,11 +110,14 @@ struct FixtureUse {
   std::string fixture_id;
   std::string measured_utc;
   std::string expires_utc;
-  std::optional<double> age_days;      ///< Age at the start of the run.
-  double residual_rms_mm = 0.0;        ///< Residual at its combined poses.
-  double residual_max_mm = 0.0;        ///< Largest such residual.
-  double residual_tilt_rad = 0.0;      ///< Largest residual rotation of a pose.
-  std::optional<core::Error> invalid;  ///< Why it does not hold; results are then void.
+  std::optional<double> age_days;          ///< Age at the start of the run.
+  double residual_rms_mm = 0.0;            ///< Residual at its combined poses.
+  double residual_max_mm = 0.0;            ///< Largest such residual.
+  double residual_tilt_rad = 0.0;          ///< Largest residual rotation of a pose.
+  std::optional<double> temperature_degC;  ///< Of the calibration, or as this plan declares it.
+  std::optional<double> expansion_1_K;     ///< Of the fixture, as the calibration declares it.
+  double axis_height_mm = 0.0;             ///< Of the base-fixed axis, in the base of the fixture.
+  std::optional<core::Error> invalid;      ///< Why it does not hold; results are then void.
 };
 
 /// All results for one feature.
@@ -143,6 +147,7 @@ struct FeatureResult {
   std::optional<Temperatures> temperatures;        ///< During the final cloud; none: not known.
   std::shared_ptr<const MergedPoses> merged;       ///< Only for the strategy "merged".
   std::shared_ptr<const AnalysisResult> analysis;  ///< Only for a feature whose data are series.
+  std::vector<Gate> gates;  ///< Of an analysis, and of the fixture: all that were checked.
   /// All values above are at 20 degC; none: as measured.
   std::optional<ThermalCorrection> thermal;
   std::vector<CharacteristicResult> characteristics;

@@ -129,6 +129,10 @@ std::string symbol_of(const record::Characteristic& characteristic) {
     symbol += fmt::format(" {}", record::name_of(asked.size));
     if (asked.rank) symbol += fmt::format(" {}", record::name_of(*asked.rank));
   }
+  if (characteristic.form == Form::kAxisError && asked.axis && asked.error) {
+    const char* axis = *asked.axis == Indication::Axis::kAlpha ? "\u03b1" : "\u03b2";
+    return fmt::format("{} {}", record::name_of(*asked.error), axis);
+  }
   if (asked.section != Indication::Section::kAll) {
     symbol += fmt::format(" {}", record::name_of(asked.section));
   }

@@ -91,6 +91,8 @@ std::string StatedValue::in_digits(double length_mm) const {
 core::Phrase StatedValue::value_text() const {
   const UncertaintyStatement* known = statement();
   if (known == nullptr) return core::phrase("{} {}", in_digits(value_mm_), name_of(unit_));
+  if (known->at_most)
+    return core::phrase("at most {} {}", in_digits(known->high_mm), name_of(unit_));
   return core::phrase("{} {} [{}, {}]", in_digits(known->estimate_mm), name_of(unit_),
                       in_digits(known->low_mm), in_digits(known->high_mm));
 }
@@ -108,6 +110,12 @@ core::Phrase StatedValue::sentence() const {
   const UncertaintyStatement* known = statement();
   if (known == nullptr) {
     return core::phrase("{} = {} ({})", symbol_words(symbol_), value_text(), operator_text());
+  }
+  if (known->at_most) {
+    return core::phrase("{} is at most {} {} ({:g} %); as read {} {} ({})", symbol_words(symbol_),
+                        in_digits(known->high_mm), name_of(unit_),
+                        100.0 * uncertainty_.coverage_1(), in_digits(value_mm_), name_of(unit_),
+                        operator_text());
   }
   return core::phrase("{} = {} {}, {:g} % [{}, {}]; as read {} {} ({})", symbol_words(symbol_),
                       in_digits(known->estimate_mm), name_of(unit_),

@@ -71,10 +71,12 @@ class StatedValue {
 
   /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
-  /// Quoted value: the estimate, which lies in the interval; without an interval the value as read
-  /// [mm].
+  /// Quoted value: the estimate, which lies in the interval, or the upper bound where only that is
+  /// known; without an interval the value as read [mm].
   [[nodiscard]] double quoted_mm() const {
-    return statement() == nullptr ? value_mm_ : statement()->estimate_mm;
+    const UncertaintyStatement* known = statement();
+    if (known == nullptr) return value_mm_;
+    return known->at_most ? known->high_mm : known->estimate_mm;
   }
   /// Unit of the texts: mm for a size, um for all else.
   [[nodiscard]] core::LengthUnit unit() const { return unit_; }
@@ -92,12 +94,13 @@ class StatedValue {
     return uncertainty_.about(measurand_);
   }
 
-  /// "8.31 um [7.60, 9.40]": the estimate with its interval; as read, "8.312 um", without one.
+  /// "8.31 um [7.60, 9.40]": the estimate with its interval; "at most 3.21 um" where only that is
+  /// known; as read, "8.312 um", without an interval.
   [[nodiscard]] core::Phrase value_text() const;
   /// "MZCY; unfiltered; ...; at the sampled points", with "no uncertainty stated" where it is so.
   [[nodiscard]] core::Phrase operator_text() const;
   /// "CYLt = 8.31 um, 95 % [7.60, 9.40]; as read 8.35 um (MZCY; unfiltered; ...; at the sampled
-  /// points)".
+  /// points)"; "RONt is at most 3.21 um (95 %); as read 4.35 um (...)".
   [[nodiscard]] core::Phrase sentence() const;
 
  private:

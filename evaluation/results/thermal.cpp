@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -51,6 +53,31 @@ bool take_means(const RunRecord& record, int pose, ThermalCorrection& out) {
   return true;
 }
 
+/// Range of the temperatures of one place.
+struct Range {
+  double least = HUGE_VAL;
+  double greatest = -HUGE_VAL;
+  int count = 0;
+
+  void add(double degC) {
+    least = std::min(least, degC);
+    greatest = std::max(greatest, degC);
+    ++count;
+  }
+};
+
+void widen(std::optional<double>& drift_K, const Range& place) {
+  if (place.count < 2) return;
+  drift_K = std::max(drift_K.value_or(0.0), place.greatest - place.least);
+}
+
+/// Adds a temperature to the range and to the mean of those so far.
+void add(double degC, double& count, Temperatures& out) {
+  out.least_degC = count == 0.0 ? degC : std::min(out.least_degC, degC);
+  out.greatest_degC = count == 0.0 ? degC : std::max(out.greatest_degC, degC);
+  out.mean_degC += (degC - out.mean_degC) / ++count;
+}
+
 core::Result<record::ExpansionSettings> expansion_of(const record::Feature& feature) {
   return record::task_of<record::ExpansionSettings>(feature.settings);
 }
@@ -76,19 +103,44 @@ std::optional<Temperatures> temperatures_of(const RunRecord& record,
   const std::optional<double> assumed = assumed_degC(record);
   if (touches.empty()) {
     if (!assumed) return std::nullopt;
-    return Temperatures{*assumed, *assumed, *assumed, true};
+    return Temperatures{*assumed, *assumed, *assumed, true, {}};
   }
   Temperatures out;
   double count = 0.0;
+  std::map<std::pair<int, int>, Range> places;  // by layer and point
   for (const Touch* touch : touches) {
     const auto degC = touch->temperature_degC ? touch->temperature_degC : assumed;
     if (!degC) return std::nullopt;
     out.declared = out.declared || !touch->temperature_degC;
-    out.least_degC = count == 0.0 ? *degC : std::min(out.least_degC, *degC);
-    out.greatest_degC = count == 0.0 ? *degC : std::max(out.greatest_degC, *degC);
-    out.mean_degC += (*degC - out.mean_degC) / ++count;
+    add(*degC, count, out);
+    if (touch->temperature_degC) places[{touch->layer, touch->point}].add(*degC);
   }
+  for (const auto& [place, range] : places) widen(out.drift_K, range);
   return out;
+}
+
+std::optional<Temperatures> temperatures_of_series(const RunRecord& record, int feature) {
+  const std::optional<double> assumed = assumed_degC(record);
+  Temperatures out;
+  double count = 0.0;
+  for (const record::Series& series : record.series) {
+    if (series.feature != feature || series.role != record::Series::Role::kData) continue;
+    const auto column = series.column("temperature_degC");
+    Range range;
+    double mean_degC = 0.0;
+    for (const double degC : column.value_or(std::vector<double>())) {
+      range.add(degC);
+      mean_degC += (degC - mean_degC) / range.count;
+    }
+    if (range.count == 0) {
+      if (!assumed) return std::nullopt;
+      out.declared = true;
+      mean_degC = *assumed;
+    }
+    widen(out.drift_K, range);
+    add(mean_degC, count, out);
+  }
+  return count == 0.0 ? temperatures_of(record, {}) : out;
 }
 
 bool asks_for_20_degC(const record::Feature& feature) {

@@ -7,13 +7,17 @@
 
 namespace rondure::evaluation {
 
-/// Part temperature while a cloud was touched.
+/// Part temperature while a cloud was touched, or while the series of an analysis were recorded; of
+/// series each counts with its mean.
 struct Temperatures {
   double least_degC = 0.0;
   double greatest_degC = 0.0;
   double mean_degC = 0.0;
   /// environment.assumed_degC of the plan was used for some or all touches.
   bool declared = false;
+  /// Largest change of what was measured at one place: over the touches of one point, or over the
+  /// rows of one series. Different places may differ. None where no place has two values.
+  std::optional<double> drift_K = {};
 };
 
 /// The declared temperature of the plan, for temperatures that were not measured.
@@ -23,6 +27,12 @@ struct Temperatures {
 /// temperature was not measured and none is declared.
 [[nodiscard]] std::optional<Temperatures> temperatures_of(
     const record::RunRecord& record, const std::vector<const record::Touch*>& touches);
+
+/// Part temperature of the series of an analysis, from their columns temperature_degC; the declared
+/// one stands for a series without, and where nothing was recorded. None where a series has none
+/// and none is declared.
+[[nodiscard]] std::optional<Temperatures> temperatures_of_series(const record::RunRecord& record,
+                                                                 int feature);
 
 /// Correction of a feature to 20 degC, the reference temperature of ISO 1. The journal keeps the
 /// values as read; the evaluation corrects them:

@@ -2,16 +2,23 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "core/utc.h"
 #include "evaluation/results/evaluation.h"
+#include "evaluation/results/temperature_gates.h"
+#include "evaluation/rotary/internal/combined_field.h"
+#include "evaluation/rotary/internal/gates.h"
 #include "evaluation/rotary/result.h"
 #include "fit/geometry/registration.h"
 #include "fit/rotary/ball_center.h"
 #include "fit/rotary/ball_setup.h"
+#include "fit/rotary/reading.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -22,11 +29,10 @@ namespace {
 using core::kDegree;
 using core::kMicrometre;
 using Eigen::Vector3d;
+using fixture::kMicroradian;
 using record::RotaryTask;
 
 constexpr double kZero_rad = 1e-9;  // tolerance of a commanded angle
-// tolerance of the other axis at a station: 0.1 um at a lever of 100 mm
-constexpr double kBeside_rad = 1e-6;
 constexpr double kDay_s = 86'400.0;
 
 /// The balls found in one pose.
@@ -40,7 +46,9 @@ struct Measurement {
   std::vector<VisitBalls> visits;
   std::vector<std::string> names;
   double touch_sigma_mm = 0.0;
-  double machine_u_mm = 0.0;
+  double machine_u_mm = 0.0;   ///< Of a centre, beside the touches: machine, and declared.
+  double placing_u_rad = 0.0;  ///< Of the angle at which an axis really stands.
+  double repeat_u_rad = 0.0;   ///< Its repeatability alone.
   std::size_t touches = 0;
 
   [[nodiscard]] Vector3d u_mm(const fit::BallCenter& center) const {
@@ -80,7 +88,12 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
                                   const RotaryTask& task, double tip_mm) {
   Measurement out;
   for (const record::BallTask& ball : task.balls) out.names.push_back(ball.id);
-  out.machine_u_mm = task.machine_uncertainty_um * kMicrometre;
+  const record::RotaryInfluencesTask said =
+      task.uncertainty.value_or(record::RotaryInfluencesTask());
+  out.machine_u_mm =
+      std::hypot(task.machine_uncertainty_um, record::u_of(said.ball_um)) * kMicrometre;
+  out.repeat_u_rad = record::u_of(said.repeat_urad) * kMicroradian;
+  out.placing_u_rad = std::hypot(record::u_of(said.reading_urad) * kMicroradian, out.repeat_u_rad);
   const double radius_mm = 0.5 * task.ball_diameter_mm + tip_mm;
   double squares_mm2 = 0.0;
   int freedoms = 0;
@@ -135,40 +148,83 @@ Role role_of(const core::Pose& commanded) {
   return beta ? Role::kBeta : Role::kReference;
 }
 
-/// Checks that the axis that is not measured is at 0.
-core::Result<void> check_other_axis(const VisitBalls& visit, Role role) {
-  const bool of_alpha = role == Role::kAlpha;
-  const double other_rad = of_alpha ? visit.reached.beta_rad : visit.reached.alpha_rad;
-  if (role == Role::kCombined || std::abs(other_rad) <= kBeside_rad) return {};
-  return core::fail(
-      core::Code::kInconsistent,
-      fmt::format("in the pose ({:g}, {:g}) deg {} reads {:.6f} deg and must be 0 within {:.6f}; a "
-                  "fixture that cannot hold 0 cannot be calibrated in this way",
-                  visit.commanded.alpha_rad / kDegree, visit.commanded.beta_rad / kDegree,
-                  of_alpha ? "beta" : "alpha", other_rad / kDegree, kBeside_rad / kDegree));
+/// Motion of the body from one pose to another, in the frame of the machine; the identity, to the
+/// last bit, for the same pose.
+Eigen::Isometry3d between(const fixture::Kinematics& known, const core::Pose& from,
+                          const core::Pose& to) {
+  if (from == to) return Eigen::Isometry3d::Identity();
+  return body_to_machine(known, to) * body_to_machine(known, from).inverse();
+}
+
+std::vector<fit::BallCentre> moved(std::vector<fit::BallCentre> balls,
+                                   const Eigen::Isometry3d& motion) {
+  for (fit::BallCentre& ball : balls) ball.centre_mm = motion * ball.centre_mm;
+  return balls;
+}
+
+/// Covariance by which uncertain angles of both axes misplace the body at a station of the
+/// base-fixed axis, about its point. At angle 0 it is that of any zero pose.
+fit::Matrix6 alpha_placing(const Vector3d& offset_mm, double alpha_rad, double u_rad) {
+  const Eigen::AngleAxisd turn(alpha_rad, Vector3d::UnitX());
+  return fit::turn_covariance(Vector3d::UnitX(), Vector3d::Zero(), u_rad) +
+         fit::turn_covariance(turn * Vector3d::UnitY(), turn * offset_mm, u_rad);
+}
+
+/// The same at a station of the carried axis, about the point of that axis.
+fit::Matrix6 beta_placing(const Vector3d& offset_mm, double u_rad) {
+  return fit::turn_covariance(Vector3d::UnitY(), Vector3d::Zero(), u_rad) +
+         fit::turn_covariance(Vector3d::UnitX(), -offset_mm, u_rad);
+}
+
+/// A visit as a station of an axis: the nominal place of the balls follows from both readings.
+/// @param known  With the errors of the other axis, as far as they are known.
+fit::RotaryPose station_of(const Measurement& measured, const VisitBalls& visit, Role role,
+                           const fixture::Kinematics& known) {
+  const core::Pose& at = visit.reached;
+  fit::RotaryPose out;
+  out.balls = measured.balls_of(visit);
+  if (role == Role::kAlpha) {
+    out.angle_rad = at.alpha_rad;
+    out.carried = between(known, {}, {0.0, at.beta_rad});
+    out.placing_covariance =
+        alpha_placing(known.axis_offset_mm, at.alpha_rad, measured.placing_u_rad);
+  } else {
+    out.angle_rad = at.beta_rad;
+    out.balls = moved(std::move(out.balls), between(known, at, {0.0, at.beta_rad}));
+    out.placing_covariance = beta_placing(known.axis_offset_mm, measured.placing_u_rad);
+  }
+  return out;
 }
 
 core::Result<fit::RotaryStudy> study_of(const Measurement& measured, Role role,
-                                        const Vector3d& direction, const Vector3d& origin_mm) {
+                                        const fixture::Kinematics& known) {
+  const bool of_alpha = role == Role::kAlpha;
   fit::RotaryMeasurement task;
-  task.axis = {direction, origin_mm};
-  std::vector<const VisitBalls*> references;
+  if (of_alpha) {
+    task.axis = {Vector3d::UnitX(), known.axis_point_W_mm};
+  } else {
+    task.axis = {Vector3d::UnitY(), known.axis_point_W_mm + known.axis_offset_mm};
+  }
   for (const VisitBalls& visit : measured.visits) {
     const Role here = role_of(visit.commanded);
-    if (auto other = check_other_axis(visit, here); !other) return core::fail(other.error());
     if (here == Role::kReference) {
-      task.references.push_back(measured.balls_of(visit));
-      references.push_back(&visit);
+      task.references.push_back(moved(measured.balls_of(visit), between(known, visit.reached, {})));
     } else if (here == role) {
-      const double angle_rad =
-          role == Role::kAlpha ? visit.reached.alpha_rad : visit.reached.beta_rad;
-      task.stations.push_back({angle_rad, fit::Approach::kUnknown, measured.balls_of(visit)});
+      task.stations.push_back(station_of(measured, visit, role, known));
     }
   }
+  const fit::Matrix6 placing =
+      of_alpha ? alpha_placing(known.axis_offset_mm, 0.0, measured.placing_u_rad)
+               : beta_placing(known.axis_offset_mm, measured.placing_u_rad);
   // The zero pose between the axes is the station at 0 for both.
-  if (references.size() > 2) {
-    task.stations.push_back(
-        {0.0, fit::Approach::kUnknown, measured.balls_of(*references[references.size() / 2])});
+  if (task.references.size() > 2) {
+    fit::RotaryPose zero;
+    zero.balls = task.references[task.references.size() / 2];
+    zero.placing_covariance = placing;
+    task.stations.push_back(std::move(zero));
+  }
+  if (!task.references.empty()) {
+    task.reference_placing = placing / static_cast<double>(task.references.size());
   }
   return fit::identify_rotary_axis(task);
 }
@@ -186,15 +242,20 @@ core::Result<std::shared_ptr<const fixture::StationMotion>> motion_of(
   return fixture::StationMotion::through(std::move(stations));
 }
 
-/// Variance of a point at a combined pose, from the stations of both axes and its own ball.
-double variance_mm2(const fixture::Calibration& c, const core::Pose& pose, const Vector3d& p_W_mm,
-                    const Vector3d& u_mm) {
-  const Vector3d about_alpha = p_W_mm - c.axis_point_mm;
-  const Vector3d about_beta =
-      Eigen::AngleAxisd(-pose.alpha_rad, Vector3d::UnitX()) * about_alpha - c.axis_offset_mm;
-  return fit::point_covariance_mm2(c.alpha->covariance_at(pose.alpha_rad), about_alpha).trace() +
-         fit::point_covariance_mm2(c.beta->covariance_at(pose.beta_rad), about_beta).trace() +
-         u_mm.squaredNorm();
+/// Covariance of the motion (t; w) that a calibration predicts for a pose, about the base-fixed
+/// axis: the stations of both axes, and the readings of the pose.
+fit::Matrix6 predicted_covariance(const fixture::Calibration& c, const core::Pose& pose,
+                                  double placing_u_rad) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(pose.alpha_rad, Vector3d::UnitX()).toRotationMatrix();
+  // Errors of the carried axis refer to its own point: t = R t2 + (R d) x (R w2).
+  fit::Matrix6 to_base = fit::Matrix6::Zero();
+  to_base.topLeftCorner<3, 3>() = turn;
+  to_base.topRightCorner<3, 3>() = fit::cross_matrix(turn * c.axis_offset_mm) * turn;
+  to_base.bottomRightCorner<3, 3>() = turn;
+  return c.alpha->covariance_at(pose.alpha_rad) +
+         to_base * c.beta->covariance_at(pose.beta_rad) * to_base.transpose() +
+         alpha_placing(c.axis_offset_mm, pose.alpha_rad, placing_u_rad);
 }
 
 /// Checks that every ball touched in a combined pose has a place from the zero poses.
@@ -232,6 +293,7 @@ CombinedPose verify_pose(const Measurement& measured, const VisitBalls& visit,
   const Eigen::Isometry3d ideal = body_to_machine(nominal, visit.reached);
   CombinedPose out;
   out.pose = visit.reached;
+  out.covariance = predicted_covariance(facts.calibration, visit.reached, measured.placing_u_rad);
   std::vector<Vector3d> predicted;
   std::vector<Vector3d> found;
   double after_mm2 = 0.0;
@@ -246,8 +308,10 @@ CombinedPose verify_pose(const Measurement& measured, const VisitBalls& visit,
     before_mm2 += whole_mm * whole_mm;
     out.max_mm = std::max(out.max_mm, left_mm);
     v.before_max_mm = std::max(v.before_max_mm, whole_mm);
-    sums.expected_mm2 +=
-        variance_mm2(facts.calibration, visit.reached, predicted.back(), measured.u_mm(center));
+    out.at_mm.emplace_back(predicted.back() - facts.calibration.axis_point_mm);
+    out.residual_mm.emplace_back(found.back() - predicted.back());
+    sums.expected_mm2 += fit::point_covariance_mm2(out.covariance, out.at_mm.back()).trace() +
+                         measured.u_mm(center).squaredNorm();
   }
   out.points = predicted.size();
   out.rms_mm = std::sqrt(after_mm2 / static_cast<double>(out.points));
@@ -322,7 +386,129 @@ void judge_balls(const Measurement& measured, RotaryResult& facts) {
   facts.center_u_mm = std::sqrt(variance / count);
 }
 
-core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, double tip_mm) {
+/// Identifies both axes.
+/// @param known  Kinematics with which the readings are taken into account.
+core::Result<void> identify(const Measurement& measured, const fixture::Kinematics& known,
+                            RotaryResult& facts) {
+  auto alpha = study_of(measured, Role::kAlpha, known);
+  if (!alpha)
+    return core::fail(alpha.error().code, fmt::format("axis alpha: {}", alpha.error().what));
+  auto beta = study_of(measured, Role::kBeta, known);
+  if (!beta) return core::fail(beta.error().code, fmt::format("axis beta: {}", beta.error().what));
+  auto alpha_motion = motion_of(*alpha);
+  if (!alpha_motion) return core::fail(alpha_motion.error());
+  auto beta_motion = motion_of(*beta);
+  if (!beta_motion) return core::fail(beta_motion.error());
+  facts.alpha = *std::move(alpha);
+  facts.beta = *std::move(beta);
+  facts.calibration.alpha = *std::move(alpha_motion);
+  facts.calibration.beta = *std::move(beta_motion);
+  return {};
+}
+
+/// Largest reading of the axis that is not measured, at stations and zero poses.
+double largest_off_rad(const Measurement& measured) {
+  double out = 0.0;
+  for (const VisitBalls& visit : measured.visits) {
+    const Role role = role_of(visit.commanded);
+    if (role == Role::kAlpha || role == Role::kReference) {
+      out = std::max(out, std::abs(visit.reached.beta_rad));
+    }
+    if (role == Role::kBeta || role == Role::kReference) {
+      out = std::max(out, std::abs(visit.reached.alpha_rad));
+    }
+  }
+  return out;
+}
+
+/// Largest difference of a ball coordinate between two zero poses, in its standard uncertainty.
+double reference_sigmas(const Measurement& measured, const fixture::Kinematics& known) {
+  const fit::Matrix6 placing = alpha_placing(known.axis_offset_mm, 0.0, measured.placing_u_rad);
+  std::vector<std::vector<fit::BallCentre>> all;
+  for (const VisitBalls& visit : measured.visits) {
+    if (role_of(visit.commanded) != Role::kReference) continue;
+    all.push_back(moved(measured.balls_of(visit), between(known, visit.reached, {})));
+  }
+  double out = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      for (const fit::BallCentre& a : all[i]) {
+        for (const fit::BallCentre& b : all[j]) {
+          if (a.ball != b.ball) continue;
+          const Vector3d p = a.centre_mm - known.axis_point_W_mm;
+          const Vector3d variance = a.u_mm.cwiseAbs2() + b.u_mm.cwiseAbs2() +
+                                    2.0 * fit::point_covariance_mm2(placing, p).diagonal();
+          const Vector3d apart = (a.centre_mm - b.centre_mm).cwiseAbs();
+          out = std::max(out, apart.cwiseQuotient(variance.cwiseSqrt()).maxCoeff());
+        }
+      }
+    }
+  }
+  return out;
+}
+
+PlacingFacts placing_of(const record::RunRecord& record, const RotaryTask& task,
+                        const Measurement& measured, const fixture::Kinematics& known) {
+  PlacingFacts out;
+  std::vector<Vector3d> balls;
+  for (const record::BallTask& ball : task.balls) {
+    balls.emplace_back(Vector3d::Map(ball.center_mm.data()));
+  }
+  out.off_rad = largest_off_rad(measured);
+  out.off_limit_rad = fit::station_gate_rad(fit::largest_lever_mm(balls, known.axis_offset_mm));
+  for (const VisitBalls& visit : measured.visits) {
+    out.missed_rad =
+        std::max({out.missed_rad, std::abs(visit.reached.alpha_rad - visit.commanded.alpha_rad),
+                  std::abs(visit.reached.beta_rad - visit.commanded.beta_rad)});
+    if (role_of(visit.commanded) == Role::kReference) ++out.references;
+  }
+  const auto fixture = record::task_of<record::FixtureSettings>(record.settings, "fixture/");
+  if (fixture && fixture->resolution_deg) {
+    out.missed_limit_rad =
+        fit::drive_gate_rad(*fixture->resolution_deg * kDegree, measured.repeat_u_rad,
+                            fixture->setting_uncertainty_deg.value_or(0.0) * kDegree) +
+        kZero_rad;
+  }
+  out.reference_sigmas = reference_sigmas(measured, known);
+  return out;
+}
+
+/// The same motion with its covariances multiplied by `factor`.
+core::Result<std::shared_ptr<const fixture::StationMotion>> scaled(
+    const fixture::StationMotion& motion, double factor) {
+  std::vector<fixture::AxisStation> stations = motion.stations();
+  for (fixture::AxisStation& station : stations) station.covariance *= factor;
+  return fixture::StationMotion::through(std::move(stations));
+}
+
+/// Compares the combined poses with what the calibration explains. Where they show more, its
+/// covariances grow by the square of the scale.
+core::Result<void> weigh_combined(RotaryResult& facts) {
+  double chi2 = 0.0;
+  double dof = 0.0;
+  for (const AxisFacts& axis : axes_of(facts)) {
+    chi2 += axis.study->s0 * axis.study->s0 * axis.study->dof;
+    dof += axis.study->dof;
+  }
+  facts.noise_mm = facts.center_u_mm * (dof > 0.0 ? std::max(1.0, std::sqrt(chi2 / dof)) : 1.0);
+  if (facts.combined.empty()) return {};
+  const CombinedField field(facts.combined, facts.noise_mm);
+  facts.scale_low = field.scale_at(0.025);
+  facts.scale = field.scale_at(0.5);
+  facts.scale_high = field.scale_at(0.975);
+  if (facts.scale_low <= 1.0) return {};
+  const double factor = facts.scale * facts.scale;
+  auto alpha = scaled(*facts.calibration.alpha, factor);
+  if (!alpha) return core::fail(alpha.error());
+  auto beta = scaled(*facts.calibration.beta, factor);
+  if (!beta) return core::fail(beta.error());
+  facts.calibration.alpha = *std::move(alpha);
+  facts.calibration.beta = *std::move(beta);
+  return {};
+}
+
+core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, double tip_mm,
+                                    std::vector<Gate>& gates) {
   const auto task =
       record::task_of<RotaryTask>(record.features[static_cast<std::size_t>(index)].settings);
   if (!task) return core::fail(task.error());
@@ -331,20 +517,18 @@ core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, 
   RotaryResult facts;
   fixture::Calibration& c = facts.calibration;
   if (auto dated = date_calibration(record, *task, c); !dated) return core::fail(dated.error());
-  auto alpha = study_of(*measured, Role::kAlpha, Vector3d::UnitX(), c.axis_point_mm);
-  if (!alpha)
-    return core::fail(alpha.error().code, fmt::format("axis alpha: {}", alpha.error().what));
-  auto beta =
-      study_of(*measured, Role::kBeta, Vector3d::UnitY(), c.axis_point_mm + c.axis_offset_mm);
-  if (!beta) return core::fail(beta.error().code, fmt::format("axis beta: {}", beta.error().what));
-  auto alpha_motion = motion_of(*alpha);
-  if (!alpha_motion) return core::fail(alpha_motion.error());
-  auto beta_motion = motion_of(*beta);
-  if (!beta_motion) return core::fail(beta_motion.error());
-  facts.alpha = *std::move(alpha);
-  facts.beta = *std::move(beta);
-  c.alpha = *std::move(alpha_motion);
-  c.beta = *std::move(beta_motion);
+  const fixture::Kinematics nominal{c.axis_point_mm, c.axis_offset_mm};
+  if (auto done = identify(*measured, nominal, facts); !done) return core::fail(done.error());
+  // Once more with the errors that the other axis has where it stood: its place alone, some 25 um
+  // off, turns by more than the limit of that angle allows for.
+  if (largest_off_rad(*measured) > 0.0) {
+    const fixture::Kinematics known = fixture::compensated(nominal, c);
+    if (auto done = identify(*measured, known, facts); !done) return core::fail(done.error());
+  }
+  facts.declared = task->uncertainty;
+  if (facts.declared && facts.declared->expansion_per_K) {
+    c.expansion_1_K = record::u_of(facts.declared->expansion_per_K);
+  }
   facts.balls = measured->names;
   facts.poses = measured->visits.size();
   facts.touches = measured->touches;
@@ -352,26 +536,51 @@ core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, 
   if (auto placed = check_balls(*measured, facts); !placed) return core::fail(placed.error());
   judge_balls(*measured, facts);
   verify_combined(*measured, facts);
+  if (auto weighed = weigh_combined(facts); !weighed) return core::fail(weighed.error());
+  gates = rotary_gates(facts, placing_of(record, *task, *measured, nominal));
   return facts;
 }
 
-void warn_rotary(const RotaryResult& facts, std::vector<core::Error>& warnings) {
+/// The gate of the growth of the fixture while it was calibrated; none where its expansion is not
+/// declared or the temperature is not known.
+std::optional<Gate> growth_gate(const RotaryResult& facts, const FeatureResult& result) {
+  if (!facts.declared || !facts.declared->expansion_per_K || !result.temperatures) {
+    return std::nullopt;
+  }
+  double lever_mm = 0.0;
+  for (const fit::BallCentre& ball : facts.alpha.reference) {
+    lever_mm = std::max(lever_mm, (ball.centre_mm - facts.calibration.axis_point_mm).norm());
+  }
+  const double range_K = result.temperatures->greatest_degC - result.temperatures->least_degC;
+  const double growth_mm = record::u_of(facts.declared->expansion_per_K) * lever_mm * range_K;
+  const double limit_mm = fit::StationGateOptions().point_u_mm / 3.0;
+  Gate out;
+  out.code = "growth";
+  out.condition = core::phrase("growth of the fixture while it was calibrated");
+  out.found = growth_mm / kMicrometre;
+  out.limit = limit_mm / kMicrometre;
+  out.unit = "um";
+  if (growth_mm > limit_mm) {
+    out.outcome = Gate::Outcome::kWarns;
+    out.reason = core::phrase(
+        "the temperature changed by {:.2f} K, by which the fixture grows {} um at its balls (limit "
+        "{} um): calibrate at a steadier temperature",
+        range_K, core::um(growth_mm), core::um(limit_mm));
+  }
+  return out;
+}
+
+void warn_rotary(const RotaryResult& facts, const std::vector<Gate>& gates,
+                 std::vector<core::Error>& warnings) {
   for (const AxisFacts& axis : axes_of(facts)) {
     for (const core::Error& warning : axis.study->warnings) {
       warnings.push_back(
           {warning.code, fmt::format("axis {}: {}", axis.key, warning.what), warning.where});
     }
   }
-  constexpr double kExplained = 3.0;
-  const fixture::Verification& v = facts.calibration.verification;
-  if (v.rms_mm > kExplained * v.expected_mm) {
-    warnings.push_back(
-        {core::Code::kInconsistent,
-         fmt::format("the combined poses leave {:.3f} um rms, the uncertainty "
-                     "explains {:.3f} um: errors depend on both angles (gravity), or "
-                     "something moved; measure axis beta at several alpha",
-                     v.rms_mm / kMicrometre, v.expected_mm / kMicrometre),
-         {}});
+  for (const Gate& gate : gates) {
+    if (gate.outcome == Gate::Outcome::kPassed) continue;
+    warnings.push_back({core::Code::kInconsistent, gate.reason.english(), {}});
   }
 }
 
@@ -389,12 +598,16 @@ core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int 
   if (!result.tip_radius_mm) {
     return core::fail(core::Code::kCalibration, "the probe was not qualified");
   }
-  auto facts = facts_of(record, index, *result.tip_radius_mm);
+  auto facts = facts_of(record, index, *result.tip_radius_mm, result.gates);
   if (!facts) return tl::unexpected(facts.error());
+  if (auto growth = growth_gate(*facts, result)) result.gates.push_back(*std::move(growth));
+  // Those of the temperature are listed with the gates of every analysis.
+  facts->withheld = voided_by(temperature_gates(record, result));
+  if (!facts->withheld) facts->withheld = voided_by(result.gates);
   if (result.temperatures && !result.temperatures->declared) {
     facts->calibration.temperature_degC = result.temperatures->mean_degC;
   }
-  warn_rotary(*facts, result.warnings);
+  warn_rotary(*facts, result.gates, result.warnings);
   return *std::move(facts);
 }
 

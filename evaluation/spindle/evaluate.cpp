@@ -2,6 +2,7 @@
 
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
+#include "evaluation/spindle/internal/probe_influences.h"
 #include "evaluation/spindle/result.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/spindle.h"
@@ -49,6 +50,14 @@ fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
   out.highest = task.highest_order;
   out.greatest_gain = task.greatest_gain;
   if (task.probe_noise_um) out.noise_mm = *task.probe_noise_um * kMicrometre;
+  if (task.uncertainty) {
+    const auto& declared = *task.uncertainty;
+    if (declared.noise_um) {
+      out.noise_mm = declared.noise_um->standard_uncertainty() * kMicrometre;
+    }
+    // Declared gains and angles take the place of the bare noise: see gates.cpp.
+    out.judge_first_harmonic = !(declared.gain_1 && declared.angle_deg);
+  }
   out.expected_amplitude_mm = task.expected_amplitude_um * kMicrometre;
   out.resample = task.resampling == record::Switch::kOn;
   if (task.recovery == SpindleTask::Recovery::kRegularised) {
@@ -57,6 +66,24 @@ fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
   out.second_order = second_order_of(task.second_order);
   if (task.motion == SpindleTask::Motion::kAsPublished) out.motion = Options::Motion::kAsPublished;
   return out;
+}
+
+/// Why the settings allow no interval of part and motion.
+std::optional<core::Phrase> obstacle_of(const SpindleTask& task) {
+  if (task.recovery == SpindleTask::Recovery::kRegularised) {
+    return core::phrase(
+        "a regularised recovery attenuates harmonics by an unknown amount; make "
+        "the recovery \"threshold\"");
+  }
+  if (task.motion == SpindleTask::Motion::kAsPublished) {
+    return core::phrase(
+        "the motion is as published, for comparison only; make it "
+        "\"least-squares\"");
+  }
+  if (task.resampling == record::Switch::kOff) {
+    return core::phrase("without resampling there is no interval; make it \"on\"");
+  }
+  return std::nullopt;
 }
 
 std::vector<std::vector<double>> turns_of(const fit::ThreeProbeResult& result,
@@ -115,10 +142,22 @@ core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, in
   if (!layout) return tl::unexpected(layout.error());
   const double cutoff = task->filter == SpindleTask::Filter::kNone ? 0.0 : task->cutoff_upr;
   const fit::SwingArm arm{task->crank_radius_mm, task->wheel_radius_mm, task->pin_radius_mm};
-  auto facts =
-      spindle_facts(probe_readings(*record.data_of(index, "data")), arm, *layout,
-                    separation_options(*task), cutoff, feature.side == record::Side::kInside);
+  const fit::ProbeReadings readings = probe_readings(*record.data_of(index, "data"));
+  auto facts = spindle_facts(readings, arm, *layout, separation_options(*task), cutoff,
+                             feature.side == record::Side::kInside);
   if (!facts) return tl::unexpected(facts.error());
+  facts->feature_id = feature.id;
+  facts->influences = task->uncertainty;
+  facts->no_interval_because = obstacle_of(*task);
+  const auto sources =
+      probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(), arm, *layout);
+  facts->first_harmonic = fit::observe_first_harmonic(facts->separation, covariance_of(sources));
+  result.gates = gates_of(*facts, readings, feature.characteristics);
+  for (const Gate& gate : result.gates) {
+    if (gate.outcome == Gate::Outcome::kVoids && voids_all(gate) && !facts->void_because) {
+      facts->void_because = gate.reason;
+    }
+  }
   result.warnings = facts->separation.warnings;
   result.warnings.insert(result.warnings.end(), facts->roundness.warnings.begin(),
                          facts->roundness.warnings.end());

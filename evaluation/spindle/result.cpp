@@ -41,7 +41,7 @@ const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation
 
 /// Readings that contradict what is stated, or are none, falsify everything.
 std::optional<core::Phrase> contradiction_of(const SpindleResult& facts) {
-  if (facts.separation.contradictions.empty()) return std::nullopt;
+  if (facts.void_because || facts.separation.contradictions.empty()) return facts.void_because;
   return facts.separation.contradictions.front().said();
 }
 
@@ -50,6 +50,18 @@ std::optional<core::Phrase> loss_of(const SpindleResult& facts) {
   if (auto contradiction = contradiction_of(facts)) return contradiction;
   if (facts.separation.unrecovered.empty()) return std::nullopt;
   return core::phrase("{} harmonics were not recovered", facts.separation.unrecovered.size());
+}
+
+/// Whether noise hides a harmonic from its limit.
+bool weak(const fit::RecoveredHarmonic& h, double limit_mm) {
+  return h.recovered && h.sigma_mm > kWeakShare * limit_mm;
+}
+
+core::Phrase weak_reason(const fit::RecoveredHarmonic& h, double limit_mm) {
+  return core::phrase(
+      "the standard uncertainty of harmonic {}, {:.3g} um, is above a quarter of the limit of {:g} "
+      "um: record more revolutions or choose a layout with less gain there",
+      h.order, core::micrometres(h.sigma_mm), core::micrometres(limit_mm));
 }
 
 core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
@@ -64,6 +76,13 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   AnalysisValue out;
   out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
   out.void_because = loss_of(facts);
+  if (!out.void_because && asked.tolerance_mm) {
+    for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
+      if (!out.void_because && weak(h, *asked.tolerance_mm)) {
+        out.void_because = weak_reason(h, *asked.tolerance_mm);
+      }
+    }
+  }
   if (rms || !found->range) return out;
   out.value_mm = deciding_mm(*found->range, asked.tolerance_mm);
   if (!out.void_because) out.void_because = undecided_range(*found->range, asked.tolerance_mm);
@@ -82,6 +101,9 @@ core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
       if (!h.recovered) {
         out.void_because = core::phrase("harmonic {} was not recovered", h.order);
         continue;
+      }
+      if (!out.void_because && weak(h, line.amplitude_mm)) {
+        out.void_because = weak_reason(h, line.amplitude_mm);
       }
       if (h.amplitude_mm / line.amplitude_mm <= worst) continue;
       worst = h.amplitude_mm / line.amplitude_mm;
@@ -102,7 +124,16 @@ core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
   return out;
 }
 
-core::Result<AnalysisValue> motion_value(const SpindleResult& facts, Form form) {
+core::Phrase few_turns_reason(const SpindleResult& facts) {
+  return core::phrase(
+      "asynchronous motion of {} turns is reported, not judged: it grows with the turns; record at "
+      "least {}",
+      facts.separation.revolutions, kLeastAsynchronousTurns);
+}
+
+core::Result<AnalysisValue> motion_value(const SpindleResult& facts,
+                                         const record::Characteristic& asked) {
+  const Form form = asked.form;
   AnalysisValue out;
   const auto greater = [&](double x_mm, double y_mm) {
     out.value_mm = std::max(x_mm, y_mm);
@@ -117,6 +148,10 @@ core::Result<AnalysisValue> motion_value(const SpindleResult& facts, Form form) 
     }
     greater(*facts.x.asynchronous_mm, *facts.y.asynchronous_mm);
     out.void_because = contradiction_of(facts);  // does not depend on the part
+    if (!out.void_because && asked.toleranced() &&
+        facts.separation.revolutions < kLeastAsynchronousTurns) {
+      out.void_because = few_turns_reason(facts);
+    }
     return out;
   }
   out.void_because = loss_of(facts);
@@ -136,7 +171,7 @@ core::Result<AnalysisValue> value_of(const SpindleResult& facts,
     case Form::kMotionTotal:
     case Form::kMotionSynchronous:
     case Form::kMotionAsynchronous:
-      return motion_value(facts, asked.form);
+      return motion_value(facts, asked);
     default:
       return core::fail(Code::kMeaning, fmt::format("a spindle has no {}", name_of(asked.form)));
   }

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/phrase.h"
 #include "evaluation/results/analysis_value.h"
+#include "evaluation/results/gate.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
+#include "fit/spindle/first_harmonic.h"
 #include "fit/spindle/three_probe.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::evaluation {
 
@@ -16,7 +25,33 @@ struct SpindleResult {
   fit::RoundnessEvaluation roundness;  ///< Roundness of the recovered profile.
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
+  std::string feature_id = {};  ///< Makes draws of noise its own.
+  /// The influences that the plan declares; none: it declares none.
+  std::optional<record::SpindleInfluencesTask> influences = {};
+  /// By the declared errors of the probes; without gain and angle by usual ones, and then only its
+  /// blindness counts.
+  std::optional<fit::FirstHarmonic> first_harmonic = {};
+  /// Why the settings allow no interval: a regularised recovery, the printed formula.
+  std::optional<core::Phrase> no_interval_because = {};
+  std::optional<core::Phrase> void_because = {};  ///< The gate that voids every value.
+
+  /// Whether gains and angles of the probes are declared.
+  [[nodiscard]] bool declares_probes() const {
+    return influences && influences->gain_1 && influences->angle_deg;
+  }
 };
+
+/// Turns from which asynchronous motion is judged: it grows with their number.
+constexpr int kLeastAsynchronousTurns = 8;
+/// Standard uncertainty of an amplitude up to which its limit is judged, in parts of the limit.
+constexpr double kWeakShare = 0.25;
+
+/// All gates of a spindle, passed or not.
+[[nodiscard]] std::vector<Gate> gates_of(const SpindleResult& result,
+                                         const fit::ProbeReadings& readings,
+                                         std::span<const record::Characteristic> characteristics);
+/// Whether a gate of gates_of() that voids, voids every value, not those of some characteristics.
+[[nodiscard]] bool voids_all(const Gate& gate);
 
 /// Evaluates feature `index` of a record.
 /// @param result  Holds the feature; receives the warnings.
@@ -26,6 +61,10 @@ struct SpindleResult {
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const SpindleResult& result,
                                                    const record::Characteristic& characteristic);
+/// The intervals of these values, in their order; or why there is none.
+[[nodiscard]] std::vector<UncertaintyStatus> intervals_of(
+    const SpindleResult& result, std::span<const record::Characteristic> characteristics,
+    const UncertaintyOptions& options);
 [[nodiscard]] ValueOperator operator_of(const SpindleResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

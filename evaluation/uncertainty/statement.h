@@ -46,6 +46,9 @@ struct UncertaintyStatement {
   /// Twice the standard deviation of the mean of the chains, the largest of estimate, standard
   /// uncertainty, low and high [mm]: the numerical error of a finite number of trials.
   double numerical_tolerance_mm = 0.0;
+  /// Noise and influences make up so much of the value that only `high_mm` is stated: the value is
+  /// at most that.
+  bool at_most = false;
   std::vector<double> values_mm;  ///< Values of the trials, ascending: the whole distribution.
 
   /// U: half the width of the interval, which need not be symmetric about the estimate.
@@ -62,6 +65,8 @@ struct BudgetLine {
   double standard_uncertainty_mm = 0.0;  ///< Spread of the value.
   double shift_mm = 0.0;                 ///< Mean change of the value, signed.
   double share_1 = 0.0;                  ///< Fraction of the sum of the squared spreads, 0..1.
+  /// Change of the value for +1 standard uncertainty, signed, where the line is linear propagation.
+  std::optional<double> per_u_mm = {};
 };
 
 /// Composition of the cloud: means over the draws.

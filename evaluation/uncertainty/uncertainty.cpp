@@ -119,25 +119,6 @@ core::Result<void> guard_correction(const FormChains& chains, const UncertaintyR
                                     1e3 * found.noise_inflation_mm, 1e3 * most));
 }
 
-/// Each line's share of the lines of (a); sampling's share of all lines.
-void share_out(std::vector<BudgetLine>& budget) {
-  double sampled = 0.0;
-  double all = 0.0;
-  for (const BudgetLine& line : budget) {
-    const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
-    all += square;
-    if (line.measurand == Measurand::kSampledPoints) sampled += square;
-  }
-  for (BudgetLine& line : budget) {
-    const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
-    const double sum = line.measurand == Measurand::kSampledPoints ? sampled : all;
-    line.share_1 = sum > 0.0 ? square / sum : 0.0;
-  }
-  std::stable_sort(budget.begin(), budget.end(), [](const BudgetLine& a, const BudgetLine& b) {
-    return a.standard_uncertainty_mm > b.standard_uncertainty_mm;
-  });
-}
-
 core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const ErrorModel& errors,
                                                 const UncertaintyOptions& options) {
   std::vector<BudgetLine> budget;

@@ -2,8 +2,12 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/wheel/internal/measured_axis.h"
+#include "evaluation/wheel/internal/unseen.h"
 #include "evaluation/wheel/result.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/wheel.h"
@@ -41,6 +45,11 @@ fit::QuadrupleChoice quadruple_choice(WheelTask::Quadruples quadruples) {
   return fit::QuadrupleChoice::kAll;
 }
 
+fit::WheelPointErrors point_errors(const record::WheelInfluencesTask& said) {
+  return {record::u_of(said.point_um) * kMicrometre, record::u_of(said.scale_ppm) * 1e-6,
+          record::u_of(said.threshold_um) * kMicrometre, record::u_of(said.wear_um) * kMicrometre};
+}
+
 fit::WheelOptions wheel_options(const WheelTask& task, std::uint64_t seed) {
   fit::WheelOptions out;
   out.mode = task.mode == WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
@@ -56,6 +65,7 @@ fit::WheelOptions wheel_options(const WheelTask& task, std::uint64_t seed) {
   if (task.axis_x_mm && task.axis_z_mm) {
     out.axis_mm = Eigen::Vector2d(*task.axis_x_mm, *task.axis_z_mm);
   }
+  if (task.uncertainty && task.uncertainty->point_um) out.errors = point_errors(*task.uncertainty);
   return out;
 }
 
@@ -118,59 +128,85 @@ std::vector<Eigen::Vector2d> points_of(const record::Series& series) {
   return out;
 }
 
-core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
-                                      const std::optional<double>& nominal_mm) {
+core::Result<AnalysisValue> departure(const WheelResult& facts,
+                                      const record::Characteristic& asked) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  const std::optional<double>& nominal_mm = facts.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
   AnalysisValue out;
-  out.value_mm = std::abs(m.radius_mm - *nominal_mm);
+  const double departure_mm = m.radius_mm - *nominal_mm;
+  out.value_mm = has_signed_limits(asked) ? departure_mm : std::abs(departure_mm);
   out.detail = core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
+  if (!m.radius_void_because.empty()) {
+    out.void_because = m.radius_void_because;
+  } else if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
+    out.void_because = *std::move(reason);
+  }
   return out;
 }
 
-/// Turns a roundness into a bound, given the points about the whole turn and the dropped ones.
-/// @param with_dropped_mm  Roundness of all points.
-/// @param zone  A minimum zone: that of some points is never wider than that of all.
-AnalysisValue bounded(AnalysisValue value, const fit::WheelMeasurement& m, double with_dropped_mm,
-                      bool zone) {
-  if (!m.sees_whole_turn()) {
-    value.void_because = core::phrase(
-        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
-        "deviation; measure the whole turn",
-        m.order.largest_gap_rad / kDegree);
-    value.lower_bound = zone;
-  } else if (with_dropped_mm > value.value_mm) {
-    value.void_because = core::phrase(
-        "the roundness is {} um without the points that were dropped and {} um with "
-        "them: clean the wheel there and measure it again",
-        um(value.value_mm), um(with_dropped_mm));
-    value.lower_bound = true;
-  }
-  return value;
-}
-
-core::Result<AnalysisValue> roundness(const WheelResult& facts, record::Reference reference) {
+core::Result<AnalysisValue> roundness(const WheelResult& facts,
+                                      const record::Characteristic& characteristic) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
-  const bool dropped = !m.dropped.empty();
-  if (reference == record::Reference::kLeastSquares) {
-    const auto all = dropped ? fit::ls_circle(facts.points_mm) : m.check;
-    if (!all) return core::fail(all.error());
-    return bounded({m.check.deviation_mm, {}, {}, {}, false}, m, all->deviation_mm, false);
-  }
-  if (reference != record::Reference::kMinimumZone) {
+  const bool least_squares = characteristic.reference == record::Reference::kLeastSquares;
+  if (!least_squares && characteristic.reference != record::Reference::kMinimumZone) {
     return core::fail(core::Code::kReferenceAbsent,
                       "roundness of a wheel has the references mz, ls");
   }
-  if (!m.zone)
+  AnalysisValue out;
+  if (least_squares) {
+    // Of all points: a point that the robust variant left out of the centre is form all the same.
+    const auto all = fit::ls_circle(facts.points_mm);
+    if (!all) return core::fail(all.error());
+    out.value_mm = all->deviation_mm;
+  } else if (m.zone) {
+    out.value_mm = m.zone->width_mm();
+  } else {
     return core::fail(core::Code::kNotConverged, core::phrase("there is no minimum zone"));
-  const auto all = dropped ? fit::min_zone_circle(facts.points_mm) : *m.zone;
-  if (!all) return core::fail(all.error());
-  AnalysisValue out = bounded({m.zone->width_mm(), {}, {}, {}, false}, m, all->width_mm(), true);
-  if (m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {
+  }
+  if (auto reason = unseen_because(facts, characteristic)) {
+    out.void_because = *std::move(reason);
+    // The zone of some points is never wider than that of all, nor than their least-squares one.
+    const bool proven = m.zone && m.zone->certificate.kind == fit::Certificate::Kind::kGlobal;
+    out.lower_bound = !least_squares || (proven && characteristic.tolerance_mm &&
+                                         m.zone->width_mm() > *characteristic.tolerance_mm);
+  }
+  if (!least_squares && m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {
     out.void_because =
         core::phrase("the minimum zone is not proven: {}", m.zone->certificate.reason);
     out.lower_bound = false;
   }
   return out;
+}
+
+/// Gives a wheel the axis that an earlier feature found, or says why there is none.
+std::optional<core::Phrase> take_axis(const std::string& id, const EarlierWheel& earlier,
+                                      WheelResult& facts) {
+  const auto producer = earlier(id);
+  if (!producer) return producer.error().said();
+  auto axis = measured_axis(**producer, id);
+  if (!axis) return axis.error().said();
+  facts.task.wheel.axis_mm = axis->center_mm;
+  facts.measured_axis = *std::move(axis);
+  return std::nullopt;
+}
+
+/// Where the tolerances of run-out make a bound of it, everything that states it says so, and no
+/// path rests on the effective radius.
+void bound_runout(std::span<const record::Characteristic> characteristics, WheelResult& facts) {
+  auto& runout = facts.evaluation.wheel.runout;
+  if (!runout) return;
+  for (const record::Characteristic& asked : characteristics) {
+    if (asked.form != record::Form::kRunOut || !runout->bound_because.empty()) continue;
+    if (auto reason = unseen_because(facts, asked)) runout->bound_because = *std::move(reason);
+  }
+  fit::WheelEvaluation& e = facts.evaluation;
+  if (runout->bound_because.empty() || !e.path || e.radius != fit::RadiusChoice::kEffective) return;
+  e.path.reset();
+  e.forecast.reset();
+  const core::Phrase why =
+      core::phrase("the effective radius is a lower bound only: {}", runout->bound_because);
+  e.refused = core::Error{core::Code::kMeaning, why.english(), {}, why};
 }
 
 }  // namespace
@@ -179,23 +215,14 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
                                      const record::Characteristic& characteristic) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   if (characteristic.form == record::Form::kRadius) {
-    return departure(m, facts.task.wheel.nominal_radius_mm);
+    return departure(facts, characteristic);
   }
-  if (characteristic.form == record::Form::kRoundness) {
-    return roundness(facts, characteristic.reference);
-  }
+  if (characteristic.form == record::Form::kRoundness) return roundness(facts, characteristic);
   if (!m.runout) return core::fail(core::Code::kNoAxis, m.runout_absent);
   AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
-  if (!m.runout->bound_because.empty()) {
-    // If all points lie within the tolerance, that decides, where the whole turn is seen.
-    if (m.sees_whole_turn() && characteristic.tolerance_mm &&
-        m.runout->fim_with_dropped_mm <= *characteristic.tolerance_mm) {
-      out.value_mm = m.runout->fim_with_dropped_mm;
-      out.detail = core::phrase("with the points that were dropped");
-    } else {
-      out.void_because = m.runout->bound_because;
-      out.lower_bound = true;
-    }
+  if (auto reason = unseen_because(facts, characteristic)) {
+    out.void_because = *std::move(reason);
+    out.lower_bound = true;
   }
   return out;
 }
@@ -203,24 +230,32 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
 ValueOperator operator_of(const WheelResult& facts, const record::Characteristic& characteristic,
                           const core::Phrase& temperature) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
-  const core::Phrase points = core::phrase("{} of {} points, {} mode", m.points - m.dropped.size(),
-                                           m.points, core::Phrase(fit::name_of(m.mode)));
+  const bool dropped = characteristic.form == record::Form::kRadius;
+  const core::Phrase points =
+      core::phrase("{} of {} points, {} mode", m.points - (dropped ? m.dropped.size() : 0),
+                   m.points, core::Phrase(fit::name_of(m.mode)));
   core::Phrase reference = core::as_it_is(reference_of(characteristic));
   if (characteristic.form == record::Form::kRunOut) {
-    reference = core::phrase("full indicator movement about the given axis");
+    reference = facts.measured_axis
+                    ? core::phrase("full indicator movement about the axis of feature {}",
+                                   facts.measured_axis->feature)
+                    : core::phrase("full indicator movement about the given axis");
   } else if (characteristic.form != record::Form::kRoundness) {
     reference = m.mean == fit::WheelMean::kLeastSquares
                     ? core::phrase("mean distance from the least-squares centre")
                     : core::phrase("mean distance from the centre ({} mean of {} quadruples)",
                                    core::Phrase(fit::name_of(m.mean)), m.centers.accepted.size());
   }
-  return {ReferenceTerm(reference), FilterTerm(filter_text(facts)), SamplingTerm(points),
-          TipTerm(core::phrase("points as given")), TemperatureTerm(temperature)};
+  return {ReferenceTerm(reference),
+          FilterTerm(dropped ? filter_text(facts) : core::phrase("unfiltered")),
+          SamplingTerm(points), TipTerm(core::phrase("points as given")),
+          TemperatureTerm(temperature)};
 }
 
 core::Phrase filter_text(const WheelResult& facts) {
-  return facts.task.wheel.robust ? core::phrase("unfiltered, isolated outliers dropped")
-                                 : core::phrase("unfiltered");
+  return facts.task.wheel.robust
+             ? core::phrase("unfiltered, isolated outliers left out of centre and radius")
+             : core::phrase("unfiltered");
 }
 
 core::Phrase sampling_text(const WheelResult& facts) {
@@ -230,7 +265,7 @@ core::Phrase sampling_text(const WheelResult& facts) {
 }
 
 core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,
-                                         FeatureResult& result) {
+                                         const EarlierWheel& earlier, FeatureResult& result) {
   const auto asked = record::task_of<WheelTask>(result.feature.settings);
   if (!asked) return tl::unexpected(asked.error());
   auto task = path_task(*asked);
@@ -238,9 +273,21 @@ core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int in
   WheelResult facts;
   facts.points_mm = points_of(*record.data_of(index, "data"));
   facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
+  facts.declared = asked->uncertainty;
+  std::optional<core::Phrase> chain;
+  if (asked->axis_from) {
+    chain = take_axis(asked->axis_from->feature, earlier, facts);
+    result.gates.push_back(chain_gate(asked->axis_from->feature, chain));
+  }
   auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
   if (!evaluation) return tl::unexpected(evaluation.error());
   facts.evaluation = *std::move(evaluation);
+  if (chain) facts.evaluation.wheel.runout_absent = *chain;
+  bound_runout(result.feature.characteristics, facts);
+  facts.effective_radius = effective_radius_interval(facts, uncertainty_options(record));
+  for (Gate& gate : gates_of(facts, result.feature.characteristics)) {
+    result.gates.push_back(std::move(gate));
+  }
   result.warnings = facts.evaluation.wheel.warnings;
   if (facts.evaluation.path) {
     const auto& more = facts.evaluation.path->warnings;

@@ -127,6 +127,27 @@ std::vector<Harmonic> contour_harmonics(std::span<const double> error_mm, int hi
   return out;
 }
 
+std::vector<double> contour_coefficients(std::span<const double> error_mm, int highest) {
+  const auto f = spectrum(error_mm);
+  const double scale = 2.0 / static_cast<double>(error_mm.size());
+  std::vector<double> out;
+  for (int k = 2; k <= highest; ++k) {
+    const auto c = scale * f[static_cast<std::size_t>(k)];
+    out.push_back(c.real());
+    out.push_back(-c.imag());
+  }
+  return out;
+}
+
+std::vector<double> contour_of(std::span<const double> coefficients_mm, std::size_t samples) {
+  Spectrum half(samples / 2 + 1);
+  const double scale = 0.5 * static_cast<double>(samples);
+  for (std::size_t j = 0; j + 1 < coefficients_mm.size(); j += 2) {
+    half[j / 2 + 2] = scale * Complex(coefficients_mm[j], -coefficients_mm[j + 1]);
+  }
+  return series_of(half, samples);
+}
+
 std::vector<double> turned_curve(std::span<const double> curve, double angle_rad) {
   auto f = spectrum(curve);
   for (std::size_t k = 0; k < f.size(); ++k) {

@@ -58,6 +58,15 @@ struct ContourError {
 [[nodiscard]] std::vector<Harmonic> contour_harmonics(std::span<const double> error_mm,
                                                       int highest);
 
+/// Parts of cos and sin of the harmonics 2 .. highest of a contour error, in turn: a2, b2, a3, b3,
+/// ... of a cos(k beta) + b sin(k beta). @pre highest < M / 2.
+[[nodiscard]] std::vector<double> contour_coefficients(std::span<const double> error_mm,
+                                                       int highest);
+/// The curve of such coefficients at the angles 2 pi m / samples. @pre samples above twice the
+/// highest harmonic.
+[[nodiscard]] std::vector<double> contour_of(std::span<const double> coefficients_mm,
+                                             std::size_t samples);
+
 /// A curve turned by an angle: out(theta) = curve(theta - angle), by its Fourier series.
 [[nodiscard]] std::vector<double> turned_curve(std::span<const double> curve, double angle_rad);
 

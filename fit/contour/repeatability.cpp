@@ -88,8 +88,8 @@ std::string_view name_of(StabilityWord word) {
 }
 
 std::optional<StabilityWord> Repeatability::word(const StabilityLimits& limits) const {
-  if (!index || rms.size() < kPartsForAWord) return std::nullopt;
-  if (*index >= limits.stable) return StabilityWord::kStable;
+  if (!index || no_word || rms.size() < kPartsForAWord) return std::nullopt;
+  if (std::min(*index, index_low.value_or(*index)) >= limits.stable) return StabilityWord::kStable;
   return *index >= limits.partly ? StabilityWord::kPartly : StabilityWord::kUnstable;
 }
 

@@ -30,6 +30,9 @@ struct Repeatability {
   /// S = (A^2 - s^2/q) / (A^2 - s^2/q + s^2): 1 for perfect repetition, 0 for random curves. A
   /// negative estimate is kept. Absent if all curves are zero.
   std::optional<double> index;
+  /// Lower end of the interval of the index. Where it is known, the word "stable" goes by it.
+  std::optional<double> index_low;
+  bool no_word = false;  ///< The curves, or their index, are not known well enough for a word.
   std::vector<double> peak_to_valley;  ///< One per part.
   std::vector<double> rms;             ///< One per part.
   double variation = 0.0;       ///< Standard deviation / mean of the peak to valley; 0 for mean 0.
@@ -37,7 +40,8 @@ struct Repeatability {
   double mean_correlation = 0.0;   ///< Mean over the pairs.
   double least_correlation = 0.0;  ///< Least of the pairs.
 
-  /// The verdict; nothing with fewer than 4 parts, or without an index.
+  /// The verdict; nothing with fewer than 4 parts, without an index, and where `no_word`. An index
+  /// that reaches "stable" while the lower end of its interval does not is "partly".
   [[nodiscard]] std::optional<StabilityWord> word(const StabilityLimits& limits = {}) const;
 };
 

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kPlacesPerSample = 16;
 constexpr int kNewtonSteps = 20;
 constexpr double kLargeOffset = 2.0 * core::kDegree;
+constexpr double kCoverage95 = 1.96;
 
 double mean_product(std::span<const double> a, std::span<const double> b) {
   assert(a.size() == b.size() && a.size() >= 16);
@@ -101,6 +102,35 @@ std::vector<double> mirrored(std::span<const double> curve) {
   return out;
 }
 
+/// Standard deviation of mean(a b) where the phases of all harmonics of one of them are unknown.
+double product_by_chance(std::span<const double> a, std::span<const double> b) {
+  const auto one = spectrum(a);
+  const auto other = spectrum(b);
+  const double scale = 2.0 / static_cast<double>(a.size());
+  double variance = 0.0;
+  for (std::size_t k = 1; k < one.size(); ++k) {
+    // mean(a_k b_k) is half the product of the amplitudes times the cosine of the phase.
+    const double product = scale * scale * std::abs(one[k]) * std::abs(other[k]);
+    variance += product * product / 8.0;
+  }
+  return std::sqrt(variance);
+}
+
+std::vector<double> difference(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> out(a.size());
+  std::ranges::transform(a, b, out.begin(), std::minus<>());
+  return out;
+}
+
+/// Whether another f fits t better than the given one by more than chance explains.
+bool fits_better(const CurvePair& pair, std::span<const double> other_mm) {
+  const std::vector<double> change = difference(other_mm, pair.following_mm);
+  const std::vector<double> rest = difference(pair.total_mm, other_mm);
+  // All three curves have the power of f: the mean squares differ by 2 mean(t change).
+  const double gain = 2.0 * mean_product(pair.total_mm, change);
+  return gain > 2.0 * kCoverage95 * product_by_chance(rest, change) && gain > 0.0;
+}
+
 }  // namespace
 
 double correlation_of(std::span<const double> a, std::span<const double> b) {
@@ -178,13 +208,19 @@ SenseEvidence sense_evidence(std::span<const CurvePair> pairs) {
   double other = 0.0;
   double totals = 0.0;
   double followings = 0.0;
+  SenseEvidence out;
+  out.parts = pairs.size();
   for (const CurvePair& pair : pairs) {
+    const std::vector<double> turned_over = mirrored(pair.following_mm);
+    std::vector<double> negated(pair.following_mm.begin(), pair.following_mm.end());
+    for (double& v : negated) v = -v;
+    out.mirrored_better += fits_better(pair, turned_over) ? 1 : 0;
+    out.negated_better += fits_better(pair, negated) ? 1 : 0;
     same += mean_product(pair.total_mm, pair.following_mm);
-    other += mean_product(pair.total_mm, mirrored(pair.following_mm));
+    other += mean_product(pair.total_mm, turned_over);
     totals += mean_product(pair.total_mm, pair.total_mm);
     followings += mean_product(pair.following_mm, pair.following_mm);
   }
-  SenseEvidence out;
   const double norm = std::sqrt(totals * followings);
   if (norm <= 0.0) return out;
   const auto parts = static_cast<double>(pairs.size());
@@ -192,6 +228,18 @@ SenseEvidence sense_evidence(std::span<const CurvePair> pairs) {
   out.mirrored = other / norm;
   out.rms_difference_mm = std::sqrt(std::max(0.0, totals + followings - 2.0 * same) / parts);
   out.rms_sum_mm = std::sqrt(std::max(0.0, totals + followings + 2.0 * same) / parts);
+  out.rms_mirrored_mm = std::sqrt(std::max(0.0, totals + followings - 2.0 * other) / parts);
+  return out;
+}
+
+std::optional<GainEvidence> gain_evidence(const CurvePair& pair) {
+  const double power = mean_product(pair.following_mm, pair.following_mm);
+  if (power <= 0.0) return std::nullopt;
+  GainEvidence out;
+  out.slope = mean_product(pair.total_mm, pair.following_mm) / power;
+  std::vector<double> rest(pair.total_mm.begin(), pair.total_mm.end());
+  for (std::size_t m = 0; m < rest.size(); ++m) rest[m] -= out.slope * pair.following_mm[m];
+  out.u = product_by_chance(rest, pair.following_mm) / power;
   return out;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -69,13 +71,29 @@ struct SenseEvidence {
   double mirrored = 0.0;           ///< Correlation with f(-beta), as for the opposite sense of C.
   double rms_difference_mm = 0.0;  ///< rms(t - f) over all parts.
   double rms_sum_mm = 0.0;         ///< rms(t + f): the rest for the opposite sign.
+  double rms_mirrored_mm = 0.0;    ///< rms(t - f(-beta)): the rest for the opposite sense.
+  std::size_t parts = 0;
+  /// Parts that the negated f, or the mirrored one, fits better than the given f does. Better: the
+  /// mean square of the rest is less by more than 1.96 times what a rest of its amplitudes, in any
+  /// phase, adds to that difference.
+  std::size_t negated_better = 0;
+  std::size_t mirrored_better = 0;
 
-  /// Whether t and f oppose each other: the errors are then probably command minus actual.
-  [[nodiscard]] bool sign_suspect() const { return as_given < -0.5; }
-  /// Whether t fits the mirrored f far better.
-  [[nodiscard]] bool sense_suspect() const { return mirrored > 0.7 && mirrored > as_given + 0.3; }
+  /// Whether the negated f fits better in the majority of the parts: the errors are then probably
+  /// command minus actual.
+  [[nodiscard]] bool sign_suspect() const { return 2 * negated_better > parts; }
+  /// The same of the mirrored f.
+  [[nodiscard]] bool sense_suspect() const { return 2 * mirrored_better > parts; }
 };
 [[nodiscard]] SenseEvidence sense_evidence(std::span<const CurvePair> pairs);
+
+/// Slope of t over f through the origin: 1 where gauge and axes have the same scale.
+struct GainEvidence {
+  double slope = 1.0;
+  double u = 0.0;  ///< Standard uncertainty, from the amplitudes of the rest in any phase.
+};
+/// @return  Nothing where f is zero.
+[[nodiscard]] std::optional<GainEvidence> gain_evidence(const CurvePair& pair);
 
 // Source: methods, contour section 7.
 

@@ -13,11 +13,8 @@
 namespace rondure::fit {
 namespace {
 
-constexpr double kSamplesPerUndulation = 6.0;
 /// Most samples of a turn; gauges give some thousands.
 constexpr std::size_t kMostSamples = 100'000;
-constexpr double kStrokeLimit = 0.05;    ///< mm
-constexpr double kPositionLimit = 0.02;  ///< mm, rms
 
 MeasuredContourOptions gauge_options(const ContourStudyOptions& options, bool main) {
   MeasuredContourOptions out;
@@ -62,50 +59,15 @@ void warn_of_undercut(ContourPartResult& part) {
                                              : "that of the pre-filtered path, which hides it")});
 }
 
-/// Compares the recorded positions of X with those of the geometry.
-core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& geometry) {
-  const std::size_t n = axes.x_mm.size();
-  if (n == 0) return {};
-  std::vector<double> ideal(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    ideal[i] =
-        wheel_position_mm(geometry, core::kTwoPi * static_cast<double>(i) / static_cast<double>(n));
-  }
-  const double stroke = peak_to_valley(axes.x_mm);
-  const double expected = peak_to_valley(ideal);
-  const auto stated = spectrum(ideal);
-  double mean = 0.0;
-  for (std::size_t i = 0; i < n; ++i) mean += (axes.x_mm[i] - ideal[i]) / static_cast<double>(n);
-  for (std::size_t i = 0; i < n; ++i) ideal[i] = axes.x_mm[i] - ideal[i] - mean;
-  const double off = core::root_mean_square(ideal);
-  if (std::abs(stroke - expected) <= kStrokeLimit && off <= kPositionLimit) return {};
-  // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic gives crank
-  // radius and zero, the second R^2/Lc.
-  const auto f = spectrum(axes.x_mm);
-  const double radius = 2.0 * std::abs(f[1]) / static_cast<double>(n);
-  const double length = geometry.center_distance_mm() * std::abs(stated[2]) /
-                        std::max(std::abs(f[2]), 1e-9) *
-                        std::pow(radius / geometry.crank_radius_mm, 2);
-  return core::fail(
-      core::Code::kInconsistent,
-      fmt::format("the recorded X positions contradict the geometry: stroke {:.3f} mm, expected "
-                  "{:.3f} mm (limit {} mm), and {:.3f} mm rms off the ideal motion (limit {} mm). "
-                  "They fit a crank radius of {:.3f} mm (stated {:g}), wheel and pin radii of "
-                  "{:.0f} mm together (stated {:g}) and C turned by {:.2f} deg: correct these, the "
-                  "zero of C or the column of X",
-                  stroke, expected, kStrokeLimit, off, kPositionLimit, radius,
-                  geometry.crank_radius_mm, length, geometry.center_distance_mm(),
-                  -std::arg(f[1]) / core::kDegree));
-}
-
 /// Computes f from the axes alone.
 core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& options,
                           ContourPartResult& out) {
   auto axes = last_turn(part.trace, options.axes);
   if (!axes) return core::fail(axes.error());
   out.axes = *std::move(axes);
-  if (auto checked = check_positions(out.axes, options.geometry); !checked) {
-    return core::fail(checked.error());
+  out.positions = check_positions(out.axes, options.geometry);
+  if (out.positions && !out.positions->contradiction.empty()) {
+    return core::fail(core::Code::kInconsistent, out.positions->contradiction);
   }
   if (auto checked = check_axis_sampling(out.axes, options.error.filter); !checked) {
     return core::fail(checked.error());
@@ -242,6 +204,45 @@ void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
 
 std::string_view name_of(ContourMethod method) {
   return method == ContourMethod::kAsPublished ? "as-published" : "corrected";
+}
+
+std::optional<PositionCheck> check_positions(const AxisTurn& axes, const CrankGeometry& geometry) {
+  const std::size_t n = axes.x_mm.size();
+  if (n == 0) return std::nullopt;
+  std::vector<double> ideal(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ideal[i] =
+        wheel_position_mm(geometry, core::kTwoPi * static_cast<double>(i) / static_cast<double>(n));
+  }
+  PositionCheck out;
+  out.stroke_mm = peak_to_valley(axes.x_mm);
+  out.expected_mm = peak_to_valley(ideal);
+  const auto stated = spectrum(ideal);
+  double mean = 0.0;
+  for (std::size_t i = 0; i < n; ++i) mean += (axes.x_mm[i] - ideal[i]) / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) ideal[i] = axes.x_mm[i] - ideal[i] - mean;
+  out.course_mm = core::root_mean_square(ideal);
+  if (std::abs(out.stroke_mm - out.expected_mm) <= PositionCheck::kStrokeLimit &&
+      out.course_mm <= PositionCheck::kCourseLimit) {
+    return out;
+  }
+  // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic gives crank
+  // radius and zero, the second R^2/Lc.
+  const auto f = spectrum(axes.x_mm);
+  const double radius = 2.0 * std::abs(f[1]) / static_cast<double>(n);
+  const double length = geometry.center_distance_mm() * std::abs(stated[2]) /
+                        std::max(std::abs(f[2]), 1e-9) *
+                        std::pow(radius / geometry.crank_radius_mm, 2);
+  out.contradiction = fmt::format(
+      "the recorded X positions contradict the geometry: stroke {:.3f} mm, expected "
+      "{:.3f} mm (limit {} mm), and {:.3f} mm rms off the ideal motion (limit {} mm). "
+      "They fit a crank radius of {:.3f} mm (stated {:g}), wheel and pin radii of "
+      "{:.0f} mm together (stated {:g}) and C turned by {:.2f} deg: correct these, the "
+      "zero of C or the column of X",
+      out.stroke_mm, out.expected_mm, PositionCheck::kStrokeLimit, out.course_mm,
+      PositionCheck::kCourseLimit, radius, geometry.crank_radius_mm, length,
+      geometry.center_distance_mm(), -std::arg(f[1]) / core::kDegree);
+  return out;
 }
 
 core::Result<ContourPartResult> contour_part(const ContourPart& part,

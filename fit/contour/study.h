@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -66,9 +67,27 @@ struct IndirectSeparation {
   double rms_difference_mm = 0.0;    ///< Rms difference from the direct following part.
 };
 
+/// Recorded positions of X, held against crank, wheel and the zero of C.
+struct PositionCheck {
+  static constexpr double kStrokeLimit = 0.05;  ///< mm
+  static constexpr double kCourseLimit = 0.02;  ///< mm, rms
+
+  double stroke_mm = 0.0;     ///< max X - min X.
+  double expected_mm = 0.0;   ///< 2 R.
+  double course_mm = 0.0;     ///< rms of X(alpha) - d(alpha) after a constant.
+  std::string contradiction;  ///< With the geometry that the positions fit; empty where they agree.
+};
+/// @return  Nothing where the turn has no positions.
+[[nodiscard]] std::optional<PositionCheck> check_positions(const AxisTurn& axes,
+                                                           const CrankGeometry& geometry);
+
+/// Least samples of the control for one undulation at the cut-off.
+inline constexpr double kSamplesPerUndulation = 6.0;
+
 /// The separated contour of one part.
 struct ContourPartResult {
   AxisTurn axes;
+  std::optional<PositionCheck> positions;  ///< None: no positions were recorded.
   GroundContour ground;
   ContourError following;  ///< f, as separated (turned, as published).
   MeasuredContour pin;     ///< t.

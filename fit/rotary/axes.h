@@ -30,6 +30,12 @@ struct RotaryPose {
   double angle_rad = 0.0;
   Approach approach = Approach::kUnknown;
   std::vector<BallCentre> balls;
+  /// Motion of the body before the axis turns it, in the frame of the machine at the reference
+  /// pose: by another axis, which the body sits on, and which does not read its zero.
+  Eigen::Isometry3d carried = Eigen::Isometry3d::Identity();
+  /// Covariance of (t; w) by which the body as a whole may be misplaced here: the uncertainty of
+  /// the readings of the axes. No ball shows it.
+  Matrix6 placing_covariance = Matrix6::Zero();
 };
 
 /// Measurement of an axis. Stations and references are in the order of measurement.
@@ -42,6 +48,9 @@ struct RotaryMeasurement {
   /// that the positions are exact.
   std::vector<std::vector<BallCentre>> references;
   std::vector<RotaryPose> stations;
+  /// Covariance of (t; w) by which the body may be misplaced in the mean of the references: it
+  /// turns with the body and is in all stations alike.
+  Matrix6 reference_placing = Matrix6::Zero();
 };
 
 /// Settings of identify_rotary_axis().

@@ -10,6 +10,7 @@
 #include "fit/rotary/ball_setup.h"
 #include "fit/rotary/internal/checks.h"
 #include "fit/rotary/internal/station.h"
+#include "fit/rotary/reading.h"
 
 namespace rondure::fit {
 namespace {
@@ -69,11 +70,12 @@ double largest_reference_u(const RotaryMeasurement& m) {
 }
 
 StationBall station_ball(const RotaryMeasurement& m, const BallCentre& reference,
-                         const BallCentre& measured, double turned_rad) {
+                         const BallCentre& measured, double turned_rad,
+                         const Eigen::Isometry3d& carried) {
   const Matrix3d turn = m.axis.turn(turned_rad);
   StationBall out;
   out.ball = measured.ball;
-  out.nominal_mm = turn * (reference.centre_mm - m.axis.origin_mm);
+  out.nominal_mm = turn * (carried * reference.centre_mm - m.axis.origin_mm);
   out.measured_mm = measured.centre_mm - m.axis.origin_mm;
   out.measured_mm2 = covariance_of(measured.u_mm);
   out.nominal_mm2 = turn * covariance_of(reference.u_mm) * turn.transpose();
@@ -129,7 +131,9 @@ core::Result<std::vector<RotaryStation>> solve_stations(const RotaryMeasurement&
     std::vector<StationBall> balls;
     for (const BallCentre& known : reference) {
       for (const BallCentre& ball : pose.balls) {
-        if (ball.ball == known.ball) balls.push_back(station_ball(m, known, ball, turned));
+        if (ball.ball == known.ball) {
+          balls.push_back(station_ball(m, known, ball, turned, pose.carried));
+        }
       }
     }
     std::optional<PublishedMatrix> printed;
@@ -159,7 +163,7 @@ Matrix6 reference_covariance(const RotaryMeasurement& m, std::span<const BallCen
     }
     if (count == 0.0) continue;
     measured.u_mm = (measured.u_mm / count).cwiseSqrt();
-    balls.push_back(station_ball(m, known, measured, 0.0));
+    balls.push_back(station_ball(m, known, measured, 0.0, Eigen::Isometry3d::Identity()));
   }
   const RotaryStation there = solve_station(std::move(balls), {});
   if (there.undetermined) return Matrix6::Zero();
@@ -181,6 +185,20 @@ void scale_uncertainties(RotaryStudy& study) {
     station.measured_covariance *= factor;
   }
   study.table.reference_covariance *= factor;
+}
+
+/// Adds the uncertainty of the readings. The scatter of the balls does not show it, so that it is
+/// not scaled with them.
+void add_placing(const RotaryMeasurement& m, RotaryStudy& study) {
+  for (std::size_t i = 0; i < study.stations.size(); ++i) {
+    RotaryStation& station = study.stations[i];
+    if (station.undetermined) continue;
+    const Matrix3d turn = m.axis.turn(station.angle_rad - m.reference_rad);
+    station.measured_covariance += m.stations[i].placing_covariance;
+    station.errors.covariance +=
+        m.stations[i].placing_covariance + turned_covariance(m.reference_placing, turn);
+  }
+  study.table.reference_covariance += m.reference_placing;
 }
 
 /// Whether the stations cover the full circle: the remaining gap is no wider than others.
@@ -343,6 +361,7 @@ core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& opt
   study.table.curve = options.curve;
   study.table.reference_covariance = reference_covariance(m, study.reference);
   scale_uncertainties(study);
+  add_placing(m, study);
   auto doubts = check_neighbours(study.stations, m.axis, m.reference_rad);
   if (!doubts) return core::fail(doubts.error());
   study.warnings = *std::move(doubts);

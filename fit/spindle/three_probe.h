@@ -40,6 +40,9 @@ struct ThreeProbeOptions {
   Recovery recovery = Recovery::kThreshold;
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
+  /// false: content at one undulation above its limit is no contradiction, because the caller
+  /// compares it with the declared errors of gains and angles (first_harmonic.h).
+  bool judge_first_harmonic = true;
 };
 
 /// One harmonic of the part.
@@ -95,6 +98,14 @@ struct ThreeProbeResult {
   double residual_rms_mm =
       0.0;  ///< Residual of the redundant equation, over the weight norm, without k = 0.
   int second_order_passes = 0;
+  /// Mean revolution of each probe on the samples, corrected to the first order: the input of
+  /// separation_model.h.
+  std::array<std::vector<double>, 3> mean_readings_mm = {};
+  /// Increase of each probe per revolution; 0 for a single one.
+  std::array<double, 3> drift_mm = {0.0, 0.0, 0.0};
+  /// Standard deviation of a reading from the differences between the revolutions, for each
+  /// harmonic 2..highest of the weighted sum; empty for a single revolution.
+  std::vector<double> scatter_mm = {};
   /// Readings that contradict the stated probes, arm or angles, and invalid readings. They are also
   /// in `warnings`. If there is any, part and motion must not be judged.
   std::vector<core::Error> contradictions = {};

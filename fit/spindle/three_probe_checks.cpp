@@ -56,23 +56,34 @@ double noise_of(double power, const ProbeSamples& samples, const ProbeLayout& la
          (static_cast<double>(samples.count) * layout.weight_norm());
 }
 
-/// Standard deviation of a reading from the differences between revolutions in the requested
-/// harmonics.
-double scatter_mm(const ProbeSamples& samples, const std::vector<std::vector<double>>& sums,
-                  const ProbeLayout& layout, int highest) {
+/// |F(k)|^2 of the differences of the revolutions from their mean, summed over the revolutions, for
+/// k = 2..highest.
+std::vector<double> power_of_differences(const ProbeSamples& samples,
+                                         const std::vector<std::vector<double>>& sums,
+                                         int highest) {
   const auto turns = static_cast<double>(sums.size());
   std::vector<double> mean(samples.count, 0.0);
   for (const auto& turn : sums) {
     for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += turn[n] / turns;
   }
-  double power = 0.0;
+  std::vector<double> power(static_cast<std::size_t>(highest - 1), 0.0);
   for (const auto& turn : sums) {
     std::vector<double> apart(mean.size());
     std::ranges::transform(turn, mean, apart.begin(), std::minus<>());
     const Spectrum f = spectrum(apart);
     for (std::size_t k = 2; k <= static_cast<std::size_t>(highest); ++k)
-      power += std::norm(f[k] / kept(samples, k));
+      power[k - 2] += std::norm(f[k] / kept(samples, k));
   }
+  return power;
+}
+
+/// Standard deviation of a reading from the differences between revolutions in the requested
+/// harmonics.
+double scatter_mm(const ProbeSamples& samples, const std::vector<std::vector<double>>& sums,
+                  const ProbeLayout& layout, int highest) {
+  const auto turns = static_cast<double>(sums.size());
+  double power = 0.0;
+  for (const double one : power_of_differences(samples, sums, highest)) power += one;
   // The variance of the mean revolution is that of one revolution divided by their number.
   return noise_of(power / ((turns - 1.0) * turns * (highest - 1)), samples, layout);
 }
@@ -229,11 +240,20 @@ std::optional<double> estimated_noise_mm(const ProbeSamples& samples, const Spec
   return noise_of(core::upper_median(std::move(power)) / std::numbers::ln2, samples, layout);
 }
 
+std::vector<double> scatter_by_order_mm(const ProbeSamples& samples, const ProbeLayout& layout,
+                                        int highest) {
+  if (samples.revolutions < 2) return {};
+  const auto turns = static_cast<double>(samples.revolutions);
+  std::vector<double> out = power_of_differences(samples, sums_of_turns(samples, layout), highest);
+  for (double& one : out) one = noise_of(one / ((turns - 1.0) * turns), samples, layout);
+  return out;
+}
+
 void find_contradictions(const ProbeReadings& readings, const ProbeSamples& samples,
                          const SwingArm& arm, const ThreeProbeOptions& options,
                          ThreeProbeResult& result) {
   name_gross_readings(gross_readings(readings, samples, result.layout), result);
-  if (result.first_harmonic_mm > result.first_harmonic_limit_mm) {
+  if (options.judge_first_harmonic && result.first_harmonic_mm > result.first_harmonic_limit_mm) {
     contradict(result, Code::kInconsistent,
                fmt::format("the weighted sum holds {:.4g} um at one undulation, where it must "
                            "vanish (limit {:.4g} um): a probe angle, a probe gain or the angle on "

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <span>
 
 #include <Eigen/Dense>
 
@@ -11,51 +12,21 @@
 namespace rondure::fit {
 namespace {
 
-/// Half spectrum of r(theta + shift), or of its derivative of the given order.
-Spectrum shifted(const Spectrum& spectrum, double shift_rad, int derivative) {
-  Spectrum turned(spectrum.size());
-  for (std::size_t k = 0; k < spectrum.size(); ++k) {
-    if (spectrum[k] == Complex()) continue;
-    const auto order = static_cast<double>(k);
-    turned[k] = spectrum[k] * std::polar(1.0, order * shift_rad);
-    for (int d = 0; d < derivative; ++d) turned[k] *= Complex(0.0, order);
-  }
-  return turned;
-}
-
 /// e^{j alpha} and e^{-j beta} of every sample.
 struct Turns {
   Spectrum work;
   Spectrum swing;
 
-  explicit Turns(const ProbeSamples& samples) {
-    work.reserve(samples.count);
-    swing.reserve(samples.count);
-    for (std::size_t n = 0; n < samples.count; ++n) {
-      work.push_back(std::polar(1.0, samples.alpha_rad[n]));
-      const double beta = samples.beta_rad[n];
+  Turns(std::span<const double> alpha_rad, std::span<const double> beta_rad) {
+    work.reserve(alpha_rad.size());
+    swing.reserve(alpha_rad.size());
+    for (std::size_t n = 0; n < alpha_rad.size(); ++n) {
+      work.push_back(std::polar(1.0, alpha_rad[n]));
+      const double beta = beta_rad[n];
       swing.push_back(beta == 0.0 ? Complex(1.0, 0.0) : std::polar(1.0, -beta));
     }
   }
 };
-
-/// The matrix P of the least-squares solution (X, Y) = P m without swing, where m holds the three
-/// readings minus the part.
-Eigen::Matrix<double, 2, 3> solver(const std::array<double, 3>& angles_rad) {
-  Eigen::Matrix<double, 3, 2> n;
-  for (int i = 0; i < 3; ++i) {
-    const double direction = angles_rad[static_cast<std::size_t>(i)];
-    n(i, 0) = std::sin(direction);
-    n(i, 1) = std::cos(direction);
-  }
-  const Eigen::Matrix2d normal = n.transpose() * n;
-  return normal.inverse() * n.transpose();
-}
-
-/// The same matrix after a swing, which turns all probes, and so the solution, by beta.
-Eigen::Matrix<double, 2, 3> swung(const Eigen::Matrix<double, 2, 3>& p, double beta_rad) {
-  return Eigen::Rotation2Dd(-beta_rad).toRotationMatrix() * p;
-}
 
 /// The printed formulas: RX from probes 1 and 2, RY = (m1 + RX) / cos(beta), which is wrong.
 Eigen::Matrix<double, 2, 3> as_published(const ProbeLayout& layout, double beta_rad) {
@@ -98,6 +69,38 @@ void subtract(const std::array<Complex, 2>& part, const Turns& turns, CentreMoti
 
 }  // namespace
 
+Spectrum shifted(const Spectrum& spectrum, double shift_rad, int derivative) {
+  Spectrum turned(spectrum.size());
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    if (spectrum[k] == Complex()) continue;
+    const auto order = static_cast<double>(k);
+    turned[k] = spectrum[k] * std::polar(1.0, order * shift_rad);
+    for (int d = 0; d < derivative; ++d) turned[k] *= Complex(0.0, order);
+  }
+  return turned;
+}
+
+Eigen::Matrix<double, 2, 3> motion_solver(const std::array<double, 3>& angles_rad) {
+  Eigen::Matrix<double, 3, 2> n;
+  for (int i = 0; i < 3; ++i) {
+    const double direction = angles_rad[static_cast<std::size_t>(i)];
+    n(i, 0) = std::sin(direction);
+    n(i, 1) = std::cos(direction);
+  }
+  const Eigen::Matrix2d normal = n.transpose() * n;
+  return normal.inverse() * n.transpose();
+}
+
+Eigen::Matrix<double, 2, 3> swung(const Eigen::Matrix<double, 2, 3>& p, double beta_rad) {
+  return Eigen::Rotation2Dd(-beta_rad).toRotationMatrix() * p;
+}
+
+void remove_eccentricity(std::span<const double> alpha_rad, std::span<const double> beta_rad,
+                         CentreMotion& motion) {
+  const Turns turned(alpha_rad, beta_rad);
+  subtract(eccentric_part(motion, turned), turned, motion);
+}
+
 void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
                      const ThreeProbeOptions& options, ThreeProbeResult& result) {
   const std::size_t count = samples.count;
@@ -109,7 +112,7 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
                        {std::vector<double>(count), std::vector<double>(count)});
   result.mean_motion = {std::vector<double>(count), std::vector<double>(count)};
   const bool published = options.motion == ThreeProbeOptions::Motion::kAsPublished;
-  const Eigen::Matrix<double, 2, 3> unswung = solver(angles);
+  const Eigen::Matrix<double, 2, 3> unswung = motion_solver(angles);
   Eigen::Matrix<double, 2, 3> p = Eigen::Matrix<double, 2, 3>::Zero();
   for (std::size_t n = 0; n < count; ++n) {
     if (n == 0 || samples.beta_rad[n] != samples.beta_rad[n - 1]) {
@@ -132,7 +135,7 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
   for (double& x : result.mean_motion.x_mm) x /= turns;
   for (double& y : result.mean_motion.y_mm) y /= turns;
   result.mean_motion_before = result.mean_motion;
-  const Turns turned(samples);
+  const Turns turned(samples.alpha_rad, samples.beta_rad);
   const auto eccentric = eccentric_part(result.mean_motion, turned);
   subtract(eccentric, turned, result.mean_motion);
   for (CentreMotion& turn : result.motion) subtract(eccentric, turned, turn);

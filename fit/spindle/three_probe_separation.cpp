@@ -1,6 +1,7 @@
 #include "fit/spindle/three_probe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -43,24 +44,31 @@ core::Result<void> check_options(const ThreeProbeOptions& options) {
   return {};
 }
 
+/// Increase of each probe from one revolution to the next.
+std::array<double, 3> drift_per_turn(const ProbeSamples& samples) {
+  std::array<double, 3> out = {0.0, 0.0, 0.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& h = samples.h_mm[i];
+    const std::size_t last = h.size() - samples.count;
+    for (std::size_t n = 0; n < samples.count; ++n) out[i] += h[last + n] - h[n];
+    out[i] /= static_cast<double>(samples.count) * std::max(1, samples.revolutions - 1);
+  }
+  return out;
+}
+
 /// Spectrum of the weighted sum of the mean revolution. Its increase from one revolution to the
 /// next is drift of a probe, or growth of the part. This ramp in time, and so in the work angle, is
 /// removed, as it would appear in every harmonic.
 Spectrum weighted_spectrum(const ProbeSamples& samples, const ProbeLayout& layout) {
   const auto& w = layout.weights();
-  std::vector<double> sum(samples.count);
-  double drift = 0.0;  // per revolution
+  const std::array<double, 3> drift = drift_per_turn(samples);
+  std::vector<double> sum(samples.count, 0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto& h = samples.h_mm[i];
-    const std::size_t last = h.size() - samples.count;
     for (std::size_t n = 0; n < samples.count; ++n) {
-      sum[n] += w[i] * samples.mean_mm[i][n];
-      drift += w[i] * (h[last + n] - h[n]) / static_cast<double>(samples.count);
+      const double turned = (samples.alpha_rad[n] - samples.alpha_rad[0]) / core::kTwoPi;
+      sum[n] += w[i] * (samples.mean_mm[i][n] - drift[i] * turned);
     }
   }
-  drift /= std::max(1, samples.revolutions - 1);
-  for (std::size_t n = 0; n < samples.count; ++n)
-    sum[n] -= drift * (samples.alpha_rad[n] - samples.alpha_rad[0]) / core::kTwoPi;
   return spectrum(sum);
 }
 
@@ -277,6 +285,9 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
     return core::fail(refined.error());
   }
   judge_residual(sum, part, samples, result);
+  result.mean_readings_mm = samples.mean_mm;
+  result.drift_mm = drift_per_turn(samples);
+  result.scatter_mm = scatter_by_order_mm(samples, layout, options.highest);
   warn_of_loss(options, result);
   warn_of_sampling(samples, options, result);
   find_contradictions(readings, samples, arm, options, result);

@@ -6,6 +6,10 @@ namespace rondure::fit {
 namespace {
 
 core::Result<double> radius_of(const WheelMeasurement& wheel, RadiusChoice choice) {
+  if (!wheel.radius_void_because.empty()) {
+    return core::fail(core::Code::kMeaning,
+                      core::phrase("the radius proves nothing: {}", wheel.radius_void_because));
+  }
   if (choice == RadiusChoice::kMean) return wheel.radius_mm;
   if (const auto effective = wheel.effective_radius_mm()) return *effective;
   if (wheel.runout) {

@@ -48,8 +48,8 @@ struct WheelEvaluation {
 /// Measures the wheel, then computes path and forecast.
 ///
 /// @return the errors of measure_wheel(). A path that cannot be computed is not an error: see
-///         `refused` (errors of wheel_path(); kMeaning for an effective radius that is unknown or
-///         only a bound).
+///         `refused` (errors of wheel_path(); kMeaning for a radius that proves nothing, or an
+///         effective radius that is unknown or only a bound).
 [[nodiscard]] core::Result<WheelEvaluation> evaluate_wheel(PlanePoints points_mm,
                                                            const WheelTask& task);
 

@@ -22,9 +22,7 @@ constexpr double kLeastArc = 20.0 * core::kDegree;
 constexpr double kShortArc = 90.0 * core::kDegree;
 constexpr double kLeastRadius = 0.5;        ///< mm; less suggests metres
 constexpr double kGreatestRadius = 1000.0;  ///< mm; more suggests micrometres
-constexpr double kUnseen = 60.0 * core::kDegree;
 constexpr double kNominalShare = 0.05;
-constexpr double kCorrelationLimit = 2.0;
 
 core::Result<void> check_distinct(PlanePoints points_mm) {
   Points found;
@@ -66,6 +64,15 @@ core::Result<void> check_options(const WheelOptions& options) {
   if (options.axis_mm && !check_points(std::span(&*options.axis_mm, 1))) {
     return core::fail(core::Code::kBadOption,
                       "the spindle axis is not a finite point within 1e7 mm");
+  }
+  if (options.errors) {
+    const WheelPointErrors& e = *options.errors;
+    for (const double u : {e.point_mm, e.scale_1, e.threshold_mm, e.wear_mm}) {
+      if (u >= 0.0 && std::isfinite(u)) continue;
+      return core::fail(
+          core::Code::kBadOption,
+          fmt::format("a declared error of the points is {}; 0 or more is needed", u));
+    }
   }
   if (options.nominal_radius_mm && !(*options.nominal_radius_mm > 0.0)) {
     return core::fail(
@@ -155,7 +162,8 @@ CircleFactors quadruple_factors(const Points& used, const WheelMeasurement& m) {
 }
 
 /// Fills in centre, radius and related values from the points used.
-void fill_circle(const Points& used, WheelMeasurement& out) {
+void fill_circle(const Points& used, const std::optional<WheelPointErrors>& errors,
+                 WheelMeasurement& out) {
   const bool least_squares = out.mean == WheelMean::kLeastSquares;
   out.quadruple_center_mm = combined(out.centers, out.mean);
   out.center_mm = least_squares ? out.check.center_mm : out.quadruple_center_mm;
@@ -174,6 +182,14 @@ void fill_circle(const Points& used, WheelMeasurement& out) {
   out.spread_mm = std::sqrt(squares / (n - 3.0));
   out.factors = least_squares ? circle_factors(out.order.angles_rad) : quadruple_factors(used, out);
   out.correlation = correlation_time(residuals, out.order.closed());
+  if (errors) {
+    // The spread holds the form of the wheel as well; a declared error of a point does not.
+    out.center_uncertainty_mm = errors->point_mm * out.factors.center;
+    out.radius_uncertainty_mm = std::hypot(
+        std::hypot(errors->point_mm * out.factors.radius, errors->scale_1 * out.radius_mm),
+        errors->threshold_mm, errors->wear_mm);
+    return;
+  }
   const double one = out.spread_mm * std::sqrt(out.correlation);
   out.center_uncertainty_mm = one * out.factors.center;
   out.radius_uncertainty_mm = one * out.factors.radius;
@@ -191,8 +207,39 @@ void fill_scatter(WheelMeasurement& out) {
   out.expected_scatter_mm = out.spread_mm * out.centers.rms_kappa();
 }
 
-void fill_runout(PlanePoints all, const Points& used, const WheelOptions& options,
-                 WheelMeasurement& out) {
+/// Compares both centres, and says why S and R prove nothing.
+void check_center(const WheelOptions& options, WheelMeasurement& out) {
+  constexpr double kSolved = 1e-4;  // mm; without noise the two agree within some 0.1 um
+  constexpr double kCoverage = 3.0;
+  const auto k = static_cast<double>(out.centers.accepted.size());
+  const double of_quadruples = out.expected_scatter_mm / std::sqrt(k);
+  out.center_apart_mm = (out.quadruple_center_mm - out.check.center_mm).norm();
+  out.center_apart_limit_mm =
+      kCoverage * std::hypot(out.center_uncertainty_mm, of_quadruples) + kSolved;
+  const double best = out.centers.best_kappa();
+  const double coverage = out.order.coverage_rad();
+  if (best > kWorstBestKappa) {
+    out.radius_void_because = core::phrase(
+        "the best four points amplify the error of a point {:.1f} times in the centre, the limit "
+        "is "
+        "{:g} times: measure more of the circle",
+        best, kWorstBestKappa);
+  } else if (out.center_apart_mm > out.center_apart_limit_mm) {
+    out.radius_void_because = core::phrase(
+        "the centre of the quadruples is {:.3f} um from that of least squares, more than three "
+        "standard uncertainties, {:.3f} um: take more or better spread points",
+        out.center_apart_mm / core::kMicrometre, out.center_apart_limit_mm / core::kMicrometre);
+  } else if (out.mean != WheelMean::kLeastSquares &&
+             options.quadruples.choice == QuadrupleChoice::kRandom &&
+             out.centers.accepted.size() <= kLeastCenters && coverage < kLeastArcOfRandom) {
+    out.radius_void_because = core::phrase(
+        "{} random quadruples on {:.0f} deg of the circle are reported, not judged: take the "
+        "centre of least squares, or measure {:.0f} deg",
+        out.centers.accepted.size(), coverage / core::kDegree, kLeastArcOfRandom / core::kDegree);
+  }
+}
+
+void fill_runout(PlanePoints all, const WheelOptions& options, WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
     out.runout_absent =
         core::phrase("envelope mode: the points lie on the circle swept about the axis");
@@ -203,24 +250,18 @@ void fill_runout(PlanePoints all, const Points& used, const WheelOptions& option
     return;
   }
   const auto distance = [&](const Eigen::Vector2d& p) { return (p - *options.axis_mm).norm(); };
-  const Extremes reach = extremes_of(used, distance);
+  const Extremes reach = extremes_of(all, distance);
   WheelRunout& found = out.runout.emplace();
   found.axis_mm = *options.axis_mm;
   found.fim_mm = reach.width();
   found.eccentricity_mm = (out.center_mm - *options.axis_mm).norm();
   found.effective_radius_mm = reach.high;
-  found.fim_with_dropped_mm = extremes_of(all, distance).width();
   if (!out.sees_whole_turn()) {
     found.bound_because = core::phrase(
         "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "
         "{:.3f} um; measure the whole turn",
-        out.order.largest_gap_rad / core::kDegree, kUnseen / core::kDegree,
+        out.order.largest_gap_rad / core::kDegree, kWidestGap / core::kDegree,
         found.fim_mm / core::kMicrometre);
-  } else if (found.fim_with_dropped_mm > found.fim_mm) {
-    found.bound_because = core::phrase(
-        "run-out is {:.3f} um without the points that were dropped and {:.3f} um with them: a "
-        "proud point is run-out; clean the wheel there and measure it again",
-        found.fim_mm / core::kMicrometre, found.fim_with_dropped_mm / core::kMicrometre);
   }
 }
 
@@ -235,7 +276,7 @@ void warn(WheelMeasurement& out) {
                     "shows {:.2f} times in the centre and {:.2f} times in the radius",
                     coverage / core::kDegree, out.factors.center, out.factors.radius));
   }
-  const double apart = (out.quadruple_center_mm - out.check.center_mm).norm();
+  const double apart = out.center_apart_mm;
   const double limit = 3.0 * out.centers.rms_kappa() * out.spread_mm /
                            std::sqrt(static_cast<double>(out.centers.accepted.size())) +
                        1e-4;
@@ -332,7 +373,12 @@ std::string_view name_of(WheelMean mean) {
 }
 
 bool WheelMeasurement::sees_whole_turn() const {
-  return order.largest_gap_rad <= kUnseen * (1.0 + 1e-9);
+  return order.largest_gap_rad <= kWidestGap * (1.0 + 1e-9);
+}
+
+double WheelMeasurement::form_in_radius_mm() const {
+  const bool form = correlation > kCorrelationLimit && !order.closed();
+  return form ? 0.5 * deviation_mm * factors.radius : 0.0;
 }
 
 std::optional<double> WheelMeasurement::effective_radius_mm() const {
@@ -361,7 +407,7 @@ core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm, const WheelO
   } else {
     name_outliers(options.outliers, options.quadruples, used, out);
   }
-  fill_circle(used, out);
+  fill_circle(used, options.errors, out);
   for (std::size_t& row : out.order.rows) row = rows[row];
   for (FourPointCenter& c : out.centers.accepted) {
     for (std::size_t& row : c.rows) row = rows[row];
@@ -370,9 +416,10 @@ core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm, const WheelO
     out.deviations_mm.push_back((p - out.center_mm).norm() - out.radius_mm);
   }
   fill_scatter(out);
-  fill_runout(points_mm, used, options, out);
+  check_center(options, out);
+  fill_runout(points_mm, options, out);
   if (options.minimum_zone) {
-    if (auto zone = min_zone_circle(used)) out.zone = *std::move(zone);
+    if (auto zone = min_zone_circle(points_mm)) out.zone = *std::move(zone);
   }
   warn(out);
   return out;

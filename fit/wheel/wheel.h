@@ -36,30 +36,48 @@ enum class WheelMean {
 /// "least-squares", "as-published", "weighted".
 [[nodiscard]] std::string_view name_of(WheelMean mean);
 
+/// Declared standard uncertainties of the points of a wheel, >= 0.
+struct WheelPointErrors {
+  double point_mm = 0.0;      ///< Of one point, along the radius.
+  double scale_1 = 0.0;       ///< Of the scale of stage and pixels, relative.
+  double threshold_mm = 0.0;  ///< Bias of the edge detection: moves the radius only.
+  double wear_mm = 0.0;       ///< Of the radius since the measurement.
+};
+
 /// Settings of measure_wheel(). A value outside its range gives Code::kBadOption.
 struct WheelOptions {
   WheelMode mode = WheelMode::kIndexed;
   WheelMean mean = WheelMean::kLeastSquares;
   QuadrupleOptions quadruples;  ///< With kLeastSquares only an additional indicator.
-  bool robust = false;          ///< Drop isolated outliers first.
+  bool robust = false;          ///< Leave isolated outliers out of centre and radius.
   OutlierOptions outliers;
   std::optional<Eigen::Vector2d> axis_mm;   ///< Spindle axis, from calibration or kEnvelope [mm].
   std::optional<double> nominal_radius_mm;  ///< R must be within 5 % of it.
   bool allow_short_arc = false;             ///< Also evaluate less than 20 deg of the circle.
   bool minimum_zone = true;                 ///< Also compute the minimum-zone roundness.
+  std::optional<WheelPointErrors> errors;   ///< For u(S) and u(R) in place of the spread.
 };
 
-/// Radial run-out and derived values; known only with the spindle axis.
+/// Radial run-out and derived values, of all points, dropped ones included: a proud point is
+/// run-out, and cuts. Known only with the spindle axis.
 struct WheelRunout {
   Eigen::Vector2d axis_mm = Eigen::Vector2d::Zero();
   double fim_mm = 0.0;               ///< Full indicator movement: max - min distance from the axis.
   double eccentricity_mm = 0.0;      ///< Distance of the centre of the profile from the axis.
   double effective_radius_mm = 0.0;  ///< Largest distance from the axis: the radius that cuts.
-  double fim_with_dropped_mm = 0.0;  ///< FIM including dropped points: a protruding one is run-out.
-  /// Why `fim_mm` and `effective_radius_mm` are only lower bounds: points that cover too little of
-  /// the turn, or a dropped point that adds to them. Empty if they are values.
+  /// Why `fim_mm` and `effective_radius_mm` are only lower bounds: points that leave too much of
+  /// the turn unseen. Empty if they are values.
   core::Phrase bound_because;
 };
+
+/// Gap between neighbouring points above which there is no run-out and no roundness.
+inline constexpr double kWidestGap = 90.0 * core::kDegree;
+/// Conditioning of the best quadruple above which the radius proves nothing.
+inline constexpr double kWorstBestKappa = 20.0;
+/// Coverage below which a few random quadruples prove no radius.
+inline constexpr double kLeastArcOfRandom = 180.0 * core::kDegree;
+/// Correlation of neighbouring residuals above which they are form, not noise.
+inline constexpr double kCorrelationLimit = 2.0;
 
 /// A grinding wheel's centre and radius.
 struct WheelMeasurement {
@@ -70,29 +88,39 @@ struct WheelMeasurement {
   double outlier_scale_mm = 0.0;  ///< Scale of the robust variant, otherwise 0.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< S
   double radius_mm = 0.0;                               ///< R, mean distance of the points from S.
-  double center_uncertainty_mm = 0.0;  ///< u(S), both coordinates: s_r factors.center sqrt(tau).
-  double radius_uncertainty_mm = 0.0;  ///< u(R), standard: s_r factors.radius sqrt(tau).
-  double spread_mm = 0.0;              ///< s_r, standard deviation of the distances, n - 3.
-  double deviation_mm = 0.0;           ///< PV of the distances: roundness about S, not run-out.
-  std::vector<double> deviations_mm;   ///< Distance from S minus R, for every given point.
+  /// u(S), both coordinates: s_r factors.center sqrt(tau), or of the declared errors of the points.
+  double center_uncertainty_mm = 0.0;
+  /// u(R), standard: s_r factors.radius sqrt(tau), or of the declared errors.
+  double radius_uncertainty_mm = 0.0;
+  double spread_mm = 0.0;  ///< s_r, standard deviation of the distances, n - 3.
+  /// PV of the distances of the points that count in S and R: the roundness about S, not run-out,
+  /// unless points were dropped.
+  double deviation_mm = 0.0;
+  std::vector<double> deviations_mm;  ///< Distance from S minus R, for every given point.
   AngularOrder order;        ///< Order of the points used about S; rows of the given points.
   CircleFactors factors;     ///< Factors of the reported centre and radius.
   double correlation = 1.0;  ///< tau
   WheelCenters centers;      ///< With rows of the given points.
   /// Mean of the quadruple centres: plain with kAsPublished, otherwise weighted.
   Eigen::Vector2d quadruple_center_mm = Eigen::Vector2d::Zero();
-  double center_scatter_mm = 0.0;     ///< s_c about that mean; an indicator only.
-  double expected_scatter_mm = 0.0;   ///< s_r rms(kappa): expected from noise alone.
-  double farthest_center_mm = 0.0;    ///< Greatest distance of a quadruple centre from their mean.
-  LsCircle check;                     ///< Geometric least squares of the same points.
-  std::optional<MinZoneCircle> zone;  ///< Minimum-zone roundness.
-  std::optional<WheelRunout> runout;  ///< kIndexed with an axis; absent otherwise.
-  core::Phrase runout_absent;         ///< Why there is none; empty when there is.
+  double center_scatter_mm = 0.0;      ///< s_c about that mean; an indicator only.
+  double expected_scatter_mm = 0.0;    ///< s_r rms(kappa): expected from noise alone.
+  double farthest_center_mm = 0.0;     ///< Greatest distance of a quadruple centre from their mean.
+  LsCircle check;                      ///< Geometric least squares of the same points.
+  double center_apart_mm = 0.0;        ///< Distance of quadruple_center_mm from that centre.
+  double center_apart_limit_mm = 0.0;  ///< Three standard uncertainties of it: more voids R.
+  core::Phrase radius_void_because;    ///< Why S and R prove nothing; empty if they do.
+  std::optional<MinZoneCircle> zone;   ///< Minimum-zone roundness of all points, dropped included.
+  std::optional<WheelRunout> runout;   ///< kIndexed with an axis; absent otherwise.
+  core::Phrase runout_absent;          ///< Why there is none; empty when there is.
   std::vector<core::Error> warnings;
 
-  /// Whether the points are close enough all round to show run-out and roundness: no gap above 60
-  /// deg. A wider gap can hide more than 7 % of the run-out caused by an eccentricity.
+  /// Whether the points lie all round: no gap above kWidestGap. A wider gap leaves no run-out and
+  /// no roundness; what a narrower one hides, loss_in_gap_mm() bounds.
   [[nodiscard]] bool sees_whole_turn() const;
+  /// What form may move R on an arc, to each side [mm]: PV a_R / 2 where neighbouring residuals are
+  /// alike (tau > kCorrelationLimit) on points that do not go round; else 0.
+  [[nodiscard]] double form_in_radius_mm() const;
   /// The radius that cuts: the farthest from the axis (kIndexed with an axis; none if that is only
   /// a bound), or R itself (kEnvelope).
   [[nodiscard]] std::optional<double> effective_radius_mm() const;

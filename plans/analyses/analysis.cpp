@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analyses/internal/feature_references.h"
 #include "plans/analyses/internal/series_file.h"
 #include "plans/schema/json_text.h"
 #include "record/sha256.h"
@@ -37,6 +41,21 @@ core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
   }
   if (out.series.size() > 1) out.sha256 = record::sha256_hex(digests);
   return out;
+}
+
+/// Adds the column that a sensor beside the part would write.
+void add_temperature(double degC, record::Series& series) {
+  const std::size_t width = series.columns.size();
+  const std::size_t rows = series.rows();
+  std::vector<double> values;
+  values.reserve(rows * (width + 1));
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto first = series.values.begin() + static_cast<std::ptrdiff_t>(row * width);
+    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(width));
+    values.push_back(degC);
+  }
+  series.columns.push_back({std::string(record::kTemperatureColumn), "degC"});
+  series.values = std::move(values);
 }
 
 /// "roundness, run-out".
@@ -143,8 +162,16 @@ const AnalysisKind* analysis_kind(record::Shape shape) {
 
 core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index, std::uint64_t seed) {
   const AnalysisKind& kind = *analysis_kind(plan.features[index].type);
-  return has_files(plan.features[index]) ? read_files(plan, index, kind)
-                                         : kind.simulate(plan, index, seed);
+  if (has_files(plan.features[index])) return read_files(plan, index, kind);
+  auto simulated = kind.simulate(plan, index, seed);
+  // Only a plan with limits asks for the temperature; the data of others stay as they were.
+  if (!simulated || !plan.environment) return simulated;
+  for (record::Series& series : simulated->series) {
+    if (series.role == record::Series::Role::kData) {
+      add_temperature(plan.simulation->temperature_degC, series);
+    }
+  }
+  return simulated;
 }
 
 void check_analysis(const Plan& plan, std::size_t index, Findings& findings) {
@@ -158,6 +185,7 @@ void check_analysis(const Plan& plan, std::size_t index, Findings& findings) {
   if (findings.is_given(section) && findings.sound(section)) {
     kind->check(feature, section, findings);
   }
+  check_references(plan, index, findings);
   check_data(plan, index, *kind, findings);
 }
 

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 #include "plans/schema/rotary_table.h"
@@ -18,7 +20,7 @@ namespace {
 using core::Code;
 
 constexpr std::array kRotaryForms = {record::Form::kFixtureResidual,
-                                     record::Form::kFixtureResidualRms};
+                                     record::Form::kFixtureResidualRms, record::Form::kAxisError};
 constexpr std::size_t kLeastStations = 3;  // with the zero pose four, as a cubic needs
 constexpr std::size_t kLeastPoses = 5;
 
@@ -137,6 +139,10 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
   if (!rotary || !findings.sound(section) || !findings.sound("/fixture")) return;
   if (!rotary->alpha_stations_deg.empty() && !rotary->beta_stations_deg.empty()) {
     check_angles(*rotary, *plan.fixture, section, findings);
+  }
+  if (auto held = check_zero_is_held(plan, index, plan.fixture->resolution_deg * core::kDegree);
+      !held) {
+    findings.meaning(held.error().code, held.error().where, held.error().what);
   }
 }
 

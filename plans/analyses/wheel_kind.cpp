@@ -43,21 +43,38 @@ struct Checker {
   }
 };
 
-void check_axis(const FeaturePlan& feature, const Checker& checker) {
-  const WheelTask& plan = *feature.wheel;
+/// The axis as two numbers, or as a value of an earlier feature (check_references()).
+void check_source_of_axis(const WheelTask& plan, const Checker& checker) {
+  if (plan.axis_from) {
+    for (const std::string_view key : {"axis_x_mm", "axis_z_mm"}) {
+      if (!checker.given(key)) continue;
+      checker.contradiction(key, "the axis is that of an earlier feature (axis_from); remove one");
+    }
+    if (plan.mode == WheelTask::Mode::kEnvelope) {
+      checker.contradiction("axis_from",
+                            "run-out cannot be stated in envelope mode; remove the axis, or "
+                            "measure indexed");
+    }
+    return;
+  }
   if (plan.axis_x_mm.has_value() != plan.axis_z_mm.has_value()) {
     checker.missing(plan.axis_x_mm ? "axis_z_mm" : "axis_x_mm", "the axis has x and z");
   }
-  const bool envelope = plan.mode == WheelTask::Mode::kEnvelope;
-  if (envelope && plan.axis_x_mm) {
+  if (plan.mode == WheelTask::Mode::kEnvelope && plan.axis_x_mm) {
     checker.contradiction("axis_x_mm",
                           "run-out cannot be stated in envelope mode; remove the axis, or measure "
                           "indexed");
   }
+}
+
+void check_axis(const FeaturePlan& feature, const Checker& checker) {
+  const WheelTask& plan = *feature.wheel;
+  check_source_of_axis(plan, checker);
+  const bool envelope = plan.mode == WheelTask::Mode::kEnvelope;
   for (const record::CharacteristicTask& c : feature.characteristics) {
     if (c.form == record::Form::kRunOut && envelope) {
       checker.contradiction("mode", "run-out is asked for, which a turning wheel does not show");
-    } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm) {
+    } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm && !plan.axis_from) {
       checker.missing("axis_x_mm", "run-out needs the spindle axis");
     }
     if (c.form == record::Form::kRadius && !plan.nominal_radius_mm) {
@@ -133,12 +150,25 @@ struct SimulatedWheel {
   [[nodiscard]] Eigen::Vector2d center() const {
     return axis() + hidden.eccentricity_um * kMicrometre * direction(hidden.eccentricity_deg);
   }
+  /// Angle of a point of the list, from 0.
+  [[nodiscard]] double point_deg(int i) const {
+    const double arc = hidden.arc_to_deg - hidden.arc_from_deg;
+    const bool whole = std::abs(arc) >= 360.0 - 1e-9;
+    return hidden.arc_from_deg + arc * i / std::max(1, whole ? hidden.points : hidden.points - 1);
+  }
+  /// A chip, or a proud grain, belongs to the body: it is run-out, whether a point meets it or not.
+  [[nodiscard]] bool is_chipped(double deg) const {
+    if (hidden.chipped_point == 0) return false;
+    const double from = std::remainder(deg - point_deg(hidden.chipped_point - 1), 360.0);
+    return std::abs(from) <= 0.5 * hidden.chip_width_deg;
+  }
   static Eigen::Vector2d direction(double deg) {
     return {std::cos(deg * kDegree), std::sin(deg * kDegree)};
   }
   /// A point of the edge relative to its centre; `noise_um` acts along the radius.
   [[nodiscard]] Eigen::Vector2d edge(double deg, double noise_um) const {
     double r = hidden.radius_mm + noise_um * kMicrometre;
+    if (is_chipped(deg)) r += hidden.chip_um * kMicrometre;
     for (const WheelLobePlan& lobe : hidden.lobes) {
       r +=
           lobe.amplitude_um * kMicrometre * std::cos((lobe.order * deg - lobe.phase_deg) * kDegree);
@@ -149,17 +179,20 @@ struct SimulatedWheel {
 
 /// Distances of the noise-free body from its axis.
 struct Reach {
-  double least_mm = 0.0;
+  double least_mm = HUGE_VAL;
   double greatest_mm = 0.0;
 };
 
 Reach reach_of(const SimulatedWheel& body) {
   Reach out;
-  for (int k = 0; k < kBodyPoints; ++k) {
-    const double distance = (body.edge(360.0 * k / kBodyPoints, 0.0) - body.axis()).norm();
-    out.least_mm = k == 0 ? distance : std::min(out.least_mm, distance);
+  const auto take = [&](double deg) {
+    const double distance = (body.edge(deg, 0.0) - body.axis()).norm();
+    out.least_mm = std::min(out.least_mm, distance);
     out.greatest_mm = std::max(out.greatest_mm, distance);
-  }
+  };
+  for (int k = 0; k < kBodyPoints; ++k) take(360.0 * k / kBodyPoints);
+  // A chip may be narrower than the step between these.
+  if (body.hidden.chipped_point > 0) take(body.point_deg(body.hidden.chipped_point - 1));
   return out;
 }
 
@@ -169,15 +202,11 @@ record::Series edge_points(const SimulatedWheel& body, const Reach& reach, bool 
   record::Series out;
   out.feature = feature;
   out.columns = {{"x", "mm"}, {"z", "mm"}};
-  const double arc = hidden.arc_to_deg - hidden.arc_from_deg;
-  const bool whole = std::abs(arc) >= 360.0 - 1e-9;
-  const int steps = std::max(1, whole ? hidden.points : hidden.points - 1);
   for (int i = 0; i < hidden.points; ++i) {
     core::KeyedNoise noise(
         seed, {kEdgeStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(i)});
-    const double deg = hidden.arc_from_deg + arc * i / steps;
-    double error_um = hidden.noise_um * noise.normal();
-    if (i + 1 == hidden.chipped_point) error_um += hidden.chip_um;
+    const double deg = body.point_deg(i);
+    const double error_um = hidden.noise_um * noise.normal();
     const Eigen::Vector2d p =
         envelope ? Eigen::Vector2d(body.axis() + (reach.greatest_mm + error_um * kMicrometre) *
                                                      SimulatedWheel::direction(deg))

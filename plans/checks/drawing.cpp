@@ -181,9 +181,50 @@ void check_size_limits(const Asked& asked) {
   }
 }
 
+/// Checks the limits of a value that has a sign.
+void check_signed_limits(const Asked& asked) {
+  const record::CharacteristicTask& c = asked.task;
+  const bool lower = asked.given("lower_um");
+  const bool upper = asked.given("upper_um");
+  if (asked.given("tolerance_um")) {
+    for (const std::string_view key : {"lower_um", "upper_um", "symmetric_um"}) {
+      if (!asked.given(key)) continue;
+      asked.refuse(key, "tolerance_um limits the amount already, without its sign; remove one");
+    }
+  } else if (asked.given("symmetric_um")) {
+    for (const std::string_view key : {"lower_um", "upper_um"}) {
+      if (asked.given(key)) asked.refuse(key, "symmetric_um holds both limits; remove one");
+    }
+  } else if (lower != upper) {
+    asked.refuse(lower ? "lower_um" : "upper_um",
+                 fmt::format("one limit leaves the other side open; add {}, or give symmetric_um "
+                             "in its place",
+                             lower ? "upper_um" : "lower_um"));
+  } else if (c.lower_um && c.upper_um && *c.lower_um >= *c.upper_um) {
+    asked.refuse("lower_um", fmt::format("lower_um {} is not below upper_um {}; exchange them",
+                                         plain(*c.lower_um), plain(*c.upper_um)));
+  }
+  const auto& rule = asked.resolved.indication.decision_rule;
+  const bool prior = rule ? rule->prior.has_value() : asked.plan.decision_rule.prior.has_value();
+  if (prior && asked.resolved.lower_mm) {
+    asked.refuse("form", fmt::format("the prior describes form deviations; give this {} a "
+                                     "decision_rule of its own without it",
+                                     name_of(c.form)));
+  }
+}
+
 void check_limits_of(const Asked& asked) {
   const Form form = asked.task.form;
   const LimitKind kind = record::limits_of(form, asked.task.indication.rank);
+  if (kind == LimitKind::kSigned) return check_signed_limits(asked);
+  if (asked.given("symmetric_um")) {
+    asked.refuse(
+        "symmetric_um",
+        kind == LimitKind::kMask
+            ? std::string("has no effect: the mask holds the limits; remove it")
+            : fmt::format("{} has no sign; give {}", with_article(name_of(form)),
+                          kind == LimitKind::kSize ? "lower_um and upper_um" : "tolerance_um"));
+  }
   if (kind == LimitKind::kSize) return check_size_limits(asked);
   for (const std::string_view key : {"lower_um", "upper_um"}) {
     if (kind == LimitKind::kMask) {
@@ -408,7 +449,21 @@ void check_of_analysis(const Asked& asked) {
   KeyNames names;
   Indication all;
   describe(names, all);
-  for (const std::string_view key : names.keys) asked.refuse_idle(key, "the feature is no surface");
+  const bool of_axis = asked.task.form == Form::kAxisError;
+  for (const std::string_view key : names.keys) {
+    if (of_axis && record::takes(asked.task.form, key)) continue;
+    const bool axis_key = key == "axis" || key == "error";
+    asked.refuse_idle(
+        key, axis_key ? fmt::format("{} has no {}", with_article(name_of(asked.task.form)), key)
+                      : std::string("the feature is no surface"));
+  }
+  for (const std::string_view key : {"axis", "error"}) {
+    if (!of_axis || asked.given(key)) continue;
+    asked.refuse(key,
+                 fmt::format("this key is missing: an axis-error is that of one axis; give {}",
+                             key == "axis" ? "alpha or beta" : "EX, EY or EZ"),
+                 Code::kMissingKey);
+  }
   check_limits_of(asked);
   const record::CharacteristicTask& c = asked.task;
   const bool said = c.reference || asked.given("reference") || asked.feature().defaults.reference ||

@@ -80,6 +80,9 @@ class LimitList {
               .otherwise = static_cast<double>(value)});
   }
   void passed_over(std::string_view, std::string_view) {}
+  void influence(std::string_view key, const record::Influence&, const NumberSpec& spec) {
+    inner<record::DeclaredInfluence>(key, spec);
+  }
   template <class T>
   void object(std::string_view key, const T&, const GroupSpec&) {
     inner<T>(key);
@@ -97,11 +100,11 @@ class LimitList {
   void add(std::string_view key, SettingLimits limits) {
     table_.insert_or_assign(path_ + std::string(key), std::move(limits));
   }
-  template <class T>
-  void inner(std::string_view key) {
+  template <class T, class... Spec>
+  void inner(std::string_view key, const Spec&... spec) {
     LimitList list(path_ + std::string(key) + "/", table_);
     T value{};
-    describe(list, value);
+    describe(list, value, spec...);
   }
 
   std::string path_;

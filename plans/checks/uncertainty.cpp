@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "plans/analyses/analysis.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/schema/json_text.h"
 
@@ -106,16 +108,25 @@ void check_limits(const record::UncertaintyTask& u, Findings& findings) {
 struct PlacedRule {
   const DecisionRuleTask* rule = nullptr;
   std::string where;
+  /// Whether it can judge a surface; analyses declare what acts on them in their own section.
+  bool of_surface = true;
 };
 
 std::vector<PlacedRule> rules_of(const Plan& plan) {
-  std::vector<PlacedRule> out = {{&plan.decision_rule, "/decision_rule"}};
+  const auto is_surface = [](const FeaturePlan& feature) {
+    return analysis_kind(feature.type) == nullptr;
+  };
+  const bool any =
+      plan.features.empty() || std::any_of(plan.features.begin(), plan.features.end(), is_surface);
+  std::vector<PlacedRule> out = {{&plan.decision_rule, "/decision_rule", any}};
+  bool surface = true;
   const auto add = [&](const std::optional<DecisionRuleTask>& rule, const std::string& where) {
-    if (rule) out.push_back({&*rule, where + "/decision_rule"});
+    if (rule) out.push_back({&*rule, where + "/decision_rule", surface});
   };
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const FeaturePlan& feature = plan.features[i];
     const std::string where = feature_pointer(i);
+    surface = is_surface(feature);
     add(feature.decision_rule, where);
     for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
       add(feature.characteristics[k].indication.decision_rule,
@@ -134,7 +145,7 @@ void check_uncertainty(const Plan& plan, Findings& findings) {
     const DecisionRuleTask& rule = *placed.rule;
     if (!findings.sound(placed.where + "/rule")) return;
     check_rule(rule, placed.where, findings);
-    if (rule.rule == Rule::kSimpleAcceptance) continue;
+    if (rule.rule == Rule::kSimpleAcceptance || !placed.of_surface) continue;
     if (needing == nullptr) needing = &rule;
     whole_surface = whole_surface || rule.measurand == DecisionRuleTask::Measurand::kWholeSurface;
   }

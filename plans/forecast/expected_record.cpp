@@ -1,5 +1,8 @@
 #include "plans/forecast/expected_record.h"
 
+#include <utility>
+
+#include "plans/analyses/analysis.h"
 #include "plans/run/internal/run_head.h"
 
 namespace rondure::plans {
@@ -44,6 +47,23 @@ record::RunRecord expected_record(const Plan& plan, const Forecast& forecast) {
     start_s += stage.time_s;
   }
   return out;
+}
+
+std::uint64_t forecast_seed(const Plan& plan) {
+  return plan.simulation ? plan.simulation->seed + 1 : 0;
+}
+
+core::Result<record::RunRecord> with_series(record::RunRecord expected, const Plan& plan,
+                                            std::uint64_t seed) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const FeaturePlan& feature = plan.features[i];
+    if (analysis_kind(feature.type) == nullptr || measures_by_touch(feature)) continue;
+    auto data = analysis_data(plan, i, seed);
+    if (!data) return core::fail(data.error());
+    if (!has_files(feature)) expected.header.seed = seed;
+    for (record::Series& series : data->series) expected.series.push_back(std::move(series));
+  }
+  return expected;
 }
 
 }  // namespace rondure::plans

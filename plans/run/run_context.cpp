@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/run/internal/reached_pose.h"
 
 namespace rondure::plans {
@@ -272,6 +273,11 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
     }
     ++next_pose;
     return *known;
+  }
+  if (auto stands = check_station_reached(plan, static_cast<std::size_t>(feature), commanded,
+                                          *reached, resolution_rad());
+      !stands) {
+    return core::fail(stands.error());
   }
   const record::PoseVisit visit{next_pose, feature, commanded,
                                 *reached,  false,   cell->machine().time_s()};

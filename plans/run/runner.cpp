@@ -7,6 +7,7 @@
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
+#include "plans/analyses/internal/rotary_placing.h"
 #include "plans/cell/internal/open_cell.h"
 #include "plans/cell/truth.h"
 #include "plans/checks/internal/calibration_use.h"
@@ -222,8 +223,17 @@ core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& optio
 core::Result<std::unique_ptr<Cell>> cell_of(const Plan& plan, const RunOptions& options,
                                             std::uint64_t seed, bool resumed) {
   if (!touches_anything(plan)) return nullptr;
-  return open_cell(driven(plan, options),
-                   {seed, resumed, options.wire_log, options.stop_requested, options.set_by_hand});
+  auto cell = open_cell(driven(plan, options), {seed, resumed, options.wire_log,
+                                                options.stop_requested, options.set_by_hand});
+  if (!cell) return cell;
+  // The driver may be coarser than the plan states.
+  const double resolution_rad = (*cell)->fixture().limits().resolution_rad;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (auto held = check_zero_is_held(plan, i, resolution_rad); !held) {
+      return core::fail(held.error());
+    }
+  }
+  return cell;
 }
 
 /// Executes the plan and writes how the run ended.
@@ -316,7 +326,9 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
       head.features[i].points_per_layer = points.least_points_per_layer();
     }
   }
-  for (record::Setting& setting : fixture_settings(plan, known->calibration)) {
+  const auto resolution_rad =
+      *cell ? std::optional((*cell)->fixture().limits().resolution_rad) : std::nullopt;
+  for (record::Setting& setting : fixture_settings(plan, known->calibration, resolution_rad)) {
     head.settings.push_back(std::move(setting));
   }
   auto journal = record::Journal::create(options.directory, head.header, head.artefact,

@@ -95,6 +95,12 @@ class SchemaWriter {
   void passed_over(std::string_view key, std::string_view meaning) {
     add(key, text_schema({.meaning = {}}), meaning, false);
   }
+  void influence(std::string_view key, const record::Influence&, const NumberSpec& spec) {
+    record::DeclaredInfluence value;
+    ordered_json out;
+    out["oneOf"] = ordered_json::array({number_schema(spec, false), schema_of(value, spec)});
+    add(key, out, spec.meaning, spec.required);
+  }
   template <class T>
   void object(std::string_view key, T& value, const GroupSpec& spec) {
     add(key, schema_of(value), spec.meaning, spec.required);
@@ -113,10 +119,10 @@ class SchemaWriter {
     add(key, std::move(out), spec.meaning, spec.required);
   }
 
-  template <class T>
-  static ordered_json schema_of(T& value) {
+  template <class T, class... Spec>
+  static ordered_json schema_of(T& value, const Spec&... spec) {
     SchemaWriter writer;
-    describe(writer, value);
+    describe(writer, value, spec...);
     ordered_json out;
     out["type"] = "object";
     out["properties"] = std::move(writer.properties_);

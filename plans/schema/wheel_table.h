@@ -34,7 +34,12 @@ void describe(Visitor& v, SimulatedWheelPlan& p) {
            within(360.0, "Last of them; a whole turn has no point twice."));
   v.whole("chipped_point", p.chipped_point,
           range(0, 100'000, "Point with a chip, from 1; 0: none."));
-  v.number("chip_um", p.chip_um, within(10'000.0, "Its deviation."));
+  v.number("chip_um", p.chip_um,
+           within(10'000.0,
+                  "Its deviation, part of the body and of its true run-out; above 0: a "
+                  "proud grain."));
+  v.number("chip_width_deg", p.chip_width_deg,
+           above(0.0, 360.0, "Angle that it takes of the edge, about its point."));
 }
 
 }  // namespace rondure::plans

@@ -40,8 +40,9 @@ struct Layout {
   std::vector<std::optional<std::size_t>> places;
 };
 
+/// @param list  The columns in the wording of messages.
 core::Result<Layout> read_layout(std::string_view line, std::span<const WantedColumn> wanted,
-                                 std::span<const ColumnName> names) {
+                                 std::string_view list, std::span<const ColumnName> names) {
   if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
   Layout out;
   out.fields = split_fields(line);
@@ -60,19 +61,21 @@ core::Result<Layout> read_layout(std::string_view line, std::span<const WantedCo
   for (const WantedColumn& column : wanted) known.push_back(column.name);
   for (std::size_t i = 0; i < out.fields.size(); ++i) {
     if (out.places[i] || !names.empty()) continue;
-    return core::fail(unknown_column(out.fields[i], known, list_of(wanted)));
+    return core::fail(unknown_column(out.fields[i], known, list));
   }
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     if (!wanted[w].required || std::count(out.wanted.begin(), out.wanted.end(), w) > 0) continue;
     return core::fail(syntax_error(fmt::format("column {} is missing in {}; the columns are {}",
                                                quoted_text(name_in_file(wanted[w], names)),
-                                               quoted_text(line), list_of(wanted))));
+                                               quoted_text(line), list)));
   }
   return out;
 }
 
 /// Adds a row to the values of a series.
-core::Result<void> read_row(std::string_view line, const Layout& layout, Series& series) {
+/// @param stated_degC  Of a series whose last column is the temperature that the file states once.
+core::Result<void> read_row(std::string_view line, const Layout& layout,
+                            const std::optional<double>& stated_degC, Series& series) {
   const auto fields = split_fields(line);
   if (fields.size() != layout.fields.size()) {
     if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
@@ -93,10 +96,11 @@ core::Result<void> read_row(std::string_view line, const Layout& layout, Series&
     }
     series.values[start + *layout.places[i]] = *value;
   }
+  if (series.columns.size() > layout.wanted.size()) series.values.back() = *stated_degC;
   return {};
 }
 
-core::Result<void> check_names(std::span<const WantedColumn> wanted,
+core::Result<void> check_names(std::span<const WantedColumn> wanted, std::string_view list,
                                std::span<const ColumnName> names) {
   for (const ColumnName& name : names) {
     const bool known = std::any_of(wanted.begin(), wanted.end(),
@@ -104,9 +108,41 @@ core::Result<void> check_names(std::span<const WantedColumn> wanted,
     if (known) continue;
     return core::fail(Code::kBadOption,
                       fmt::format("{} is no column of this data; the columns are {}",
-                                  quoted_text(name.wanted), list_of(wanted)));
+                                  quoted_text(name.wanted), list));
   }
   return {};
+}
+
+/// The temperature that a comment above the header states for all rows; none where none does.
+core::Result<std::optional<double>> stated_temperature(std::string_view text,
+                                                       std::string_view name) {
+  std::string_view rest = without_byte_order_mark(text);
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::string_view line = take_line(rest);
+    if (!holds_nothing(line)) break;
+    const std::size_t at = line.find(kTemperatureColumn);
+    if (at == std::string_view::npos ||
+        line.substr(0, at).find_first_not_of("# \t") != std::string_view::npos) {
+      continue;  // some other comment
+    }
+    std::string_view said = line.substr(at + kTemperatureColumn.size());
+    const std::size_t first = said.find_first_not_of(" \t:=");
+    said = first == std::string_view::npos ? std::string_view() : said.substr(first);
+    said = said.substr(0, said.find_last_not_of(" \t") + 1);
+    const auto value = core::parse_number(said);
+    if (value) return std::optional<double>(*value);
+    return core::fail(syntax_error(fmt::format("{} is {}; a number is expected", kTemperatureColumn,
+                                               quoted_text(said)))
+                          .at(fmt::format("{}:{}", name, number)));
+  }
+  return std::optional<double>();
+}
+
+/// The wanted columns and the one that every table may have.
+std::vector<WantedColumn> with_temperature(std::span<const WantedColumn> wanted) {
+  std::vector<WantedColumn> out(wanted.begin(), wanted.end());
+  out.push_back({kTemperatureColumn, false});
+  return out;
 }
 
 }  // namespace
@@ -114,31 +150,36 @@ core::Result<void> check_names(std::span<const WantedColumn> wanted,
 core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,
                                       std::span<const WantedColumn> wanted,
                                       std::span<const ColumnName> names) {
-  if (auto known = check_names(wanted, names); !known) return core::fail(known.error());
+  const std::vector<WantedColumn> all = with_temperature(wanted);
+  const std::string list = list_of(wanted);
+  if (auto known = check_names(all, list, names); !known) return core::fail(known.error());
+  const auto stated_degC = stated_temperature(text, name);
+  if (!stated_degC) return core::fail(stated_degC.error());
   Series out;
   Layout layout;
   const auto header = [&](std::string_view line) -> core::Result<void> {
-    auto found = read_layout(line, wanted, names);
+    auto found = read_layout(line, all, list, names);
     if (!found) return core::fail(found.error());
     layout = *std::move(found);
-    if (layout.wanted.empty()) {
-      return core::fail(
-          syntax_error(fmt::format("none of the columns {} stands in the first line, {}",
-                                   list_of(wanted), quoted_text(line))));
+    if (layout.wanted.empty() || layout.wanted.front() >= wanted.size()) {
+      return core::fail(syntax_error(fmt::format(
+          "none of the columns {} stands in the first line, {}", list, quoted_text(line))));
     }
     for (const std::size_t w : layout.wanted) {
+      out.columns.push_back({std::string(all[w].name), std::string(unit_of_column(all[w].name))});
+    }
+    if (*stated_degC && !out.column(kTemperatureColumn)) {
       out.columns.push_back(
-          {std::string(wanted[w].name), std::string(unit_of_column(wanted[w].name))});
+          {std::string(kTemperatureColumn), std::string(unit_of_column(kTemperatureColumn))});
     }
     return {};
   };
   const auto read = read_table(
       text, name, header,
-      [&](std::string_view line, std::size_t) { return read_row(line, layout, out); },
+      [&](std::string_view line, std::size_t) { return read_row(line, layout, *stated_degC, out); },
       [&](bool) {
         return fmt::format(
-            "the file holds no rows; a header line {} and a row a sample are expected",
-            list_of(wanted));
+            "the file holds no rows; a header line {} and a row a sample are expected", list);
       });
   if (!read) return core::fail(read.error());
   return out;

@@ -21,11 +21,17 @@ struct ColumnName {
   std::string in_file;
 };
 
+/// The column that every table may have beside the wanted ones: the temperature of the part.
+inline constexpr std::string_view kTemperatureColumn = "temperature_degC";
+
 /// Reads a table of numbers: a header line with the names of the columns, in any order, then one
 /// row per line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_points_csv().
 ///
 /// Without `names` every column must be a wanted one. With `names` a column is found under its name
 /// in the file, and other columns are skipped.
+///
+/// kTemperatureColumn may stand in any table, or one value for all rows in a comment above the
+/// header: "# temperature_degC: 20.3". It comes last in the result.
 ///
 /// @param name  The file's name for `where` ("name:line").
 /// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column

@@ -12,8 +12,7 @@ using Levels = std::span<const CharacteristicLevel>;
 /// where the form does not take the key.
 template <class Value, class Member>
 std::optional<Value> resolved(const CharacteristicTask& task, std::string_view key,
-                              const std::optional<Value>& own, Levels levels,
-                              Member inherited) {
+                              const std::optional<Value>& own, Levels levels, Member inherited) {
   if (!takes(task.form, key)) return std::nullopt;
   std::optional<Value> out = own;
   for (const CharacteristicLevel& level : levels) {
@@ -72,11 +71,18 @@ Characteristic characteristic_of(const CharacteristicTask& task, double nominal_
   out.id = task.id;
   out.form = task.form;
   out.reference = reference_of(task, levels);
-  if (limits_of(task.form, task.indication.rank) == LimitKind::kSize) {
+  const LimitKind limits = limits_of(task.form, task.indication.rank);
+  if (limits == LimitKind::kSize) {
     out.lower_mm = in_mm(task.lower_um, nominal_diameter_mm);
     out.tolerance_mm = in_mm(task.upper_um, nominal_diameter_mm);
   } else if (task.tolerance_um) {
     out.tolerance_mm = *task.tolerance_um * core::kMicrometre;
+  } else if (limits == LimitKind::kSigned && task.symmetric_um) {
+    out.lower_mm = -*task.symmetric_um * core::kMicrometre;
+    out.tolerance_mm = *task.symmetric_um * core::kMicrometre;
+  } else if (limits == LimitKind::kSigned) {
+    out.lower_mm = in_mm(task.lower_um, 0.0);
+    out.tolerance_mm = in_mm(task.upper_um, 0.0);
   }
   out.drawing_zone = task.drawing_zone;
   for (const HarmonicLimitTask& line : task.harmonic_limits) {

@@ -29,8 +29,10 @@ struct CharacteristicTask {
   std::optional<double> tolerance_um;
   std::string drawing_zone;
   std::vector<HarmonicLimitTask> harmonic_limits = {};  ///< For the form "harmonic-limits".
-  std::optional<double> lower_um = {};                  ///< Of a diameter: deviation from nominal.
+  /// Of a diameter or of the radius of a wheel: deviation from nominal.
+  std::optional<double> lower_um = {};
   std::optional<double> upper_um = {};
+  std::optional<double> symmetric_um = {};  ///< Both limits of a signed value: -T and +T.
   Indication indication = {};
 };
 
@@ -75,22 +77,24 @@ void describe(Visitor& v, CharacteristicTask& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "Name in the report, unique within the feature."});
-  v.text("form", p.form,
-         {.required = true,
-          .meaning =
-              "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
-              "layer of a cylinder or of a spindle feature; diameter, straightness, "
-              "generatrix-parallelism, taper, flatness, coaxiality, concentricity, parallelism, "
-              "perpendicularity, angularity, run-out, total-run-out of surfaces (docs/drawing.md "
-              "says of which, and what each takes); harmonic-limits, a mask on the "
-              "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
-              "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
-              "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
-              "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
-              "feature: contour-deviation (peak to valley, the greatest of all parts); "
-              "contour-spread (standard deviation from part to part); harmonic-limits. Of "
-              "rotary_axes: fixture-residual, the largest distance of a ball from where the "
-              "calibration has it, and fixture-residual-rms."});
+  v.text(
+      "form", p.form,
+      {.required = true,
+       .meaning =
+           "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
+           "layer of a cylinder or of a spindle feature; diameter, straightness, "
+           "generatrix-parallelism, taper, flatness, coaxiality, concentricity, parallelism, "
+           "perpendicularity, angularity, run-out, total-run-out of surfaces (docs/drawing.md "
+           "says of which, and what each takes); harmonic-limits, a mask on the "
+           "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
+           "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
+           "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
+           "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
+           "feature: contour-deviation (peak to valley, the greatest of all parts); "
+           "contour-spread (standard deviation from part to part); harmonic-limits. Of "
+           "rotary_axes: fixture-residual, the largest distance of a ball from where the "
+           "calibration has it, and fixture-residual-rms; axis-error, the largest of one error of "
+           "an axis over its stations."});
   describe_reference(v, p);
   v.number("tolerance_um", p.tolerance_um,
            above(0.0, 10'000.0,
@@ -99,9 +103,15 @@ void describe(Visitor& v, CharacteristicTask& p) {
   const NumberSpec deviation = within(
       10'000.0,
       "Of a diameter: limit on the drawing as deviation from nominal.diameter_mm; of h6 at 30 mm "
-      "lower_um is -13 and upper_um 0. Either may be left out.");
+      "lower_um is -13 and upper_um 0. Either may be left out. Of the radius of a wheel: limits of "
+      "R - nominal_radius_mm with its sign, both; of an axis-error likewise.");
   v.number("lower_um", p.lower_um, deviation);
   v.number("upper_um", p.upper_um, deviation);
+  v.number("symmetric_um", p.symmetric_um,
+           above(0.0, 10'000.0,
+                 "Of the radius of a wheel: limits of R - nominal_radius_mm with its sign, minus "
+                 "and plus this value, instead of lower_um and upper_um; of an axis-error "
+                 "likewise."));
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
   v.list("harmonic_limits", p.harmonic_limits,

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "record/key_spec.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::record {
 
@@ -45,8 +47,12 @@ struct ContourTask {
   double pre_filter_upr = 0.0;
   BaseCircle base_circle = BaseCircle::kLimacon;
   MainJournal main_journal = MainJournal::kAsIs;
+  /// From sample to sample of the control; left out or 0: not known. Without a default: a journal
+  /// of this version that was written before the key must still be read.
+  std::optional<double> sampling_ms;
   double stable_from = 0.9;
   double partly_from = 0.5;
+  std::optional<ContourInfluencesTask> uncertainty;
   std::vector<ContourPartTask> parts;  ///< Empty: simulated.
 };
 
@@ -155,10 +161,18 @@ void describe(Visitor& v, ContourTask& p) {
   v.text("base_circle", p.base_circle, {.meaning = "How the base circle is taken away."});
   v.text("main_journal", p.main_journal,
          {.meaning = "mapped: carried to the pin as n(alpha(beta)) cos(eta)."});
+  v.number("sampling_ms", p.sampling_ms,
+           range(0.0, 1000.0,
+                 "From sample to sample of the control, which uncertainty/skew_ms needs; 0: not "
+                 "known."));
   v.number("stable_from", p.stable_from,
            range(0.0, 1.0, "Stability index from which on it is stable."));
   v.number("partly_from", p.partly_from,
            range(0.0, 1.0, "Stability index from which on it is partly."));
+  v.object(
+      "uncertainty", p.uncertainty,
+      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                  "Without them there is no interval."});
   v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
 }
 

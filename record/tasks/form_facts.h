@@ -25,9 +25,10 @@ class Shapes {
 
 /// The keys that hold the limits of a form.
 enum class LimitKind {
-  kUpper,  ///< tolerance_um.
-  kSize,   ///< lower_um and upper_um, deviations from the nominal diameter.
-  kMask    ///< harmonic_limits.
+  kUpper,   ///< tolerance_um.
+  kSize,    ///< lower_um and upper_um, deviations from the nominal diameter.
+  kSigned,  ///< lower_um and upper_um, or symmetric_um; tolerance_um limits the amount.
+  kMask     ///< harmonic_limits.
 };
 enum class DatumNeed { kNone, kAxis, kAxisOrPlane };
 
@@ -129,7 +130,7 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
      {Form::kMotionTotal, "EM total", std::nullopt, {Shape::kSpindle}},
      {Form::kMotionSynchronous, "EM sync", std::nullopt, {Shape::kSpindle}},
      {Form::kMotionAsynchronous, "EM async", std::nullopt, {Shape::kSpindle}},
-     {Form::kRadius, "dR", std::nullopt, {Shape::kWheel}},
+     {Form::kRadius, "dR", std::nullopt, {Shape::kWheel}, "", LimitKind::kSigned},
      {Form::kRunOut,
       "Run-out",
       std::nullopt,
@@ -140,7 +141,13 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
      {Form::kContourDeviation, "Contour", std::nullopt, {Shape::kContour}},
      {Form::kContourSpread, "Spread", std::nullopt, {Shape::kContour}},
      {Form::kFixtureResidual, "Left max", std::nullopt, {Shape::kRotaryAxes}},
-     {Form::kFixtureResidualRms, "Left rms", std::nullopt, {Shape::kRotaryAxes}}});
+     {Form::kFixtureResidualRms, "Left rms", std::nullopt, {Shape::kRotaryAxes}},
+     {Form::kAxisError,
+      "E max",
+      std::nullopt,
+      {Shape::kRotaryAxes},
+      "axis error",
+      LimitKind::kSigned}});
 
 [[nodiscard]] constexpr const FormFacts& facts_of(Form form) {
   return kFormFacts[static_cast<std::size_t>(form)];

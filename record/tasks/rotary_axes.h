@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "record/key_spec.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::record {
 
@@ -33,6 +35,7 @@ struct RotaryTask {
   std::vector<CombinedPoseTask> verification;  ///< Poses that the fit does not use.
   double machine_uncertainty_um = 0.0;  ///< Standard, of a centre, in addition to the touches.
   double valid_for_days = 365.0;
+  std::optional<RotaryInfluencesTask> uncertainty;
 };
 
 template <class Visitor>
@@ -94,6 +97,9 @@ void describe(Visitor& v, RotaryTask& p) {
                  "of the touches."));
   v.number("valid_for_days", p.valid_for_days,
            above(0.0, 36'500.0, "How long other runs may use the calibration."));
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                       "Without them there is no interval."});
 }
 
 }  // namespace rondure::record

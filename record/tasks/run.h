@@ -16,6 +16,7 @@ namespace rondure::record {
 struct EnvironmentSettings {
   std::optional<std::string> declared;  ///< There when the plan states limits, also for files.
   std::optional<double> assumed_degC;   ///< Temperature of part and scales when not measured.
+  double max_drift_K = 0.5;             ///< Of an analysis: greatest change at one place.
 };
 
 /// The fixture that carried the parts, at "fixture/".
@@ -27,8 +28,10 @@ struct FixtureSettings {
   double max_alpha_deg = 0.0;
   double min_beta_deg = 0.0;
   double max_beta_deg = 0.0;
-  std::optional<double> max_age_days;      ///< Limit on its calibration.
-  std::optional<double> max_residual_um;   ///< Limit on its calibration.
+  std::optional<double> resolution_deg;           ///< Of its driver; only of a calibration.
+  std::optional<double> setting_uncertainty_deg;  ///< Of a fixture that is set by hand; the same.
+  std::optional<double> max_age_days;             ///< Limit on its calibration.
+  std::optional<double> max_residual_um;          ///< Limit on its calibration.
   std::optional<std::string> calibration;  ///< The file, whole; none: the fixture is nominal.
 };
 
@@ -36,6 +39,7 @@ template <class Visitor>
 void describe(Visitor& v, EnvironmentSettings& p) {
   v.text("declared", p.declared, {.meaning = "What the plan states."});
   v.number("assumed_degC", p.assumed_degC, within(1000.0, "Of part and scales."));
+  v.number("max_drift_K", p.max_drift_K, range(0.0, 1000.0, "Of an analysis."));
 }
 
 template <class Visitor>
@@ -49,6 +53,8 @@ void describe(Visitor& v, FixtureSettings& p) {
   v.number("max_alpha_deg", p.max_alpha_deg, angle);
   v.number("min_beta_deg", p.min_beta_deg, angle);
   v.number("max_beta_deg", p.max_beta_deg, angle);
+  v.number("resolution_deg", p.resolution_deg, range(0.0, 360.0, "Of its driver."));
+  v.number("setting_uncertainty_deg", p.setting_uncertainty_deg, range(0.0, 360.0, "By hand."));
   v.number("max_age_days", p.max_age_days, range(0.0, 1e6, "Of the calibration."));
   v.number("max_residual_um", p.max_residual_um, range(0.0, 1e6, "Of the calibration."));
   v.text("calibration", p.calibration, {.meaning = "Its file, whole."});

@@ -14,6 +14,7 @@
 #include "core/result.h"
 #include "record/key_spec.h"
 #include "record/run_record.h"
+#include "record/tasks/analysis_influences.h"
 
 // Conversion of a task to the settings of a journal and back. The function describe(visitor, task)
 // of each task lists its keys once; settings_of_task() and task_of() visit them.
@@ -57,6 +58,9 @@ class SettingList {
     add(key, static_cast<double>(value));
   }
   void passed_over(std::string_view, std::string_view) {}
+  void influence(std::string_view key, Influence& value, const NumberSpec& spec) {
+    if (value) inner(key, *value, spec);
+  }
   template <class T>
   void object(std::string_view key, T& value, const GroupSpec&) {
     inner(key, value);
@@ -79,10 +83,10 @@ class SettingList {
   void word(std::string_view key, const std::string& value) {
     settings_.push_back({path_ + std::string(key), std::nullopt, value});
   }
-  template <class T>
-  void inner(std::string_view key, T& value) {
+  template <class T, class... Spec>
+  void inner(std::string_view key, T& value, const Spec&... spec) {
     SettingList list(path_ + std::string(key) + "/");
-    describe(list, value);
+    describe(list, value, spec...);
     for (Setting& setting : list.settings_) settings_.push_back(std::move(setting));
   }
 
@@ -178,10 +182,11 @@ class SettingReader {
   template <class T>
   void object(std::string_view key, std::optional<T>& value, const GroupSpec&) {
     const std::string path = path_ + std::string(key) + "/";
-    const bool there = std::any_of(settings_.begin(), settings_.end(), [&](const Setting& setting) {
-      return setting.name.starts_with(path);
-    });
-    if (there) inner(settings_, path, value.emplace());
+    if (any_below(path)) inner(settings_, path, value.emplace());
+  }
+  void influence(std::string_view key, Influence& value, const NumberSpec& spec) {
+    const std::string path = path_ + std::string(key) + "/";
+    if (any_below(path)) inner(settings_, path, value.emplace(), spec);
   }
   template <class T>
   void list(std::string_view key, std::vector<T>& values, const GroupSpec&) {
@@ -230,11 +235,17 @@ class SettingReader {
     refuse(setting->name, kNeedsNumber);
     return nullptr;
   }
-  template <class T>
-  void inner(std::span<const Setting> settings, const std::string& path, T& value) {
+  /// Whether the settings hold an object: one of its keys.
+  [[nodiscard]] bool any_below(const std::string& path) const {
+    return std::any_of(settings_.begin(), settings_.end(),
+                       [&](const Setting& setting) { return setting.name.starts_with(path); });
+  }
+  template <class T, class... Spec>
+  void inner(std::span<const Setting> settings, const std::string& path, T& value,
+             const Spec&... spec) {
     SettingReader reader(settings, path);
     reader.nested_ = true;
-    describe(reader, value);
+    describe(reader, value, spec...);
     if (!fault_) fault_ = reader.fault_;
   }
   void refuse(const std::string& name, const std::string& why) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "record/key_spec.h"
+#include "record/tasks/analysis_influences.h"
 #include "record/tasks/switch.h"
 
 namespace rondure::record {
@@ -36,6 +37,7 @@ struct SpindleTask {
   Motion motion = Motion::kLeastSquares;
   Filter filter = Filter::kGaussian;  ///< Filter of the profile.
   double cutoff_upr = 50.0;
+  std::optional<SpindleInfluencesTask> uncertainty;
 };
 
 constexpr auto words_of(SpindleTask::Layout) {
@@ -142,6 +144,9 @@ void describe(Visitor& v, SpindleTask& p) {
                      "only."});
   v.text("filter", p.filter, {.meaning = "Filter of the profile before its roundness."});
   v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                       "Without them there is no interval."});
 }
 
 }  // namespace rondure::record

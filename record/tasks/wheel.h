@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "record/key_spec.h"
+#include "record/tasks/analysis_influences.h"
+#include "record/tasks/feature_reference.h"
 #include "record/tasks/switch.h"
 
 namespace rondure::record {
@@ -58,6 +60,7 @@ struct WheelTask {
   std::optional<double> nominal_radius_mm;
   std::optional<double> axis_x_mm;  ///< Both coordinates or none.
   std::optional<double> axis_z_mm;
+  std::optional<FeatureReference> axis_from;  ///< In place of the coordinates.
   Center center = Center::kLeastSquares;
   Quadruples quadruples = Quadruples::kAll;
   int count = 6;
@@ -65,6 +68,7 @@ struct WheelTask {
   Switch robust = Switch::kOff;
   ShortArc short_arc = ShortArc::kRefused;
   std::optional<GroundSurfaceTask> surface;
+  std::optional<WheelInfluencesTask> uncertainty;
 };
 
 constexpr auto words_of(WheelTask::Mode) {
@@ -161,6 +165,10 @@ void describe(Visitor& v, WheelTask& p) {
   v.number("axis_x_mm", p.axis_x_mm,
            wheel_specs::place_mm("Spindle axis, from calibration; run-out needs it."));
   v.number("axis_z_mm", p.axis_z_mm, wheel_specs::place_mm("The same, z."));
+  v.object(
+      "axis_from", p.axis_from,
+      {.meaning = "In place of axis_x_mm and axis_z_mm: the centre of an earlier wheel of mode "
+                  "envelope, measured on the same stage, with its uncertainty."});
   v.text("center", p.center,
          {.meaning = "least-squares: of all points. as-published: plain mean of the centres of "
                      "quadruples; weighted: the same, by conditioning."});
@@ -172,6 +180,10 @@ void describe(Visitor& v, WheelTask& p) {
   v.text("robust", p.robust, {.meaning = "on: isolated points beyond 5 scales are dropped."});
   v.text("short_arc", p.short_arc, {.meaning = "Less than 20 deg of the circle."});
   v.object("surface", p.surface, {.meaning = "A surface to grind: gives the wheel-centre path."});
+  v.object(
+      "uncertainty", p.uncertainty,
+      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                  "Without them there is no interval."});
 }
 
 }  // namespace rondure::record

@@ -7,6 +7,7 @@
 #include "reports/data/internal/json_parts.h"
 #include "reports/data/internal/limits.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -17,7 +18,8 @@ Json statement_json(const evaluation::UncertaintyStatement& s) {
           {"high_um", in_um(s.high_mm)},
           {"standard_uncertainty_um", in_um(s.standard_uncertainty_mm)},
           {"expanded_um", in_um(s.expanded_mm())},
-          {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)}};
+          {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)},
+          {"at_most", s.at_most}};
 }
 
 Json form_json(const evaluation::FormFinding& finding) {
@@ -32,7 +34,8 @@ Json budget_json(const evaluation::BudgetLine& line) {
   return {{"name", line.name},
           {"measurand", name_of(line.measurand)},
           {"standard_uncertainty_um", in_um(line.standard_uncertainty_mm)},
-          {"shift_um", in_um(line.shift_mm)},
+          {"shift_um", line.per_u_mm ? Json(nullptr) : Json(in_um(line.shift_mm))},
+          {"per_u_um", line.per_u_mm ? Json(in_um(*line.per_u_mm)) : Json(nullptr)},
           {"share", line.share_1}};
 }
 
@@ -48,7 +51,8 @@ Json prior_json(const std::optional<evaluation::Prior>& prior) {
 }
 
 /// Intervals, bias, budget and declaration of a value; null without an interval.
-Json uncertainty_json(const evaluation::CharacteristicResult& result) {
+/// @param of_cloud  Whether the form model of the trials saw a cloud: an analysis has none.
+Json uncertainty_json(bool of_cloud, const evaluation::CharacteristicResult& result) {
   if (!result.value || !result.value->uncertainty().result()) return nullptr;
   const evaluation::UncertaintyResult& u = *result.value->uncertainty().result();
   return {{"coverage", result.value->uncertainty().coverage_1()},
@@ -57,7 +61,7 @@ Json uncertainty_json(const evaluation::CharacteristicResult& result) {
           {"noise_inflation_um", in_um(u.noise_inflation_mm)},
           {"sampling_loss_um", optional_um(u.sampling_loss_mm)},
           {"form_spectrum", u.spectrum_source},
-          {"finding", form_json(u.finding)},
+          {"finding", of_cloud ? form_json(u.finding) : Json(nullptr)},
           {"notes", u.notes},
           {"trials", u.trials},
           {"tolerance_reached", u.tolerance_reached},
@@ -111,7 +115,9 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
     json["lower_limit_mm"] = optional_json(limit_in(unit, asked.lower_mm));
     json["upper_limit_mm"] = optional_json(limit_in(unit, asked.tolerance_mm));
   } else if (asked.lower_mm) {
+    json["tolerance_um"] = nullptr;
     json["lower_limit_um"] = optional_json(limit_in(unit, asked.lower_mm));
+    json["upper_limit_um"] = optional_json(limit_in(unit, asked.tolerance_mm));
   }
   if (!indication.datum.empty()) json["datum"] = indication.datum;
   if (const Filter filter = indication.filter.value_or(Filter::kNone); filter != Filter::kNone) {
@@ -132,14 +138,16 @@ Json characteristic_json(const record::Feature& feature,
                {"symbol", evaluation::symbol_of(asked)},
                {"reference", evaluation::reference_of(asked)},
                {"value_um", optional_um(result.value_mm())},
-               {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
+               {"quoted_um", result.value && !is_at_most(*result.value)
+                                 ? Json(in_um(result.value->quoted_mm()))
+                                 : Json(nullptr)},
                {"tolerance_um", limit_um(found, asked.tolerance_mm)},
                {"verdict", name_of(result.verdict)},
                {"reason", result.reason},
                {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
                {"drawing_zone", asked.drawing_zone},
                {"stated", result.value ? Json(result.value->sentence()) : Json(nullptr)},
-               {"uncertainty", uncertainty_json(result)},
+               {"uncertainty", uncertainty_json(!record::is_analysis(feature.shape), result)},
                {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
                                               ? Json(result.value->uncertainty().why())
                                               : Json(nullptr)},

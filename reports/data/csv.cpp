@@ -33,14 +33,17 @@ std::string um_field(const std::optional<double>& length_mm) {
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
 
-bool is_size(const record::Characteristic& asked) {
-  return evaluation::unit_of(asked) == core::LengthUnit::kMm;
+/// Whether a characteristic has two limits, in columns of their own: a size, or a value with a
+/// sign.
+bool has_two_limits(const record::Characteristic& asked) {
+  return evaluation::unit_of(asked) == core::LengthUnit::kMm || asked.lower_mm;
 }
 
-bool any_size(const evaluation::Evaluation& evaluation) {
+bool any_has_two_limits(const evaluation::Evaluation& evaluation) {
   return std::ranges::any_of(evaluation.features, [](const evaluation::FeatureResult& feature) {
-    return std::ranges::any_of(feature.characteristics,
-                               [](const auto& result) { return is_size(result.characteristic); });
+    return std::ranges::any_of(feature.characteristics, [](const auto& result) {
+      return has_two_limits(result.characteristic);
+    });
   });
 }
 
@@ -51,7 +54,7 @@ std::string limit_field(core::LengthUnit unit, const std::optional<double>& limi
 
 /// "tolerance_um": empty of a size, whose limits are in columns of their own.
 std::string tolerance_field(const record::Feature& feature, const record::Characteristic& asked) {
-  if (is_size(asked)) return {};
+  if (has_two_limits(asked)) return {};
   // that of a form without filter and window keeps the digits of earlier versions
   return evaluation::is_found(feature, asked)
              ? limit_field(core::LengthUnit::kUm, asked.tolerance_mm)
@@ -60,7 +63,7 @@ std::string tolerance_field(const record::Feature& feature, const record::Charac
 
 /// ",lower_limit_mm,upper_limit_mm" of a run with sizes.
 std::string size_fields(const record::Characteristic& asked) {
-  if (!is_size(asked)) return ",,";
+  if (!has_two_limits(asked)) return ",,";
   return "," + limit_field(core::LengthUnit::kMm, asked.lower_mm) + "," +
          limit_field(core::LengthUnit::kMm, asked.tolerance_mm);
 }
@@ -92,17 +95,18 @@ std::string write_results_csv(const record::RunRecord& record,
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um";
-  const bool sizes = any_size(evaluation);
+  const bool sizes = any_has_two_limits(evaluation);
   text += sizes ? ",lower_limit_mm,upper_limit_mm\n" : "\n";
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
       const evaluation::UncertaintyStatement* known =
           result.value ? result.value->statement() : nullptr;
-      const std::string interval = known == nullptr ? ",,"
-                                                    : um_field(known->estimate_mm) + "," +
-                                                          um_field(known->low_mm) + "," +
-                                                          um_field(known->high_mm);
+      // Of "at most 3.2 um" only the upper end is stated.
+      const bool both = known != nullptr && !known->at_most;
+      const std::string interval = (both ? um_field(known->estimate_mm) : "") + "," +
+                                   (both ? um_field(known->low_mm) : "") + "," +
+                                   (known != nullptr ? um_field(known->high_mm) : "");
       text += fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{}", head, text_field(feature.feature.id),
           text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),

@@ -12,6 +12,7 @@
 #include "evaluation/results/finding.h"
 #include "evaluation/results/section.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -129,7 +130,7 @@ core::Result<ToleranceBlock> tolerance_block(const evaluation::CharacteristicRes
                        result.verdict == evaluation::Verdict::kDoesNotConform;
   if (word == nullptr || !decided || !result.value || !asked.toleranced()) return none("");
   ToleranceBlock block;
-  block.actual = fmt::format("{},{}", word, decimal(result.value->quoted_mm()));
+  block.actual = fmt::format("{},{}", word, decimal(shown_mm(*result.value)));
   if (evaluation::unit_of(asked) == core::LengthUnit::kMm) {
     if (!asked.lower_mm || !asked.tolerance_mm) return none("TOL/DIAM needs both limits; ");
     if (result.finding && result.finding->judged.size() > 1)
@@ -191,6 +192,15 @@ std::string datum_definitions(const evaluation::Evaluation& evaluation) {
   return text;
 }
 
+/// "gate first-harmonic, passed: chi2 of the first harmonic; found 3.2, limit 7.5".
+std::string gate_remark(const evaluation::Gate& gate) {
+  std::string text = fmt::format(
+      "gate {}, {}: {}; found {}, limit {}", gate.code, name_of(gate.outcome),
+      gate.condition.english(), number_of(gate.found, gate.unit), number_of(gate.limit, gate.unit));
+  if (!gate.reason.empty()) text += "; " + gate.reason.english();
+  return text;
+}
+
 /// Appends what needs no datum to `text`, what needs one to `about_datums`.
 void add_feature(const evaluation::FeatureResult& feature, std::size_t number, std::string& text,
                  std::string& about_datums) {
@@ -216,7 +226,9 @@ void add_feature(const evaluation::FeatureResult& feature, std::size_t number, s
     text += comment(tolerance, fmt::format("{}; {}; {}; {}", result.characteristic.id,
                                            evaluation::symbol_of(result.characteristic),
                                            name_of(result.verdict), result.reason.english()));
+    if (result.value) text += comment(tolerance, result.value->sentence().english());
   }
+  for (const evaluation::Gate& gate : feature.gates) text += comment(label, gate_remark(gate));
 }
 
 }  // namespace

@@ -316,6 +316,7 @@ Json feature_json(const evaluation::FeatureResult& feature) {
   json["points_sha256"] = asked.points_sha256;
   json["points"] = feature.cloud.size();
   json["characteristics"] = characteristics_json(feature);
+  if (!feature.gates.empty()) json["gates"] = gates_json(feature.gates);
   json["mz"] = zone_json(feature);
   json["ls"] = least_squares_json(feature);
   json["mc"] = one_sided_json(feature, record::Reference::kMinimumCircumscribed);

@@ -54,7 +54,6 @@ Json runout(const fit::WheelMeasurement& m) {
     out["fim_um"] = micrometres(found.fim_mm);
   } else {
     out["fim_at_least_um"] = micrometres(found.fim_mm);
-    out["fim_with_dropped_um"] = micrometres(found.fim_with_dropped_mm);
     out["effective_radius_at_least_mm"] = found.effective_radius_mm;
     out["bound_because"] = found.bound_because;
   }
@@ -175,6 +174,7 @@ nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
                 {"deviation_um", micrometres(m.check.deviation_mm)}}},
               {"mz", zone(m)},
               {"runout", runout(m)}};
+  if (!m.radius_void_because.empty()) out["radius_void_because"] = m.radius_void_because;
   if (!m.runout) out["runout_absent"] = m.runout_absent;
   out["effective_radius_mm"] = optional_json(m.effective_radius_mm());
   out["limits"] = limits(task.wheel);

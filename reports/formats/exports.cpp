@@ -32,7 +32,12 @@ std::string calibration_of(const evaluation::Evaluation& evaluation) {
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     if (!feature.analysis) continue;
     const auto* const found = std::get_if<evaluation::RotaryResult>(&feature.analysis->found);
-    if (found != nullptr) return fixture::calibration_text(found->calibration);
+    if (found == nullptr) continue;
+    if (found->withheld) {
+      return "{\"format\": \"none\", \"note\": \"the calibration does not hold, see "
+             "report.json\"}\n";
+    }
+    return fixture::calibration_text(found->calibration);
   }
   return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
 }

@@ -8,6 +8,7 @@
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -73,7 +74,8 @@ record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
   }
   out.sampling =
       feature.analysis ? sampling_text(*feature.analysis).english() : sampling_of(feature, asked);
-  if (found.value) out.value = found.value->quoted_mm();
+  // A bound is no value: it would enter control limits and capability as one.
+  if (found.value && !is_at_most(*found.value)) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;
   out.lower_limit = asked.lower_mm;
   out.verdict = name_of(found.verdict);

@@ -75,7 +75,9 @@ struct LimitPair {
 double index_of(const LimitPair& limits, const Moments& ln) {
   double index = std::numeric_limits<double>::infinity();
   if (limits.upper_mm) {
-    index = std::expm1(std::log(*limits.upper_mm) - ln.mean) / std::expm1(3.0 * ln.sd);
+    const double above = *limits.upper_mm > 0.0 ? std::log(*limits.upper_mm) - ln.mean
+                                                : -std::numeric_limits<double>::infinity();
+    index = std::expm1(above) / std::expm1(3.0 * ln.sd);
   }
   if (limits.lower_mm) {
     const double below = *limits.lower_mm > 0.0 ? std::log(*limits.lower_mm) - ln.mean

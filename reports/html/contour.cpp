@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -72,26 +73,49 @@ void add_truth(const record::RunRecord& record, int feature, std::size_t part,
   curves.push_back({tr("hidden truth of n"), "mean", *std::move(beta), *std::move(rest)});
 }
 
-std::string separation_plots(const evaluation::ContourResult& facts,
+std::string separation_plot(const evaluation::ContourResult& facts, const record::RunRecord& record,
+                            int feature, std::size_t i) {
+  const fit::ContourPartResult& part = facts.study.parts[i];
+  std::vector<Curve> curves;
+  curves.push_back(
+      curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
+  curves.push_back(
+      curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
+  curves.push_back(
+      curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
+  add_truth(record, feature, i, curves);
+  return scrolling(
+      line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"), curves));
+}
+
+/// The separation of the first part, which shows what the analysis is about.
+std::string first_separation(const evaluation::ContourResult& facts,
                              const record::RunRecord& record, int feature) {
-  std::string html =
-      fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation, part by part"),
-                  tr("t = f + n: the contour as measured, the share that follows "
-                     "from the axis errors, and the rest."));
-  for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
-    const fit::ContourPartResult& part = facts.study.parts[i];
-    std::vector<Curve> curves;
-    curves.push_back(
-        curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
-    curves.push_back(
-        curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
-    curves.push_back(
-        curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
-    add_truth(record, feature, i, curves);
-    html += scrolling(line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle),
-                                 tr("contour error / µm"), curves));
-  }
+  return fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation"),
+                     tr("t = f + n: the contour as measured, the share that follows "
+                        "from the axis errors, and the rest.")) +
+         separation_plot(facts, record, feature, 0);
+}
+
+std::string other_separations(const evaluation::ContourResult& facts,
+                              const record::RunRecord& record, int feature) {
+  if (facts.study.parts.size() < 2) return {};
+  std::string html = fmt::format("<h3>{}</h3>", tr("Separation of the other parts"));
+  for (std::size_t i = 1; i < facts.study.parts.size(); ++i)
+    html += separation_plot(facts, record, feature, i);
   return html;
+}
+
+std::string words_of_contour() {
+  return explained("t, f, n",
+                   tr("Contour error of the pin as measured; the part of it that follows from the "
+                      "errors of the C and X axes, which a correction of their commands removes as "
+                      "far as it repeats; and the rest, which does not follow from them.")) +
+         explained(tr("Stability index"),
+                   tr("Share of the mean square of a curve that repeats from part to part: 1 when "
+                      "all parts have the same curve, 0 for curves that have nothing in common; "
+                      "below 0 by chance. Only what repeats is worth correcting.")) +
+         explained(tr("Spread"), tr("Standard deviation of the parts from their mean curve."));
 }
 
 std::string comparison_plots(const evaluation::ContourResult& facts) {
@@ -159,6 +183,66 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   return html + "</dl>";
 }
 
+/// "8.93 [8.71, 9.14]"; "<= 9.14" where only that is known; the value alone without an interval.
+std::string with_interval(const evaluation::ContourNumber& number) {
+  const bool length = number.kind != evaluation::ContourNumber::Kind::kIndex;
+  const auto in_digits = [&](double value) { return length ? um(value) : fixed(value, 4); };
+  const auto& found = number.uncertainty.result();
+  if (!found) return in_digits(number.as_measured);
+  const evaluation::UncertaintyStatement& s = found->sampled;
+  if (s.at_most) return "&le; " + in_digits(s.high_mm);
+  return fmt::format("{} [{}, {}]", in_digits(s.estimate_mm), in_digits(s.low_mm),
+                     in_digits(s.high_mm));
+}
+
+/// Peak to valley, rms and index of every curve with their intervals, and why some have none.
+std::string interval_table(const evaluation::ContourResult& facts) {
+  using Number = evaluation::ContourNumber;
+  const auto symbol = [](Number::Curve curve) -> std::string {
+    switch (curve) {
+      case Number::Curve::kTotal:
+        return "t";
+      case Number::Curve::kFollowing:
+        return "f";
+      case Number::Curve::kRest:
+        return "n";
+      case Number::Curve::kIndirect:
+        return tr("f from main");
+      case Number::Curve::kMain:
+        return tr("main journals");
+    }
+    return {};
+  };
+  TableRows rows;
+  std::vector<std::string> reasons;
+  for (const Number& number : facts.numbers) {
+    const std::string curve = symbol(number.curve);
+    const std::string value = with_interval(number);
+    if (!number.part) {
+      rows.push_back({curve, "–", "–", "–", value});
+    } else if (number.kind == Number::Kind::kPeakToValley) {
+      rows.push_back({curve, isolated(facts.names[*number.part]), value, "–", "–"});
+    } else {
+      rows.back()[3] = value;  // the rms of a part follows its peak to valley
+    }
+    if (number.uncertainty.result()) continue;
+    std::string reason =
+        fmt::format("<li>{}: {}</li>", curve, in_sentence(number.uncertainty.why()));
+    if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
+      reasons.push_back(std::move(reason));
+    }
+  }
+  if (rows.empty()) return {};
+  std::string html =
+      fmt::format(R"(<h3>{}</h3>{})", tr("Intervals"),
+                  scrolling(table("short", "llrrr", spoken_caption(tr("Intervals")),
+                                  {tr("Curve"), tr("Part"), "PV µm", "rms µm", "S"}, rows)));
+  if (reasons.empty()) return html;
+  html += fmt::format(R"(<p class="note">{}</p><ul>)", tr("As measured, without an interval:"));
+  for (const std::string& reason : reasons) html += reason;
+  return html + "</ul>";
+}
+
 std::string part_table(const evaluation::ContourResult& facts) {
   TableRows rows;
   const auto square = [](double mm2) {
@@ -173,14 +257,16 @@ std::string part_table(const evaluation::ContourResult& facts) {
                     square(d.cross_mm2), d.enlarges() ? tr("enlarges") : tr("reduces"),
                     part.indirect ? fixed(part.indirect->correlation, 4) : "–"});
   }
-  return fmt::format(
-      R"(<h3>{}</h3>{}<p class="note">{}</p>)", tr("Balance"),
-      scrolling(table("short", "lrrrrrrrlr", spoken_caption(tr("Balance")),
-                      {tr("Part"), "t µm", "f µm", "n µm", tr("mean t² µm²"), "f²", "n²", "2 f n",
-                       "n … t", tr("f from main")},
-                      rows)),
-      tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
-         "valley do not. Last column: correlation of f with what the main journal leaves of t."));
+  return fmt::format(R"(<h3>{}</h3>{}<p class="note">{}</p>)", tr("Balance"),
+                     scrolling(table("short", "lrrrrrrrlr", spoken_caption(tr("Balance")),
+                                     {tr("Part"), "t µm", "f µm", "n µm", tr("mean t² µm²"), "f²",
+                                      "n²", "2 f n", "n … t", tr("f from main")},
+                                     rows)),
+                     tr("t, f, n: peak to valley. The squares add up, the cross term included; rms "
+                        "and peak to "
+                        "valley do not. Last column: correlation of f with what the main journal "
+                        "leaves of t.")) +
+         interval_table(facts);
 }
 
 std::string verdict_list(const evaluation::ContourResult& facts) {
@@ -196,8 +282,9 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
                           int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return key_numbers(facts) + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
-         separation_plots(facts, record, feature) + harmonic_plot(facts, asked);
+  return first_separation(facts, record, feature) + key_numbers(facts) + words_of_contour() +
+         verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
+         other_separations(facts, record, feature) + harmonic_plot(facts, asked);
 }
 
 }  // namespace rondure::reports

@@ -276,24 +276,41 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                              const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
-      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
+      R"(<section><h2>{}</h2><p class="note">{}</p>)", feature_title(asked),
       trf("{}.", asked.shape == record::Shape::kRotaryAxes
                      ? tr("Calibration of the fixture with balls that it carried")
                      : trf("{}; data {}", capitalised(tr(record::name_of(asked.shape))),
                            asked.points_file.empty()
                                ? tr("simulated")
                                : trf("from the file {}", isolated(asked.points_file)))));
-  html += messages(feature);
+  html += verdict_lines(feature) + messages(feature);
   if (feature.analysis) {
     const auto write = [&](const auto& found) {
       return analysis_part(found, record, static_cast<int>(index));
     };
     html += std::visit(write, feature.analysis->found);
   }
-  return html + truth_box(truth_text(record, index)) + "</section>";
+  return html + gates_section(feature) + uncertainty_section(feature) +
+         truth_box(truth_text(record, index)) + "</section>";
 }
 
 }  // namespace
+
+std::string feature_title(const record::Feature& feature) {
+  const std::string name = isolated(feature.id);
+  switch (feature.shape) {
+    case record::Shape::kSpindle:
+      return trf("Spindle {}: form of the part and motion of the axis", name);
+    case record::Shape::kWheel:
+      return trf("Grinding wheel {}: radius, run-out and edge", name);
+    case record::Shape::kContour:
+      return trf("Crank pin {}: contour error and how much of it follows the axes", name);
+    case record::Shape::kRotaryAxes:
+      return trf("Fixture {}: errors of its axes and what is left of them", name);
+    default:
+      return trf("Feature {}", name);
+  }
+}
 
 std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
@@ -332,12 +349,12 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   const std::string origin = asked.strategy == record::Strategy::kPointsFile
                                  ? tr("points from a file")
                                  : trf("pose search: {}", tr(record::name_of(asked.strategy)));
-  std::string html = fmt::format(
-      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
-      asked.shape == record::Shape::kPlane
-          ? trf("{}; {}.", capitalised(tr(record::name_of(asked.shape))), origin)
-          : trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
-                tr(record::name_of(asked.shape)), nominal, origin));
+  std::string html =
+      fmt::format(R"(<section><h2>{}</h2><p class="note">{}</p>)", feature_title(asked),
+                  asked.shape == record::Shape::kPlane
+                      ? trf("{}; {}.", capitalised(tr(record::name_of(asked.shape))), origin)
+                      : trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
+                            tr(record::name_of(asked.shape)), nominal, origin));
   html += messages(feature);
   if (outside) {
     html += note(trf("{} of {} points lie in windows and take no part in what follows.",
@@ -346,7 +363,7 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   html += key_numbers(feature, zone);
   const std::string truth = truth_text(evaluation::truth_of(record, index), zone, asked.shape);
   html += truth_box(truth.empty() ? truth_text(record, index) : truth);
-  html += uncertainty_section(feature);
+  html += gates_section(feature) + uncertainty_section(feature);
   if (zone)
     html += polar_plots(feature, *zone, &all) + deviation_map(feature, *zone) +
             solid_view(feature, *zone);

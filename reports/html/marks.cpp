@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/html/plots.h"
+#include "reports/words/internal/gates.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -45,14 +46,12 @@ std::string verdict_mark(evaluation::Verdict verdict, int size_px) {
 
 namespace {
 
-/// The ISO 1101 symbol where there is one; a wave for characteristics that are no geometrical
-/// tolerance.
+/// The ISO 1101 symbol; empty of a characteristic that ISO 1101 does not know.
 std::string_view symbol_lines(record::Form form) {
   switch (form) {
     case record::Form::kCylindricity:
       return R"(<circle cx="10" cy="10" r="4.5"/><path d="M2 17L8.5 3M11.5 17L18 3"/>)";
     case record::Form::kRoundness:
-    case record::Form::kRoundnessRms:
       return R"(<circle cx="10" cy="10" r="7"/>)";
     case record::Form::kStraightness:
       return R"(<path d="M3 10h14"/>)";
@@ -71,11 +70,8 @@ std::string_view symbol_lines(record::Form form) {
       return R"(<path d="M2 17L10 4M5 5.8L10 4L10.3 9.3M9.5 17L17.5 4M12.5 5.8L17.5 4L17.8 9.3M2 17h7.5"/>)";
     case record::Form::kRunOut:
       return R"(<path d="M4 17L15 4M9.5 5L15 4L14 9.5"/>)";
-    case record::Form::kContourDeviation:
-    case record::Form::kContourSpread:
-      return R"(<path d="M3 15a7 7 0 0 1 14 0"/>)";
     default:
-      return R"(<path d="M2 10q4 -9 8 0t8 0"/>)";
+      return {};
   }
 }
 
@@ -83,15 +79,25 @@ std::string_view symbol_lines(record::Form form) {
 
 std::string form_symbol(record::Form form) {
   const std::string_view lines = symbol_lines(form);
+  if (lines.empty()) return {};
   return fmt::format(R"(<svg class="symbol" viewBox="0 0 20 20" width="18" height="18" role="img" )"
                      R"(aria-label="{}">{}</svg>)",
                      tr(record::name_of(form)), lines);
 }
 
+namespace {
+
+/// The interval as a bar draws it: none where only its upper end is stated, which is the bar.
+const evaluation::UncertaintyStatement* interval_of(const evaluation::StatedValue& value) {
+  return is_at_most(value) ? nullptr : value.statement();
+}
+
+}  // namespace
+
 std::string tolerance_bar(const evaluation::CharacteristicResult& result, double tolerance_mm) {
   constexpr double kWidth = 150.0;
-  const double value_mm = result.value->quoted_mm();
-  const evaluation::UncertaintyStatement* known = result.value->statement();
+  const double value_mm = shown_mm(*result.value);
+  const evaluation::UncertaintyStatement* known = interval_of(*result.value);
   // Where no rule decided, its limits are the tolerance itself.
   const auto& outcome = result.outcome;
   const auto of_rule = [&](evaluation::Limits evaluation::RuleOutcome::*zone) {
@@ -103,7 +109,8 @@ std::string tolerance_bar(const evaluation::CharacteristicResult& result, double
   if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
   end_mm = std::max(end_mm, 1.05 * rejection_mm);
   const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
-  std::string label = trf("{} of {} um", result.value->value_text().english(), um(tolerance_mm));
+  const core::Phrase text = result.value->value_text();
+  std::string label = trf("{} of {} um", in_words(text).value_or(text.english()), um(tolerance_mm));
   if (acceptance_mm < tolerance_mm) {
     label += trf(", accepted up to {} um", um(acceptance_mm));
   }
@@ -129,7 +136,7 @@ std::string tolerance_bar(const evaluation::CharacteristicResult& result, double
 std::string limits_bar(const evaluation::CharacteristicResult& result,
                        const std::vector<evaluation::JudgedValue>& judged) {
   constexpr double kWidth = 150.0;
-  const evaluation::UncertaintyStatement* known = result.value->statement();
+  const evaluation::UncertaintyStatement* known = interval_of(*result.value);
   double low_mm = judged.front().value_mm;
   double high_mm = low_mm;
   evaluation::Limits limits;
@@ -210,9 +217,14 @@ std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget) {
     svg.text(kFrom - 10.0, y + 16.0, "end", "label", tr(line->name));
     svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
              line->measurand == evaluation::Measurand::kWholeSurface ? "share surface" : "share");
+    const std::string size = um(line->standard_uncertainty_mm);
+    const std::string share = fixed(100.0 * line->share_1, 0);
+    // Linear propagation knows no shift, but how the value changes.
     svg.text(end + 8.0, y + 16.0, "start", "label",
-             trf("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
-                 fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));
+             line->per_u_mm ? trf("{} \u00b5m, {} %; {} \u00b5m for +1 u", size, share,
+                                  signed_um(*line->per_u_mm))
+                            : trf("{} \u00b5m, {} %; mean shift {} \u00b5m", size, share,
+                                  signed_um(line->shift_mm)));
     y += kRow;
   }
   return svg.str();

@@ -16,7 +16,7 @@ namespace rondure::reports {
 /// Symbol of a verdict: a filled disc with a tick, a filled octagon with a cross, ... Shape and
 /// colour both differ.
 [[nodiscard]] std::string verdict_mark(evaluation::Verdict verdict, int size_px);
-/// ISO 1101 symbol of a geometrical tolerance, else a wave.
+/// ISO 1101 symbol of a geometrical tolerance; empty of a characteristic that has none.
 [[nodiscard]] std::string form_symbol(record::Form form);
 /// The value with its interval, relative to limit and guard bands. The characteristic must have a
 /// value.

@@ -1,5 +1,6 @@
 #include "reports/html/report.h"
 
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -85,8 +86,7 @@ std::vector<PagePart> parts_of(const record::RunRecord& record,
   };
   add("result", tr("Result"), verdict_section(record, evaluation));
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
-    add(fmt::format("feature-{}", i + 1),
-        trf("Feature {}", isolated(evaluation.features[i].feature.id)),
+    add(fmt::format("feature-{}", i + 1), feature_title(evaluation.features[i].feature),
         feature_section(record, i, evaluation.features[i]));
   }
   add("history", tr("Earlier runs"), history_section(record, evaluation, earlier));
@@ -94,6 +94,34 @@ std::vector<PagePart> parts_of(const record::RunRecord& record,
   add("decisions", tr("Decisions"), decisions_section(record));
   add("provenance", tr("Provenance"), provenance_section(record));
   return parts;
+}
+
+/// What stands after the name of the program. Several kinds together are an inspection.
+std::string kind_of_page(const evaluation::Evaluation& evaluation, bool of_drawing) {
+  if (of_drawing) return tr("inspection report");
+  bool surface = false;
+  std::set<record::Shape> analyses;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    if (record::is_analysis(feature.feature.shape)) {
+      analyses.insert(feature.feature.shape);
+    } else {
+      surface = true;
+    }
+  }
+  if (analyses.empty()) return tr("cylindricity report");
+  if (surface || analyses.size() > 1) return tr("inspection report");
+  switch (*analyses.begin()) {
+    case record::Shape::kSpindle:
+      return tr("spindle report");
+    case record::Shape::kWheel:
+      return tr("grinding-wheel report");
+    case record::Shape::kContour:
+      return tr("crank-pin contour report");
+    case record::Shape::kRotaryAxes:
+      return tr("calibration report");
+    default:
+      return tr("inspection report");
+  }
 }
 
 }  // namespace
@@ -109,8 +137,7 @@ std::string write_html(const record::RunRecord& record, const evaluation::Evalua
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
       tag_of(language), policy(), escaped(printable(record.header.part_id)),
       escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(of_drawing),
-      top_of(parts),
-      head_section(record, of_drawing ? tr("inspection report") : tr("cylindricity report")));
+      top_of(parts), head_section(record, kind_of_page(evaluation, of_drawing)));
   constexpr std::string_view kTag = "<section";
   for (const PagePart& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));

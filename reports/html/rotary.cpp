@@ -130,6 +130,42 @@ std::string combined_table(const evaluation::RotaryResult& facts) {
                          rows));
 }
 
+/// What compensation is worth: the balls in poses that the fit did not use, before and after it.
+std::string residual_chart(const evaluation::RotaryResult& facts) {
+  if (facts.combined.empty()) return {};
+  Curve before{tr("before compensation, rms"), "zone-outer", {}, {}};
+  Curve left{tr("left, rms"), "profile", {}, {}};
+  Curve largest{tr("left, largest ball"), "guide", {}, {}};
+  for (const evaluation::CombinedPose& pose : facts.combined) {
+    const auto number = static_cast<double>(left.x.size() + 1);
+    for (Curve* const curve : {&before, &left, &largest}) curve->x.push_back(number);
+    before.y.push_back(pose.before_rms_mm / kMicrometre);
+    left.y.push_back(pose.rms_mm / kMicrometre);
+    largest.y.push_back(pose.max_mm / kMicrometre);
+  }
+  return fmt::format(
+      "<h3>{}</h3>{}{}", tr("What is left at poses that were not used"),
+      note(tr("Distance of the balls from their predicted places, pose by pose; the lines guide "
+              "the eye only.")),
+      scrolling(line_chart(tr("Residuals of the combined poses"),
+                           tr("number of the pose, as in the table below"), tr("distance / µm"),
+                           {before, left, largest})));
+}
+
+std::string words_of_rotary() {
+  return explained(
+             tr("Combined poses"),
+             tr("Poses with both axes turned, which the identification did not use: they show "
+                "whether the errors found hold elsewhere.")) +
+         explained(tr("Left at combined poses"),
+                   tr("Distance of a ball centre from its predicted place after compensation; "
+                      "expected: what noise and the uncertainty of the errors explain.")) +
+         explained(
+             tr("Condition of the balls"),
+             tr("How evenly the balls determine the six errors of a pose: 1 when all are known "
+                "equally well, large when some of them are hardly seen."));
+}
+
 std::string key_numbers(const evaluation::RotaryResult& facts) {
   const fixture::Calibration& c = facts.calibration;
   const fixture::Verification& v = c.verification;
@@ -159,7 +195,7 @@ std::string key_numbers(const evaluation::RotaryResult& facts) {
 
 std::string analysis_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
                           int feature) {
-  std::string html = key_numbers(facts);
+  std::string html = residual_chart(facts) + key_numbers(facts) + words_of_rotary();
   html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
                       location_table(facts));

@@ -25,8 +25,8 @@ namespace rondure::reports {
                                           const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const evaluation::FeatureResult& feature);
-/// The body of an analysed feature: key numbers, drawings, tables. `record` gives the hidden truth
-/// of a simulation.
+/// The body of an analysed feature: the drawing that shows the matter, key numbers with their words
+/// explained, other drawings, tables. `record` gives the hidden truth of a simulation.
 [[nodiscard]] std::string analysis_part(const evaluation::SpindleResult& facts,
                                         const record::RunRecord& record, int feature);
 [[nodiscard]] std::string analysis_part(const evaluation::WheelResult& facts,
@@ -39,6 +39,12 @@ namespace rondure::reports {
 [[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
 [[nodiscard]] std::string uncertainty_section(const evaluation::FeatureResult& feature);
+/// The conditions that were checked before values were judged, passed or not; empty without any.
+[[nodiscard]] std::string gates_section(const evaluation::FeatureResult& feature);
+/// The verdicts of the characteristics of a feature, a line each; empty without any.
+[[nodiscard]] std::string verdict_lines(const evaluation::FeatureResult& feature);
+/// The heading of a feature: "Feature land-A"; of an analysis what it is about.
+[[nodiscard]] std::string feature_title(const record::Feature& feature);
 /// Whether something on the page needs kDrawingStyle.
 [[nodiscard]] bool has_findings(const evaluation::Evaluation& evaluation);
 /// How the values of a feature came about: local values, numbers, datums, points left out,
@@ -65,6 +71,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string messages(const evaluation::FeatureResult& feature);
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
+
+/// A paragraph that explains a word of a page; both are HTML.
+[[nodiscard]] std::string explained(std::string_view word, std::string_view html);
 
 /// A paragraph in small print; `html` is used as it is.
 [[nodiscard]] std::string note(const std::string& html);

@@ -168,14 +168,30 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
          note(tr("The ten largest, and those not recovered; all are in report.json."));
 }
 
+std::string words_of_spindle() {
+  return explained("RONt, RONq",
+                   tr("Roundness of the part alone, free of the motion of the spindle: greatest "
+                      "departure from the reference circle, outward plus inward, and root mean "
+                      "square departure.")) +
+         explained(
+             tr("Motion"),
+             tr("Error motion of the axis in one fixed direction (ISO 230-7), free of the form "
+                "of the part. Synchronous: peak to valley of the mean revolution, which every "
+                "revolution repeats. Asynchronous: greatest spread of the revolutions at one "
+                "angle, which no correction removes. Total: peak to valley of all.")) +
+         explained(
+             tr("Noise gain"),
+             tr("Three probes at fixed angles see some harmonics weakly: the noise of a probe "
+                "is amplified there by this factor."));
+}
+
 }  // namespace
 
 std::string analysis_part(const evaluation::SpindleResult& facts, const record::RunRecord& record,
                           int feature) {
   const fit::ThreeProbeResult& s = facts.separation;
   const record::Series* truth = record.truth_series_of(feature, "truth");
-  std::string html = key_numbers(facts);
-  html += fmt::format(
+  std::string html = fmt::format(
       R"(<h3>{}</h3><p class="note">{}</p><div class="multiples">)", tr("Part and motion"),
       tr("Deviations against a mean circle; every plot has its own magnification, the bar says "
          "which. Motion is shown over the work angle, about the least-squares centre of its mean "
@@ -185,7 +201,7 @@ std::string analysis_part(const evaluation::SpindleResult& facts, const record::
   html += motion_plot(tr("Motion Y"), s.alpha_rad, facts.y);
   html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts.x);
   html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts.y);
-  html += "</div>";
+  html += "</div>" + key_numbers(facts) + words_of_spindle();
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return html + harmonic_plots(facts, asked) + harmonic_table(s);
 }

@@ -72,6 +72,10 @@ table.results .bar,table.results .verdict-word .mark{max-width:none}
 table.results .verdict-word .mark{vertical-align:-4px;margin-right:6px}
 table.results tr.words td{color:var(--soft);font-size:12.5px;border-bottom:1px solid var(--line);
 padding:0 0 12px}
+.verdicts{margin:10px 0;padding:0;list-style:none}.verdicts li{margin:4px 0}
+.verdicts .mark,.gates .mark{vertical-align:-3px;margin-right:4px}
+.gates td small{display:block;color:var(--soft);font-size:12.5px}
+.plain{font-size:13.5px}
 .frame-box{display:inline-flex;border:1.2px solid var(--ink);font-size:13px;line-height:1;vertical-align:-7px;
 margin-right:8px}
 .frame-box>*{padding:3px 6px;display:flex;align-items:center}.frame-box>*+*{border-left:1.2px solid var(--ink)}

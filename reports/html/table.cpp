@@ -6,6 +6,10 @@ namespace rondure::reports {
 
 std::string note(const std::string& html) { return R"(<p class="note">)" + html + "</p>"; }
 
+std::string explained(std::string_view word, std::string_view html) {
+  return note(fmt::format("<b>{}</b> {}", word, html));
+}
+
 std::string scrolling(const std::string& html) {
   return R"(<div class="scroll">)" + html + "</div>";
 }

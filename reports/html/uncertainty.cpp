@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -43,9 +47,17 @@ std::string statement_entry(const std::string& name, const evaluation::Uncertain
   const auto value = [&](double mm) {
     return unit == core::LengthUnit::kUm ? number(mm) : core::length_in(unit, mm, decimals);
   };
+  const std::string sign = unit == core::LengthUnit::kUm ? "µm" : "mm";
+  if (s.at_most) {
+    return entry(name,
+                 with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
+                           trf("upper end of the {:g} % interval; noise and influences make up too "
+                               "much of the value for more. Numbers stable to {} µm",
+                               100.0 * coverage_1, tiny_um(s.numerical_tolerance_mm))),
+                 "lead");
+  }
   return entry(name,
-               with_note(fmt::format("{} {} [{}, {}]", value(s.estimate_mm),
-                                     unit == core::LengthUnit::kUm ? "µm" : "mm", value(s.low_mm),
+               with_note(fmt::format("{} {} [{}, {}]", value(s.estimate_mm), sign, value(s.low_mm),
                                      value(s.high_mm)),
                          trf("corrected value; {:g} % interval, U = {} µm, standard uncertainty {} "
                              "µm; numbers stable to {} µm",
@@ -92,6 +104,13 @@ std::string finding_entry(const evaluation::UncertaintyResult& u) {
                "wide-key");
 }
 
+/// Notes of an interval that has no form model beside which they could stand.
+std::string note_list(const std::vector<core::Phrase>& notes) {
+  std::string html;
+  for (const core::Phrase& said : notes) html += note(opening_sentence(said));
+  return html;
+}
+
 std::string declaration(const std::vector<evaluation::InfluenceStatement>& influences) {
   TableRows rows;
   for (const bool covered : {true, false}) {
@@ -106,7 +125,8 @@ std::string declaration(const std::vector<evaluation::InfluenceStatement>& influ
                {tr("Influence"), tr("In the interval"), tr("As declared")}, rows);
 }
 
-std::string value_part(const evaluation::CharacteristicResult& result) {
+/// @param of_cloud  Whether the value is one of touches and points, whose form the trials draw.
+std::string value_part(const evaluation::CharacteristicResult& result, bool of_cloud) {
   const evaluation::UncertaintyStatus& status = result.value->uncertainty();
   const evaluation::UncertaintyResult& u = *status.result();
   std::string html = fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)",
@@ -118,21 +138,51 @@ std::string value_part(const evaluation::CharacteristicResult& result) {
   html += entry(tr("As read, not corrected"),
                 unit == core::LengthUnit::kUm ? um(u.uncorrected_mm) + " µm"
                                               : result.value->in_digits(u.uncorrected_mm) + " mm");
-  html += statement_entry(tr("At the sampled points, free of noise"), u.sampled, unit,
-                          status.coverage_1());
+  html += statement_entry(
+      of_cloud ? tr("At the sampled points, free of noise") : tr("Free of noise and influences"),
+      u.sampled, unit, status.coverage_1());
   if (u.whole) {
     html += statement_entry(tr("Of the whole surface"), *u.whole, unit, status.coverage_1());
     html += entry(tr("Form spectrum of it"), in_sentence(u.spectrum_source), "wide-key");
   }
-  html += bias_entries(u) + finding_entry(u) + "</dl>";
+  html += of_cloud ? bias_entries(u) + finding_entry(u)
+                   : entry(tr("Inflation by noise and influences"),
+                           with_note(signed_um(u.noise_inflation_mm) + " µm",
+                                     tr("value as measured minus the corrected value")));
+  html += "</dl>";
+  if (!of_cloud) html += note_list(u.notes);
   if (const std::string bars = budget_bars(u.budget); !bars.empty()) {
     html += fmt::format(
         R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", bars,
-        tr("Budget: what each influence does alone, ranked: standard uncertainty, share of the sum "
-           "of squares, mean shift of the value. Blue: at the sampled points, shares among "
-           "themselves; orange: of the whole surface, share of all."));
+        of_cloud
+            ? tr("Budget: what each influence does alone, ranked: standard uncertainty, share of "
+                 "the sum of squares, mean shift of the value. Blue: at the sampled points, shares "
+                 "among themselves; orange: of the whole surface, share of all.")
+            : tr("Budget: what each influence does alone, ranked: standard uncertainty, share of "
+                 "the sum of squares, change of the value for +1 standard uncertainty."));
   }
   return html + declaration(u.declaration);
+}
+
+/// Why values have no interval, each reason once with the characteristics that it concerns.
+std::string absent_intervals(const evaluation::FeatureResult& feature) {
+  std::vector<std::pair<core::Phrase, std::string>> reasons;
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+    if (!result.value || result.value->uncertainty().result()) continue;
+    const core::Phrase& why = result.value->uncertainty().why();
+    if (why.empty()) continue;
+    const std::string name = isolated(result.characteristic.id);
+    const auto known = std::ranges::find(reasons, why, &decltype(reasons)::value_type::first);
+    if (known == reasons.end()) {
+      reasons.emplace_back(why, name);
+    } else {
+      known->second += tr(", ") + name;
+    }
+  }
+  std::string html;
+  for (const auto& [why, names] : reasons)
+    html += note(trf("No interval of {}: {}.", names, in_sentence(why)));
+  return html;
 }
 
 }  // namespace
@@ -151,8 +201,10 @@ std::string rule_section(const evaluation::Evaluation& evaluation) {
 
 std::string uncertainty_section(const evaluation::FeatureResult& feature) {
   std::string html;
+  if (record::is_analysis(feature.feature.shape)) html += absent_intervals(feature);
   for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-    if (result.value && result.value->uncertainty().result()) html += value_part(result);
+    if (result.value && result.value->uncertainty().result())
+      html += value_part(result, !record::is_analysis(feature.feature.shape));
   }
   return html;
 }

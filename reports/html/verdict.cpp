@@ -10,6 +10,7 @@
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -140,11 +141,17 @@ bool is_diametral(const evaluation::CharacteristicResult& result) {
   return asked.form == record::Form::kCoaxiality || asked.form == record::Form::kConcentricity;
 }
 
-/// Tolerance frame: symbol, limit in mm, datums.
+/// Tolerance frame: symbol, limit in mm, datums. A characteristic that ISO 1101 does not know has
+/// no frame: a line with its symbol and its limits in its place.
 std::string tolerance_frame(const record::Feature& feature,
                             const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   if (asked.form == record::Form::kDiameter) return size_frame(feature, asked);
+  const std::string symbol = form_symbol(asked.form);
+  if (symbol.empty()) {
+    return fmt::format(R"(<span class="plain">{} {}</span> )",
+                       escaped(tr(evaluation::symbol_of(asked))), limits_of(asked, tr(", ")));
+  }
   std::string cells;
   if (asked.tolerance_mm) {
     cells =
@@ -152,8 +159,7 @@ std::string tolerance_frame(const record::Feature& feature,
   }
   for (const std::string& datum : asked.indication.datum)
     cells += fmt::format("<span>{}</span>", isolated(datum));
-  return fmt::format(R"(<span class="frame-box"><span>{}</span>{}</span>)", form_symbol(asked.form),
-                     cells);
+  return fmt::format(R"(<span class="frame-box"><span>{}</span>{}</span>)", symbol, cells);
 }
 
 /// The judged values; of a value without a finding, itself with the limits of its characteristic.
@@ -162,19 +168,19 @@ std::vector<evaluation::JudgedValue> judged_values(const evaluation::Characteris
   std::vector<evaluation::JudgedValue> judged;
   if (result.finding) judged = result.finding->judged;
   if (judged.empty()) judged = {{"", 0.0, {asked.lower_mm, asked.tolerance_mm}}};
-  if (judged.size() == 1) judged.front().value_mm = result.value->quoted_mm();
+  if (judged.size() == 1) judged.front().value_mm = shown_mm(*result.value);
   return judged;
 }
 
 std::string bar_cell(const evaluation::CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
   if (!result.value || !result.characteristic.toleranced()) return "<td></td>";
-  if (has_sides(result.characteristic))
+  // A signed value below zero does not fit on a bar that begins there.
+  if (has_sides(result.characteristic) || shown_mm(*result.value) < 0.0)
     return fmt::format("<td>{}</td>", limits_bar(result, judged_values(result)));
   if (!(*limit > 0.0)) return "<td></td>";
-  return fmt::format(
-      R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
-      trf("{} % of the limit", fixed(100.0 * result.value->quoted_mm() / *limit, 0)));
+  return fmt::format(R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
+                     trf("{} % of the limit", fixed(100.0 * shown_mm(*result.value) / *limit, 0)));
 }
 
 std::string_view unit_sign(core::LengthUnit unit) {
@@ -183,8 +189,14 @@ std::string_view unit_sign(core::LengthUnit unit) {
 
 /// The deciding value; with an interval, the estimate, that interval and the value as read.
 std::string value_cell(const evaluation::StatedValue& value) {
-  std::string html = fmt::format(R"(<span class="value">{}</span> {})",
-                                 value.in_digits(value.quoted_mm()), unit_sign(value.unit()));
+  std::string html =
+      fmt::format(R"(<span class="value">{}{}</span> {})", is_at_most(value) ? "≤ " : "",
+                  value.in_digits(shown_mm(value)), unit_sign(value.unit()));
+  if (is_at_most(value)) {
+    return html + fmt::format(R"(<div class="note">{}</div><div class="note">{}</div>)",
+                              tr("upper bound only"),
+                              trf("as read {}", value.in_digits(value.value_mm())));
+  }
   if (const evaluation::UncertaintyStatement* known = value.statement()) {
     html += fmt::format(R"(<div class="note">[{}, {}]</div><div class="note">{}</div>)",
                         value.in_digits(known->low_mm), value.in_digits(known->high_mm),
@@ -306,6 +318,19 @@ std::string head_section(const record::RunRecord& record, const std::string& kin
           fact(tr("Plan"), header.plan_name) + fact(tr("Revision"), header.plan_revision) +
           fact(tr("Operator"), header.operator_name) + fact(tr("Run"), header.run_id);
   return html + "</dl></header>";
+}
+
+std::string verdict_lines(const evaluation::FeatureResult& feature) {
+  std::string html;
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+    const record::Characteristic& asked = result.characteristic;
+    std::string text = trf("{}: {} {}", isolated(asked.id), tr(evaluation::symbol_of(asked)),
+                           result.value ? in_sentence(result.value->value_text()) : tr("no value"));
+    if (asked.toleranced()) text += trf(", limit {}", limits_of(asked, tr(", ")));
+    html += fmt::format(R"(<li>{} <b class="{}">{}</b> {}</li>)", verdict_mark(result.verdict, 18),
+                        css_name(result.verdict), capitalised(tr(name_of(result.verdict))), text);
+  }
+  return html.empty() ? html : R"(<ul class="verdicts">)" + html + "</ul>";
 }
 
 std::string verdict_section(const record::RunRecord& record,

@@ -403,14 +403,32 @@ std::string path_part(const evaluation::WheelResult& facts) {
   return html + forecast_part(*e.forecast);
 }
 
+std::string words_of_wheel() {
+  return explained(
+             tr("Radial run-out"),
+             tr("Greatest minus least distance of the edge from the spindle axis: eccentricity "
+                "and form together.")) +
+         explained(tr("Effective radius"),
+                   tr("Greatest distance of the edge from the spindle axis: what cuts deepest.")) +
+         explained("R, u(R)",
+                   tr("Mean distance of the points from the centre of the edge, and its standard "
+                      "uncertainty: from the declared errors of point, scale, threshold and wear; "
+                      "where those of a point are not declared, from the scatter of the points "
+                      "alone.")) +
+         explained("kappa",
+                   tr("Factor by which the centre of one quadruple of points amplifies the "
+                      "error of a point."));
+}
+
 }  // namespace
 
 std::string analysis_part(const evaluation::WheelResult& facts, const record::RunRecord& /*record*/,
                           int /*feature*/) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
-  return R"(<dl class="keys">)" + radius_entries(facts) + runout_entry(m) + center_entries(m) +
-         fmt::format(R"(</dl><h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +
-         wheel_edge_plot(m, facts.points_mm) + "</div>" + path_part(facts);
+  return fmt::format(R"(<h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +
+         wheel_edge_plot(m, facts.points_mm) + R"(</div><dl class="keys">)" +
+         radius_entries(facts) + runout_entry(m) + center_entries(m) + "</dl>" + words_of_wheel() +
+         path_part(facts);
 }
 
 }  // namespace rondure::reports

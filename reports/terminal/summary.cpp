@@ -18,6 +18,7 @@
 #include "reports/escaping.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -180,6 +181,12 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
     const auto number = [&](double mm) {
       return core::length_in(value.unit(), mm, evaluation::decimals_for(s.expanded_mm()));
     };
+    if (s.at_most) {
+      add_wrapped(out, name,
+                  trf("at most {} {} {}; noise and influences make up too much of it for a value",
+                      number(s.high_mm), unit, tr(name_of(s.measurand))));
+      return;
+    }
     add_wrapped(out, name,
                 trf("{} {}, {:g} % within [{}, {}] {} {}", number(s.estimate_mm), unit,
                     100.0 * value.uncertainty().coverage_1(), number(s.low_mm), number(s.high_mm),
@@ -200,11 +207,14 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
 }
 
-/// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm".
+/// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm", of a value with a sign "-20 to 5
+/// um".
 std::string limits_text(const record::Characteristic& asked) {
   if (!asked.toleranced()) return tr("no limit");
-  if (evaluation::unit_of(asked) == core::LengthUnit::kUm && !asked.lower_mm)
-    return trf("limit {} um", um(*asked.tolerance_mm));
+  if (evaluation::unit_of(asked) == core::LengthUnit::kUm) {
+    if (!asked.lower_mm) return trf("limit {} um", um(*asked.tolerance_mm));
+    if (asked.tolerance_mm) return trf("{} to {} um", um(*asked.lower_mm), um(*asked.tolerance_mm));
+  }
   constexpr double kSteps = 1e6;  // of a nanometre: limits are sums of a nominal and a deviation
   const auto mm = [](double length_mm) { return core::decimal(core::on_grid(length_mm, kSteps)); };
   if (!asked.lower_mm) return trf("at most {} mm", mm(*asked.tolerance_mm));
@@ -284,10 +294,11 @@ void add_finding(std::string& out, const evaluation::Finding& finding,
 void add_characteristic(std::string& out, const evaluation::CharacteristicResult& result,
                         std::set<std::string>& said) {
   const record::Characteristic& asked = result.characteristic;
-  const std::string value =
-      result.value ? fmt::format("{} {}", result.value->in_digits(result.value->quoted_mm()),
-                                 name_of(result.value->unit()))
-                   : tr("no value");
+  const std::string value = result.value
+                                ? fmt::format("{}{} {}", is_at_most(*result.value) ? "<= " : "",
+                                              result.value->in_digits(shown_mm(*result.value)),
+                                              name_of(result.value->unit()))
+                                : tr("no value");
   std::string line = fmt::format(
       "  {} {}{:>14}   {} {}  ", tr(evaluation::symbol_of(asked)), evaluation::reference_of(asked),
       value, padded(limits_text(asked), 19), padded(tr(name_of(result.verdict)), 16));
@@ -391,6 +402,14 @@ std::string heading_of(const evaluation::FeatureResult& feature) {
              tr(record::name_of(feature.feature.shape)), pattern_of(feature));
 }
 
+/// "gates  7 of 8 passed; first-harmonic: ..." where one did not pass; JSON and page list all.
+void add_gates(std::string& out, const evaluation::FeatureResult& feature) {
+  using evaluation::Gate;
+  const bool passed = std::ranges::all_of(
+      feature.gates, [](const Gate& gate) { return gate.outcome == Gate::Outcome::kPassed; });
+  if (!passed) add_wrapped(out, "  " + tr("gates"), in_words(feature.gates));
+}
+
 void add_analysis(std::string& out, const record::RunRecord& record, std::size_t index,
                   const evaluation::FeatureResult& feature) {
   if (feature.analysis) {
@@ -423,6 +442,7 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
     if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
     add_sketch(out, feature, sketch);
     add_analysis(out, record, i, feature);
+    add_gates(out, feature);
     add_zone(out, feature);
     add_one_sided(out, feature);
     add_truth(out, evaluation::truth_of(record, i), feature);

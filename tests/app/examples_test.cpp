@@ -66,6 +66,15 @@ bool is_analysis(const json& plan) {
   return type != "cylinder" && type != "circle";
 }
 
+/// Whether a feature is recorded as a series.
+bool has_series(const json& plan) {
+  for (const json& feature : plan.at("features")) {
+    const std::string type = feature.at("type");
+    if (type == "spindle" || type == "wheel" || type == "contour") return true;
+  }
+  return false;
+}
+
 /// What an independent validator says of the reports in the runs of a folder; "" when all are
 /// valid.
 std::string reports_fault(const fs::path& folder) {
@@ -102,7 +111,7 @@ void run_until_a_fault(const fs::path& folder) {
 
 TEST(Examples, RunConformVerifyAndWriteTheirReports) {
   const auto plans = plans_in(example(""));
-  EXPECT_EQ(plans.size(), 17U);
+  EXPECT_EQ(plans.size(), 18U);
   const TemporaryFolder folder;
   std::set<std::string> parts;
   for (const fs::path& plan : plans) {
@@ -122,7 +131,7 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     const bool again = !parts.insert(asked.at("part").at("id").get<std::string>()).second;
     if (again) files.insert(files.begin() + 1, "earlier.json");
     if (has_finding(report)) files.emplace_back("sections.csv");
-    if (is_analysis(asked) && !calibrates(asked)) files.emplace_back("series.csv");
+    if (has_series(asked)) files.emplace_back("series.csv");
     files.emplace_back("touches.csv");
     EXPECT_THAT(names_in(run), ::testing::ElementsAreArray(files));
     const Outcome verified = rondure({"verify", run});
@@ -188,6 +197,38 @@ TEST(Examples, OfAShaftDrawingOnlyTheSpoiledCallOutsFail) {
                                      "bore D: 18H7 E", "face E: flat 4", "cone G: cone run-out 8"));
 }
 
+TEST(Examples, FourAnalysesUnderIso14253EndWithAVerdictEach) {
+  const TemporaryFolder folder;
+  const Outcome ran = rondure({"run", example("16_four_analyses.json"), "--out", folder / "run"});
+  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  EXPECT_EQ(report.at("verdict"), "conforms");
+  ASSERT_EQ(report.at("features").size(), 4U);
+  for (const json& feature : report.at("features")) {
+    for (const json& c : feature.at("characteristics")) {
+      EXPECT_EQ(c.at("verdict"), "conforms") << feature.at("id") << ' ' << c.dump();
+    }
+  }
+}
+
+TEST(Examples, EveryTypeOfFeatureIsVoidOutsideTheTemperatureLimits) {
+  json plan = json::parse(read(example("16_four_analyses.json")));
+  plan["simulation"]["temperature_degC"] = 35.0;
+  const TemporaryFolder folder;
+  write(folder / "plan.json", plan.dump(2));
+  EXPECT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run"}).status, 1);
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  EXPECT_EQ(report.at("verdict"), "void");
+  for (const json& feature : report.at("features")) {
+    for (const json& c : feature.at("characteristics")) {
+      SCOPED_TRACE(c.dump());
+      EXPECT_EQ(c.at("verdict"), "void");
+      EXPECT_THAT(c.at("reason").get<std::string>(),
+                  HasSubstr("temperature 35.00 degC is outside 18..22 degC"));
+    }
+  }
+}
+
 TEST(Examples, OneSeedGivesTheSameTouchesAndAnotherGivesOthers) {
   const TemporaryFolder folder;
   const std::string plan = example("01_spool_simulated.json");
@@ -222,7 +263,7 @@ std::string approved_lines(const fs::path& plan) {
 
 TEST(BadExamples, AreRefusedWordForWordAndLeaveNothing) {
   const auto plans = plans_in(example("bad"));
-  EXPECT_EQ(plans.size(), 91U);
+  EXPECT_EQ(plans.size(), 93U);
   for (const fs::path& plan : plans) {
     SCOPED_TRACE(plan.filename().string());
     const TemporaryFolder folder;

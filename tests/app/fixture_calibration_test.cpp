@@ -148,6 +148,38 @@ TEST_F(CalibratedFixture, IsVoidOutsideTheTemperatureLimits) {
     EXPECT_EQ(characteristic.at("verdict"), "void");
     EXPECT_EQ(characteristic.at("reason"), "temperature 35.00 degC is outside 18..22 degC");
   }
+  EXPECT_THAT(read(folder / "run" / kFile), HasSubstr("the calibration does not hold"));
+  // And no inspection believes it.
+  const fs::path inspects = inspection(folder.path(), read(folder / "run" / kFile));
+  EXPECT_EQ(rondure({"run", inspects, "--out", folder / "inspected"}).status, 2);
+  EXPECT_FALSE(fs::exists(folder / "inspected"));
+}
+
+TEST_F(CalibratedFixture, IsJudgedWithItsIntervalWhereInfluencesAreDeclared) {
+  const TemporaryFolder folder;
+  json plan = json::parse(read(example("03_calibrate_fixture.json")));
+  plan["decision_rule"] = {{"rule", "iso-14253-1"}};
+  plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", {{"value", 0.05}}},
+                                                       {"reading_urad", {{"value", 0.5}}}};
+  write(folder / "plan.json", plan.dump());
+  const Outcome ran =
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--format", "json"});
+  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  for (const json& characteristic : report.at("/features/0/characteristics"_json_pointer)) {
+    EXPECT_EQ(characteristic.at("verdict"), "conforms") << characteristic.dump(1);
+  }
+}
+
+TEST_F(CalibratedFixture, IsRefusedBeforeItsFirstTouchWhereTheFixtureIsTooCoarse) {
+  const TemporaryFolder folder;
+  json plan = json::parse(read(example("03_calibrate_fixture.json")));
+  plan["fixture"]["resolution_deg"] = 0.5;
+  write(folder / "plan.json", plan.dump());
+  const Outcome ran = rondure({"run", folder / "plan.json", "--out", folder / "run"});
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("holds an angle within 0.5 deg"));
+  EXPECT_FALSE(fs::exists(folder / "run"));
 }
 
 TEST_F(CalibratedFixture, IsTheSameWhenTheRunWasInterrupted) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -20,6 +21,14 @@ std::size_t longest_line(const std::string& text) {
   std::size_t out = 0;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) out = std::max(out, line.size());
+  return out;
+}
+
+/// The words of a text with single blanks between them.
+std::string unbroken(const std::string& text) {
+  std::string out;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) out += (out.empty() ? "" : " ") + word;
   return out;
 }
 
@@ -93,14 +102,84 @@ TEST(PlanVerb, PredictsTheIntervalInEightyColumns) {
 }
 
 TEST(PlanVerb, SaysOfEveryExampleWhatIsPredictedOrWhyNot) {
-  const auto told = [](const char* name) { return rondure({"plan", example(name)}).out; };
-  EXPECT_THAT(told("05_spindle_three_probe.json"), HasSubstr("this is one of type spindle"));
-  EXPECT_THAT(told("06_wheel.json"), HasSubstr("this is one of type wheel"));
-  EXPECT_THAT(told("07_crank_pin.json"), HasSubstr("this is one of type contour"));
-  EXPECT_THAT(told("03_calibrate_fixture.json"), HasSubstr("this is one of type rotary_axes"));
+  const auto told = [](const char* name) { return unbroken(rondure({"plan", example(name)}).out); };
+  EXPECT_THAT(
+      told("05_spindle_three_probe.json"),
+      AllOf(HasSubstr("none; gains and angles of the probes are not declared"),
+            HasSubstr("none; it is what differs from turn to turn, and only readings show")));
+  EXPECT_THAT(told("06_wheel.json"),
+              AllOf(HasSubstr("Predicted interval of analyses"), Not(HasSubstr("none;"))));
+  EXPECT_THAT(told("07_crank_pin.json"),
+              AllOf(HasSubstr("Predicted interval of analyses"),
+                    HasSubstr("none; it is what differs from part to part")));
+  EXPECT_THAT(told("03_calibrate_fixture.json"),
+              AllOf(HasSubstr("before the first touch: none"),
+                    HasSubstr("none; no influence is declared: state `uncertainty`")));
   EXPECT_THAT(told("04_part_in_two_poses.json"), HasSubstr("intervals of clouds merged"));
   EXPECT_THAT(told("09_axle_points_file.json"), HasSubstr("its points come from a file"));
   EXPECT_THAT(told("14_bore_simulated.json"), HasSubstr("the plan declares no uncertainty"));
+}
+
+TEST(PlanVerb, PredictsAnalysesFromOneSimulatedSetOfData) {
+  const Outcome told = rondure({"plan", example("06_wheel.json")});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(unbroken(told.out),
+              AllOf(HasSubstr("before the first reading, 95 %, um"), HasSubstr("wheel, run-out"),
+                    HasSubstr("from edge-points"),
+                    HasSubstr("One set of data, simulated with the seed 7 in place of 6")));
+  EXPECT_LE(longest_line(told.out), 80U);
+  const Outcome json = rondure({"plan", example("06_wheel.json"), "--json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto document = nlohmann::json::parse(json.out);
+  ASSERT_EQ(document["prediction"].size(), 3U);
+  for (const auto& of : document["prediction"]) {
+    SCOPED_TRACE(of["characteristic"]);
+    EXPECT_EQ(of["from"], "one simulated set of data");
+    EXPECT_EQ(of["simulated_seed"], 7);
+    EXPECT_NEAR(of["below_um"].get<double>() + of["above_um"].get<double>(),
+                2.0 * of["expanded_um"].get<double>(), 1e-9);
+    double variance_um2 = 0.0;
+    for (const auto& line : of["budget"]) {
+      variance_um2 += std::pow(line["standard_uncertainty_um"].get<double>(), 2);
+    }
+    EXPECT_GT(variance_um2, 0.0);
+    EXPECT_NEAR(of["linear_standard_uncertainty_um"].get<double>(), std::sqrt(variance_um2), 1e-9);
+  }
+}
+
+TEST(PlanVerb, PredictsTheUncertaintyOfACalibration) {
+  const TemporaryFolder folder;
+  auto plan = nlohmann::json::parse(read(example("03_calibrate_fixture.json")));
+  plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", 0.1}, {"repeat_urad", 1}};
+  write(folder / "plan.json", plan.dump());
+  const Outcome told = rondure({"plan", folder / "plan.json"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(unbroken(told.out),
+              AllOf(HasSubstr("Predicted uncertainty of a calibration"), HasSubstr("u at most"),
+                    HasSubstr("the most that the qualification lets pass"),
+                    HasSubstr("The value itself cannot be foretold: it is what the axes do")));
+  EXPECT_LE(longest_line(told.out), 80U);
+  const Outcome json = rondure({"plan", folder / "plan.json", "--json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto document = nlohmann::json::parse(json.out);
+  ASSERT_EQ(document["prediction"].size(), 2U);
+  for (const auto& of : document["prediction"]) {
+    EXPECT_EQ(of["from"], "linear propagation");
+    EXPECT_GT(of["linear_standard_uncertainty_um"].get<double>(), 0.0);
+    EXPECT_GT(of["ball_centers"].get<int>(), 0);
+  }
+}
+
+TEST(PlanVerb, SaysThatNoSamplingOfAnAnalysisIsSearched) {
+  const Outcome told = rondure({"plan", example("06_wheel.json"), "--target-U", "1um"});
+  EXPECT_EQ(told.status, 2);
+  EXPECT_THAT(unbroken(told.out),
+              AllOf(HasSubstr("No feature is touched"),
+                    HasSubstr("proposes samplings of touched surfaces only, and none for wheel.")));
+  EXPECT_LE(longest_line(told.out), 80U);
+  const Outcome json = rondure({"plan", example("06_wheel.json"), "--target-U", "1um", "--json"});
+  const auto document = nlohmann::json::parse(json.out);
+  EXPECT_EQ(document["target"]["not_searched"], nlohmann::json::array({"wheel"}));
 }
 
 TEST(PlanVerb, RefusesATargetThatIsNoLength) {

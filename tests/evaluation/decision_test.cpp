@@ -142,6 +142,16 @@ evaluation::KnownValue mirrored(const evaluation::KnownValue& value) {
   return out;
 }
 
+// An envelope of which one limit fails and the other is void does not conform.
+TEST(Severity, WhatIsProvenStandsWhateverElseCouldNotBeJudged) {
+  const std::vector<Verdict> rising = {Verdict::kNotToleranced, Verdict::kConforms,
+                                       Verdict::kUndecided, Verdict::kVoid,
+                                       Verdict::kDoesNotConform};
+  for (std::size_t i = 1; i < rising.size(); ++i) {
+    EXPECT_LT(severity(rising[i - 1]), severity(rising[i])) << name_of(rising[i]);
+  }
+}
+
 TEST(TwoLimits, ALowerLimitJudgesAsTheMirroredUpperOne) {
   const auto errors = error_sample(400);
   for (const Kind kind : kAllRules) {

@@ -498,6 +498,83 @@ TEST(Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
   EXPECT_EQ(overall({evaluation::FeatureResult{}}), evaluation::Verdict::kNotToleranced);
 }
 
+/// A feature with these verdicts on toleranced characteristics.
+evaluation::FeatureResult judged_feature(const std::vector<evaluation::Verdict>& verdicts) {
+  evaluation::FeatureResult out;
+  for (const evaluation::Verdict verdict : verdicts) {
+    evaluation::CharacteristicResult c;
+    c.characteristic.tolerance_mm = 1e-3;
+    c.verdict = verdict;
+    out.characteristics.push_back(std::move(c));
+  }
+  return out;
+}
+
+TEST(Verdict, OfARunDoesNotConformWhateverElseCouldNotBeJudged) {
+  using V = evaluation::Verdict;
+  const auto good = judged_feature({V::kConforms});
+  const auto open = judged_feature({V::kConforms, V::kUndecided});
+  const auto missing = judged_feature({V::kVoid, V::kConforms});
+  const auto bad = judged_feature({V::kUndecided, V::kDoesNotConform, V::kVoid});
+  evaluation::FeatureResult failed;
+  failed.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
+  EXPECT_EQ(overall({good}), V::kConforms);
+  EXPECT_EQ(overall({good, open}), V::kUndecided);
+  EXPECT_EQ(overall({good, open, missing}), V::kVoid);
+  EXPECT_EQ(overall({good, open, failed}), V::kVoid);
+  EXPECT_EQ(overall({good, missing, bad, failed}), V::kDoesNotConform);
+  EXPECT_EQ(overall({failed, judged_feature({V::kNotToleranced})}), V::kVoid);
+  // A value that is only reported has no say.
+  evaluation::FeatureResult reported = judged_feature({V::kDoesNotConform});
+  reported.characteristics[0].characteristic.tolerance_mm.reset();
+  EXPECT_EQ(overall({good, reported}), V::kConforms);
+}
+
+/// A wheel of radius 50 mm, 16 points with some form, after the features of a run.
+void add_wheel(RunRecord& run) {
+  record::Feature wheel;
+  wheel.id = "wheel";
+  wheel.shape = record::Shape::kWheel;
+  wheel.strategy = record::Strategy::kSeries;
+  wheel.settings = {{"mode", std::nullopt, "indexed"}, {"nominal_radius_mm", 50.0, ""}};
+  const record::Characteristic radius{"R", record::Form::kRadius, record::Reference::kLeastSquares,
+                                      0.05, ""};
+  wheel.characteristics = {radius, radius};
+  wheel.characteristics[0].id = "R by the rule of the plan";
+  wheel.characteristics[1].id = "R by its own rule";
+  auto& own = wheel.characteristics[1].indication.decision_rule.emplace();
+  own.rule = record::DecisionRuleTask::Rule::kSimpleAcceptance;
+  record::Series data;
+  data.feature = static_cast<int>(run.features.size());
+  data.columns = {{"x", "mm"}, {"z", "mm"}};
+  for (int i = 0; i < 16; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / 16;
+    const double r = 50.0 + 1e-3 * std::cos(2.0 * t) + 4e-4 * std::cos(5.0 * t + 1.0);
+    data.values.insert(data.values.end(), {r * std::cos(t), r * std::sin(t)});
+  }
+  run.features.push_back(wheel);
+  run.series.push_back(data);
+}
+
+TEST(Verdict, OfACharacteristicWithoutIntervalIsVoidAndTheOthersStand) {
+  RunRecord run = touched_run("iso-14253-1");
+  add_wheel(run);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation) << evaluation.error().what;
+  EXPECT_EQ(evaluation->features[0].characteristics[0].verdict, evaluation::Verdict::kConforms);
+  const auto& wheel = evaluation->features[1].characteristics;
+  ASSERT_EQ(wheel.size(), 2U);
+  EXPECT_EQ(wheel[0].verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(wheel[0].reason, HasSubstr("needs the interval"));
+  ASSERT_TRUE(wheel[0].value) << "the value is printed";
+  EXPECT_EQ(wheel[1].verdict, evaluation::Verdict::kConforms) << wheel[1].reason;
+  EXPECT_EQ(evaluation->verdict, evaluation::Verdict::kVoid);
+  run.features[0].characteristics[0].tolerance_mm = 1e-3;
+  const auto bad = evaluate(run);
+  ASSERT_TRUE(bad) << bad.error().what;
+  EXPECT_EQ(bad->verdict, evaluation::Verdict::kDoesNotConform);
+}
+
 // What data alone do not bring about: the parts of an evaluation are taken away.
 TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
   const RunRecord run = touched_run("iso-14253-1");

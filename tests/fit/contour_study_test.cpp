@@ -303,6 +303,8 @@ TEST(ContourStudy, WarnsOfASwappedSignWithItsEvidence) {
   options.axes.error_sign = -1;
   const auto study = contour_study(spec_parts(), options).value();
   EXPECT_LT(study.sense.as_given, -0.8);
+  EXPECT_EQ(study.sense.negated_better, 3U);  // n of part 4 opposes f
+  EXPECT_EQ(study.sense.mirrored_better, 0U);
   EXPECT_GT(study.sense.rms_difference_mm, 3.0 * study.sense.rms_sum_mm);
   const auto found =
       std::find_if(study.warnings.begin(), study.warnings.end(),
@@ -319,10 +321,46 @@ TEST(ContourStudy, WarnsOfAMirroredSenseWithItsEvidence) {
   }
   const auto study = contour_study(parts, spec_options()).value();
   EXPECT_TRUE(study.sense.sense_suspect());
+  EXPECT_EQ(study.sense.mirrored_better, 4U);
+  EXPECT_LT(study.sense.rms_mirrored_mm, study.sense.rms_difference_mm);
   EXPECT_FALSE(contour_study(spec_parts(), spec_options()).value().sense.sense_suspect());
   auto options = spec_options();
   options.gauge_direction = -1;
   EXPECT_FALSE(contour_study(parts, options).value().sense.sense_suspect());
+}
+
+TEST(ContourStudy, ASlopeOfTOverFIsAGainOnlyWhereTheRestCannotMakeIt) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    SCOPED_TRACE(i);
+    const auto f = test::spec_following(test::kSpecCScale[i]).error_mm;
+    const auto t = sum(f, test::spec_rest(i));
+    const double slope[] = {1.249, 1.101, 0.829, 0.640};
+    const auto found = gain_evidence({t, f}).value();
+    EXPECT_NEAR(found.slope, slope[i], 1e-3);
+    EXPECT_LT(std::abs(found.slope - 1.0), 3.0 * found.u);
+    auto gained = f;
+    for (double& v : gained) v *= 1.02;
+    EXPECT_NEAR(gain_evidence({gained, f}).value().slope, 1.02, 1e-12);
+    EXPECT_LT(gain_evidence({gained, f}).value().u, 1e-9);
+  }
+  const std::vector<double> zero(kPoints, 0.0);
+  EXPECT_FALSE(gain_evidence({zero, zero}));
+}
+
+TEST(ContourStudy, AWrongCrankChangesFAsMuchAsTheSpecificationSays) {
+  const auto f = test::spec_following();
+  struct Row {
+    double crank_mm, pv_um, rms_um;
+  };
+  for (const Row& row :
+       {Row{45.0, 6.862, 0.061}, Row{40.0, 6.710, 0.136}, Row{56.0, 7.369, 0.109}}) {
+    SCOPED_TRACE(row.crank_mm);
+    auto r = ground_contour({row.crank_mm, 299.88, 24.56}, test::spec_errors()).value().r_mm;
+    for (double& v : r) v -= 24.56;
+    const auto wrong = contour_error(r, 24.56).value();
+    EXPECT_NEAR(wrong.peak_to_valley_mm / kMicrometre, row.pv_um, 1e-3);
+    EXPECT_NEAR(rms_difference(wrong.error_mm, f.error_mm) / kMicrometre, row.rms_um, 1e-3);
+  }
 }
 
 /// Positions of X as an axis records them that grinds another crank, with another zero.

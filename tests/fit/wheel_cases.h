@@ -1,7 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,6 +44,65 @@ inline Points2 arc_points(std::size_t n, double arc_deg, double radius, double s
     const double r = radius + sigma * noise.normal();
     out.emplace_back(center + r * Eigen::Vector2d(std::cos(theta), std::sin(theta)));
   }
+  return out;
+}
+
+/// Normals of the worked cases of the specification: splitmix64 from the seed, Box-Muller, two
+/// draws a normal.
+class SpecifiedNormals {
+ public:
+  explicit SpecifiedNormals(std::uint64_t seed) : state_(seed) {}
+  double next() {
+    const double u1 = uniform();
+    const double u2 = uniform();
+    return std::sqrt(-2.0 * std::log(1.0 - u1)) * std::cos(2.0 * std::numbers::pi * u2);
+  }
+
+ private:
+  double uniform() { return static_cast<double>(core::splitmix64(state_) >> 11U) * 0x1.0p-53; }
+  std::uint64_t state_;
+};
+
+/// The wheel of the worked cases W-1 to W-3: points, and the axis as stated.
+struct SpecifiedWheel {
+  static constexpr double kRadius_mm = 49.9832;
+  static constexpr double kPoint_mm = 0.4e-3;
+  static constexpr double kAxis_mm = 0.5e-3;
+  Points2 points_mm;
+  Points2 true_points_mm;  ///< Without noise.
+  Eigen::Vector2d axis_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d true_axis_mm = {12.004, -7.0};
+};
+
+/// @param degrees  Angles of the points.
+/// @param proud_row  A point 45 um proud.
+inline SpecifiedWheel specified_wheel(std::uint64_t seed, std::span<const double> degrees,
+                                      std::optional<std::size_t> proud_row = std::nullopt) {
+  SpecifiedNormals normals(seed);
+  SpecifiedWheel out;
+  const auto direction = [](double deg) {
+    return Eigen::Vector2d(std::cos(deg * core::kDegree), std::sin(deg * core::kDegree));
+  };
+  const Eigen::Vector2d center = out.true_axis_mm + 5e-3 * direction(215.0);
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    const double deg = degrees[i];
+    double r = SpecifiedWheel::kRadius_mm + 1.2e-3 * std::cos((2.0 * deg - 40.0) * core::kDegree) +
+               0.8e-3 * std::cos((3.0 * deg + 75.0) * core::kDegree);
+    if (proud_row && *proud_row == i) r += 45e-3;
+    out.true_points_mm.emplace_back(center + r * direction(deg));
+    out.points_mm.emplace_back(center +
+                               (r + SpecifiedWheel::kPoint_mm * normals.next()) * direction(deg));
+  }
+  const double x = normals.next();
+  const double z = normals.next();
+  out.axis_mm = out.true_axis_mm + SpecifiedWheel::kAxis_mm * Eigen::Vector2d(x, z);
+  return out;
+}
+
+/// n angles from a first one, a step apart [deg].
+inline std::vector<double> even_degrees(std::size_t n, double from_deg, double step_deg) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < n; ++i) out.push_back(from_deg + step_deg * static_cast<double>(i));
   return out;
 }
 

@@ -36,7 +36,7 @@ core::Error only_problem(const std::string& text) {
 
 TEST(PlanReader, EveryExampleIsAPlan) {
   const auto plans = testing::plans_in(example(""));
-  EXPECT_EQ(plans.size(), 17U);
+  EXPECT_EQ(plans.size(), 18U);
   for (const auto& path : plans) EXPECT_EQ(lines_of(read_plan(path)), "") << path.filename();
 }
 
@@ -114,6 +114,52 @@ TEST(PlanReader, AnAssumedTemperatureLiesWithinTheLimits) {
   EXPECT_EQ(problem.where, "/environment/assumed_degC");
   EXPECT_EQ(problem.what,
             "24 degC is outside the limits 18..23 degC of this plan; every result would be void");
+}
+
+/// A spindle plan with these declared influences and a rule that needs an interval.
+std::string declaring(const std::string& influences) {
+  return R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
+    "features": [{"id": "f", "type": "spindle", "spindle": {"layout": "reference",
+      "uncertainty": {)" +
+         influences + R"(}},
+      "characteristics": [{"id": "c", "form": "roundness-rms", "tolerance_um": 5}]}],
+    "decision_rule": {"rule": "iso-14253-1"}, "simulation": {"spindle": {}}})";
+}
+
+TEST(PlanReader, AnInfluenceIsANumberOrAnObjectWithItsDistribution) {
+  const PlanOrProblems result = parse(declaring(
+      R"("noise_um": 0.05, "gain_1": {"value": 0.002}, "encoder_urad": 0,
+         "line_um": {"value": 30, "distribution": "rectangular"})"));
+  ASSERT_TRUE(result) << lines_of(result);
+  const record::SpindleInfluencesTask& declared = *result->features[0].spindle->uncertainty;
+  EXPECT_EQ(record::u_of(declared.noise_um), 0.05);
+  EXPECT_EQ(record::u_of(declared.gain_1), 0.002);
+  ASSERT_TRUE(declared.encoder_urad);
+  EXPECT_EQ(declared.encoder_urad->value, 0.0);
+  EXPECT_NEAR(record::u_of(declared.line_um), 17.3205, 1e-4);
+  EXPECT_FALSE(declared.angle_deg);
+}
+
+TEST(PlanReader, AnInfluenceHasTheLimitsOfItsKeyInBothSpellings) {
+  for (const char* spelled : {R"("angle_deg": 6)", R"("angle_deg": {"value": 6})"}) {
+    const core::Error problem = only_problem(declaring(spelled));
+    EXPECT_EQ(problem.code, Code::kOutOfRange) << problem.what;
+    EXPECT_TRUE(problem.where.starts_with("/features/0/spindle/uncertainty/angle_deg"))
+        << problem.where;
+    EXPECT_NE(problem.what.find("is outside 0..5"), std::string::npos) << problem.what;
+  }
+  EXPECT_EQ(only_problem(declaring(R"("gain_1": {"distribution": "normal"})")).code,
+            Code::kMissingKey);
+  EXPECT_EQ(only_problem(declaring(R"("gain_1": "small")")).what,
+            "is the text \"small\"; a number is needed, or an object { \"value\": ... }");
+  EXPECT_EQ(only_problem(declaring(R"("gauge_um": 1)")).code, Code::kUnknownKey);
+}
+
+TEST(PlanReader, ARuleThatJudgesOnlyAnalysesNeedsNoSectionUncertainty) {
+  EXPECT_TRUE(parse(declaring(R"("noise_um": 0.05)"))) << "its influences stand with the feature";
+  const core::Error problem =
+      only_problem(touched("", kMachines + R"("decision_rule": {"rule": "iso-14253-1"},)"));
+  EXPECT_EQ(problem.where, "/uncertainty");
 }
 
 TEST(PlanReader, AnArrayInThePlanReplacesTheDefault) {

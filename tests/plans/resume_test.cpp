@@ -80,6 +80,17 @@ void copy_old_interrupted_run(const fs::path& directory) {
                 directory / "journal.db");
 }
 
+TEST(RecordedRun, KnowsTheTrueValuesOfThePartApartFromThoseOfAnalyses) {
+  record::RunRecord run;
+  run.features.resize(2);
+  run.features[0].shape = record::Shape::kSpindle;
+  run.features[1].shape = record::Shape::kCylinder;
+  run.truth_values = {{0, "profile_peak_to_valley_um", 12.3}};
+  EXPECT_FALSE(RecordedRun(run).knows_true_values()) << "those of the part come at the end";
+  run.truth_values.push_back({1, "diameter_mm", 50.0});
+  EXPECT_TRUE(RecordedRun(run).knows_true_values());
+}
+
 TEST(ResumeOldJournals, GoesOnInVersion5ToTheBitsOfARunWithoutInterruption) {
   const record::Scratch scratch;
   copy_old_interrupted_run(scratch / "run");

@@ -44,6 +44,38 @@ TEST(SeriesCsv, TakesNamesOfTheFileAndPassesOverTheRest) {
   EXPECT_EQ(series_refusal("C\n1\n", foreign).code, core::Code::kBadOption);
 }
 
+TEST(SeriesCsv, TakesTheTemperatureFromAColumnOrOnceFromAComment) {
+  const auto column =
+      parse_series_csv("alpha_deg,temperature_degC,H1_um\n0,20.1,1\n90,20.4,2\n", "p", kWanted);
+  ASSERT_TRUE(column) << column.error().what;
+  EXPECT_THAT(*column->column(kTemperatureColumn), ElementsAre(20.1, 20.4));
+  EXPECT_EQ(column->columns.back().name, kTemperatureColumn);
+  EXPECT_EQ(column->columns.back().unit, "degC");
+  const auto once = parse_series_csv(
+      "# probe amplifier 3\n# temperature_degC: 20.3\r\nalpha_deg,H1_um\n0,1\n90,2\n", "p",
+      kWanted);
+  ASSERT_TRUE(once) << once.error().what;
+  EXPECT_THAT(*once->column(kTemperatureColumn), ElementsAre(20.3, 20.3));
+  EXPECT_THAT(*once->column("H1_um"), ElementsAre(1.0, 2.0));
+  // A column says more than a comment; a comment about the temperature states none.
+  const auto both = parse_series_csv(
+      "# temperature_degC = 35\nalpha_deg,H1_um,temperature_degC\n0,1,20\n", "p", kWanted);
+  ASSERT_TRUE(both) << both.error().what;
+  EXPECT_THAT(both->values, ElementsAre(0.0, 1.0, 20.0));
+  const auto none =
+      parse_series_csv("# see temperature_degC in the log\nalpha_deg,H1_um\n0,1\n", "p", kWanted);
+  ASSERT_TRUE(none) << none.error().what;
+  EXPECT_FALSE(none->column(kTemperatureColumn));
+  const core::Error warm = series_refusal("# \n# temperature_degC: warm\nalpha_deg,H1_um\n0,1\n");
+  EXPECT_EQ(warm.where, "probes.csv:2");
+  EXPECT_EQ(warm.what, "temperature_degC is \"warm\"; a number is expected");
+  const std::array<ColumnName, 3> names = {
+      {{"alpha_deg", "C"}, {"H1_um", "gauge 1"}, {"temperature_degC", "T part"}}};
+  const auto renamed = parse_series_csv("C,gauge 1,T part\n1,2,20.2\n", "p", kWanted, names);
+  ASSERT_TRUE(renamed) << renamed.error().what;
+  EXPECT_THAT(*renamed->column(kTemperatureColumn), ElementsAre(20.2));
+}
+
 TEST(SeriesCsv, RefusesWhatIsNotSuchATable) {
   using core::Code;
   const core::Error unit = series_refusal("alpha_rad,H1_um\n0,1\n");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -87,6 +88,10 @@ SpindleTask full_spindle() {
   out.second_order = SpindleTask::SecondOrder::kOff;
   out.motion = SpindleTask::Motion::kAsPublished;
   out.filter = SpindleTask::Filter::kNone;
+  SpindleInfluencesTask& declared = out.uncertainty.emplace();
+  declared.gain_1 = DeclaredInfluence{kOdd / 100.0};
+  declared.line_um = DeclaredInfluence{kOdd, DeclaredInfluence::Distribution::kRectangular};
+  declared.encoder_urad = DeclaredInfluence{0.0};
   return out;
 }
 
@@ -110,6 +115,9 @@ WheelTask full_wheel() {
   surface.cusp_um = kOdd;
   surface.radius = GroundSurfaceTask::Radius::kEffective;
   surface.touch_off_mm = 0.0;
+  WheelInfluencesTask& declared = out.uncertainty.emplace();
+  declared.point_um = DeclaredInfluence{kOdd};
+  declared.wear_um = DeclaredInfluence{kOdd, DeclaredInfluence::Distribution::kRectangular};
   return out;
 }
 
@@ -126,6 +134,9 @@ ContourTask full_contour() {
   out.base_circle = ContourTask::BaseCircle::kGeometric;
   out.main_journal = ContourTask::MainJournal::kMapped;
   out.parts = {{"", "a1.csv", "p1.csv", ""}, {"second", "a2.csv", "p2.csv", "m2.csv"}};
+  ContourInfluencesTask& declared = out.uncertainty.emplace();
+  declared.gauge_um = DeclaredInfluence{kOdd};
+  declared.skew_ms = DeclaredInfluence{kOdd, DeclaredInfluence::Distribution::kRectangular};
   return out;
 }
 
@@ -137,6 +148,9 @@ RotaryTask full_rotary_axes() {
   out.beta_stations_deg = {5.0};
   out.verification = {{kOdd, -kOdd}, {1.0, 2.0}};
   out.machine_uncertainty_um = kOdd;
+  RotaryInfluencesTask& declared = out.uncertainty.emplace();
+  declared.ball_um = DeclaredInfluence{kOdd};
+  declared.expansion_per_K = DeclaredInfluence{23e-6};
   return out;
 }
 
@@ -237,7 +251,7 @@ TEST(Tasks, ComeBackFromTheirSettingsWithTheSameBits) {
   comes_back(full_rule());
   comes_back(UncertaintyTask());
   comes_back(full_uncertainty());
-  comes_back(EnvironmentSettings{"limits", kOdd});
+  comes_back(EnvironmentSettings{"limits", kOdd, kOdd});
   comes_back(CharacteristicTask());
   comes_back(full_characteristic());
   comes_back(SurfaceSettings());
@@ -250,6 +264,18 @@ TEST(Tasks, ComeBackFromTheirSettingsWithTheSameBits) {
   comes_back(full_spindle());
   comes_back(WheelTask());
   comes_back(full_wheel());
+}
+
+TEST(Tasks, KeepADeclaredZeroApartFromWhatWasNotDeclared) {
+  const auto read = task_of<SpindleTask>(settings_of_task(full_spindle()));
+  ASSERT_TRUE(read) << read.error().what;
+  ASSERT_TRUE(read->uncertainty);
+  ASSERT_TRUE(read->uncertainty->encoder_urad);
+  EXPECT_EQ(read->uncertainty->encoder_urad->value, 0.0);
+  EXPECT_FALSE(read->uncertainty->noise_um);
+  EXPECT_DOUBLE_EQ(u_of(read->uncertainty->line_um), kOdd / std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(u_of(read->uncertainty->gain_1), kOdd / 100.0);
+  EXPECT_EQ(u_of(read->uncertainty->noise_um), 0.0);
 }
 
 TEST(Tasks, HaveTheirDefaultsWhereAJournalSaysNothing) {
@@ -351,6 +377,46 @@ TEST(Characteristics, LimitTheRangeOfSizesByTheRangeItself) {
   }
 }
 
+TEST(Characteristics, OfTheRadiusOfAWheelHaveLimitsWithTheirSigns) {
+  CharacteristicTask asked;
+  asked.form = Form::kRadius;
+  asked.tolerance_um = 20.0;  // of the amount
+  EXPECT_EQ(characteristic_of(asked).tolerance_mm, 20.0 * core::kMicrometre);
+  EXPECT_FALSE(characteristic_of(asked).lower_mm);
+  asked.tolerance_um.reset();
+  EXPECT_FALSE(characteristic_of(asked).toleranced());
+  asked.symmetric_um = 20.0;
+  EXPECT_EQ(characteristic_of(asked).lower_mm, -20.0 * core::kMicrometre);
+  EXPECT_EQ(characteristic_of(asked).tolerance_mm, 20.0 * core::kMicrometre);
+  asked.symmetric_um.reset();
+  asked.lower_um = -20.0;
+  asked.upper_um = -5.0;
+  EXPECT_EQ(characteristic_of(asked, 30.0).lower_mm, -20.0 * core::kMicrometre);
+  EXPECT_EQ(characteristic_of(asked, 30.0).tolerance_mm, -5.0 * core::kMicrometre);
+}
+
+TEST(Characteristics, OfAnalysesCarryTheirOwnDecisionRule) {
+  std::array<CharacteristicLevel, 1> levels;
+  levels[0].decision_rule.emplace().rule = DecisionRuleTask::Rule::kJcgm106;
+  for (const Form form :
+       {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
+        Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
+        Form::kContourDeviation, Form::kContourSpread, Form::kFixtureResidual,
+        Form::kFixtureResidualRms, Form::kAxisError}) {
+    SCOPED_TRACE(name_of(form));
+    CharacteristicTask asked;
+    asked.form = form;
+    auto kept = characteristic_of(asked, 0.0, levels).indication.decision_rule;
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->rule, DecisionRuleTask::Rule::kJcgm106);
+    asked.indication.decision_rule.emplace().rule = DecisionRuleTask::Rule::kIso14253;
+    kept = characteristic_of(asked, 0.0, levels).indication.decision_rule;
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->rule, DecisionRuleTask::Rule::kIso14253);
+    EXPECT_FALSE(characteristic_of(CharacteristicTask{}).indication.decision_rule);
+  }
+}
+
 TEST(Characteristics, TakeFromTheFeatureThenFromThePlan) {
   std::array<CharacteristicLevel, 2> levels;
   auto& [feature, plan] = levels;
@@ -399,6 +465,19 @@ TEST(Characteristics, TakeNothingThatTheirFormDoesNotKnow) {
   asked.form = Form::kCylindricity;
   asked.indication.parameter = Indication::Parameter::kPeak;
   EXPECT_EQ(characteristic_of(asked, 0.0, levels).reference, Reference::kLeastSquares);
+}
+
+// A journal of this version may be older than the key; what is always written would be asked of it.
+TEST(Tasks, AContourWritesTheSamplingTimeOnlyWhereThePlanStatesIt) {
+  const auto states = [](const std::vector<Setting>& settings) {
+    return std::any_of(settings.begin(), settings.end(),
+                       [](const Setting& setting) { return setting.name == "sampling_ms"; });
+  };
+  ContourTask task;
+  EXPECT_FALSE(states(settings_of_task(task)));
+  task.sampling_ms = 4.0;
+  EXPECT_TRUE(states(settings_of_task(task)));
+  comes_back(task);
 }
 
 TEST(Tasks, RefuseAWholeNumberThatIsNone) {

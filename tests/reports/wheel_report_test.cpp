@@ -1,5 +1,6 @@
 // A wheel feature from its series to the reports.
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
+#include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/wheel/result.h"
 #include "record/run_record.h"
 #include "reports/data/json.h"
 #include "reports/escaping.h"
@@ -85,7 +88,22 @@ TEST(WheelReport, JudgesRadiusRunOutAndRoundnessOfWorkedExample1) {
   EXPECT_NEAR(results[1].value_mm().value() * 1e3, 35.393, 1.6e-3);
   EXPECT_EQ(results[1].verdict, evaluation::Verdict::kDoesNotConform);
   EXPECT_LT(results[2].value_mm().value() * 1e3, 4.535);
-  EXPECT_EQ(results[2].verdict, evaluation::Verdict::kConforms);
+  // Eight points hold no lobes above order 3.
+  EXPECT_EQ(results[2].verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(results[2].reason, HasSubstr("a lower bound"));
+  auto wide = wheel_run();
+  wide.features.front().characteristics[2].tolerance_mm = 0.030;
+  EXPECT_EQ(evaluate(wide)->features.at(0).characteristics[2].verdict, evaluation::Verdict::kVoid);
+}
+
+/// The wheel of wheel_run() with other points.
+record::RunRecord run_of(const test::Points2& points) {
+  auto run = wheel_run();
+  run.series.front().values.clear();
+  for (const auto& p : points) {
+    run.series.front().values.insert(run.series.front().values.end(), {p.x(), p.y()});
+  }
+  return run;
 }
 
 // Every path to void of an analysis of series (analysis.cpp), in the evaluation and in the reports.
@@ -99,11 +117,14 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
       {"the run ended before its data were kept", [](auto& r) { r.series[0].name = "other"; }},
       {"the run did not finish", [](auto& r) { r.ending = "stopped"; }},
       {"does not know the decision rule", [](auto& r) { r.header.decision_rule = "coin"; }},
-      {"intervals are computed of touches and points only",
+      {"the plan declares no influences of this feature: wheel/uncertainty",
        [](auto& r) { r.header.decision_rule = "iso-14253-1"; }}};
   for (const Path& path : paths) {
     SCOPED_TRACE(path.reason);
-    auto run = wheel_run();
+    auto run = run_of(test::arc_points(16, 360.0, 50.0, 2e-4, 3, {12.02, -7.0}));
+    run.features.front().settings[4].text = "least-squares";
+    // So wide that what 16 points may miss is below a tenth of it.
+    for (auto& asked : run.features.front().characteristics) asked.tolerance_mm = 0.3;
     path.spoil(run);
     const auto evaluation = evaluate(run);
     ASSERT_TRUE(evaluation);
@@ -119,16 +140,6 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
                   HasSubstr(in_sentence(core::Phrase(capitalised(result.reason.english())))));
     }
   }
-}
-
-/// The wheel of wheel_run() with other points.
-record::RunRecord run_of(const test::Points2& points) {
-  auto run = wheel_run();
-  run.series.front().values.clear();
-  for (const auto& p : points) {
-    run.series.front().values.insert(run.series.front().values.end(), {p.x(), p.y()});
-  }
-  return run;
 }
 
 // 8 points on 60 deg show 5.6 um of 11.7: within 10 um they prove nothing, above 5 um they do.
@@ -152,7 +163,7 @@ TEST(WheelReport, APartialArcConformsToNothing) {
             evaluation::Verdict::kDoesNotConform);
 }
 
-TEST(WheelReport, WhatARobustRuleLeavesDoesNotPassForTheWheel) {
+TEST(WheelReport, ARobustRuleTakesNothingFromRunOutAndRoundness) {
   auto points = test::arc_points(16, 360.0, 50.0, 2e-4, 3, {12.02, -7.0});
   points[5] += 0.046 * (points[5] - Eigen::Vector2d(12.02, -7.0)).normalized();
   auto run = run_of(points);
@@ -162,15 +173,18 @@ TEST(WheelReport, WhatARobustRuleLeavesDoesNotPassForTheWheel) {
   for (const std::size_t i : {1, 2}) {
     SCOPED_TRACE(i);
     const auto& result = evaluation->features.at(0).characteristics[i];
-    EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
-    EXPECT_THAT(result.reason, HasSubstr("without the points that were dropped"));
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kDoesNotConform);
+    EXPECT_GT(result.value_mm().value(), 0.040);
   }
-  // Within the tolerance with the point, too: that is a value.
+  // A point that stands out so far may stand out farther beside it.
   run.features.front().characteristics[1].tolerance_mm = 0.060;
   evaluation = evaluate(run);
-  const auto& wide = evaluation->features.at(0).characteristics[1];
-  EXPECT_EQ(wide.verdict, evaluation::Verdict::kConforms);
-  EXPECT_NEAR(wide.value_mm().value(), 0.046, 1e-3);
+  const auto& near = evaluation->features.at(0).characteristics[1];
+  EXPECT_EQ(near.verdict, evaluation::Verdict::kVoid);
+  EXPECT_NEAR(near.value_mm().value(), 0.046, 1e-3);
+  run.features.front().characteristics[1].tolerance_mm = 0.300;
+  evaluation = evaluate(run);
+  EXPECT_EQ(evaluation->features.at(0).characteristics[1].verdict, evaluation::Verdict::kConforms);
 }
 
 TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
@@ -195,6 +209,59 @@ TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
   for (const auto& stored : stored_results(*evaluation)) {
     EXPECT_THAT(stored.name, Not(HasSubstr("curves")));
   }
+}
+
+// Title, verdict, the picture of the edge, then numbers and their words.
+TEST(WheelReport, ShowsTheEdgeBeforeTheNumbers) {
+  const auto run = wheel_run();
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_EQ(testing::first_unbalanced_tag(html), "");
+  EXPECT_THAT(html, HasSubstr("grinding-wheel report"));
+  std::size_t at = 0;
+  for (const char* next : {"radius, run-out and edge</h2>", "class=\"verdicts\"",
+                           "Edge of the wheel</h3>", "class=\"keys\"", "<b>Effective radius</b>"}) {
+    at = html.find(next, at);
+    ASSERT_NE(at, std::string::npos) << next;
+  }
+}
+
+// u(R) is that of the declared errors where the plan declares them.
+TEST(WheelReport, SaysWhatTheUncertaintyOfTheRadiusIsMadeOf) {
+  auto run = wheel_run();
+  run.features[0].settings.push_back(number("uncertainty/point_um/value", 2.0));
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto& m = std::get<WheelResult>(evaluation->features[0].analysis->found).evaluation.wheel;
+  EXPECT_NEAR(m.radius_uncertainty_mm, 2e-3 * m.factors.radius, 1e-9);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("from the declared errors of point, scale, threshold and wear"));
+  EXPECT_THAT(html, Not(HasSubstr("uncertainty from the scatter of the points alone")));
+}
+
+// The budget of an analysis is linear propagation, which knows a sign, but no shift.
+TEST(WheelReport, BudgetHasTheChangeForOneStandardUncertaintyAndNoShift) {
+  auto run = wheel_run();
+  auto& settings = run.features[0].settings;
+  settings.push_back(number("uncertainty/point_um/value", 0.5));
+  settings.push_back(number("uncertainty/threshold_um/value", 1.0));
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("for +1 u"));
+  EXPECT_THAT(html, Not(HasSubstr("mean shift")));
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  const auto& radius = written["features"][0]["characteristics"][0];
+  ASSERT_FALSE(radius["uncertainty"].is_null()) << radius.dump();
+  int lines = 0;
+  for (const auto& line : radius["uncertainty"]["budget"]) {
+    EXPECT_TRUE(line["shift_um"].is_null());
+    EXPECT_NEAR(std::abs(line["per_u_um"].get<double>()),
+                line["standard_uncertainty_um"].get<double>(), 1e-9);
+    ++lines;
+  }
+  EXPECT_GE(lines, 2);
 }
 
 TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {

@@ -146,6 +146,14 @@ std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& rec
   return influences_of(*(*recorded)->task.fixture);
 }
 
+UncertaintyOptions uncertainty_options(const record::RunRecord& record) {
+  const auto recorded = record::recorded_uncertainty(record.settings);
+  if (recorded && *recorded) return options_of((*recorded)->task);
+  UncertaintyOptions out;
+  out.seed = record.header.seed;
+  return out;
+}
+
 std::optional<Declared> declared_for(const record::RunRecord& record, const FeatureResult& result,
                                      const std::optional<fit::ProbeTip>& probe) {
   const auto recorded = record::recorded_uncertainty(record.settings);

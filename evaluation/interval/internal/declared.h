@@ -22,6 +22,9 @@ struct Declared {
 /// The declared contributions of the fixture; none when the plan declares none.
 [[nodiscard]] std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record);
 
+/// Settings of trials: those of the plan, or the defaults with the seed of the run.
+[[nodiscard]] UncertaintyOptions uncertainty_options(const record::RunRecord& record);
+
 /// None when the plan asks for no uncertainty.
 [[nodiscard]] std::optional<Declared> declared_for(const record::RunRecord& record,
                                                    const FeatureResult& result,

@@ -70,6 +70,24 @@ double numerical_tolerance_mm(std::span<const std::span<const double>> chains, d
   return worst;
 }
 
+void share_out(std::vector<BudgetLine>& budget) {
+  double sampled = 0.0;
+  double all = 0.0;
+  for (const BudgetLine& line : budget) {
+    const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
+    all += square;
+    if (line.measurand == Measurand::kSampledPoints) sampled += square;
+  }
+  for (BudgetLine& line : budget) {
+    const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
+    const double sum = line.measurand == Measurand::kSampledPoints ? sampled : all;
+    line.share_1 = sum > 0.0 ? square / sum : 0.0;
+  }
+  std::stable_sort(budget.begin(), budget.end(), [](const BudgetLine& a, const BudgetLine& b) {
+    return a.standard_uncertainty_mm > b.standard_uncertainty_mm;
+  });
+}
+
 core::Result<void> check_cloud(const FormCloud& cloud) {
   if (!(cloud.radius_mm > 0.0 && std::isfinite(cloud.radius_mm))) {
     return core::fail(Code::kBadOption, fmt::format("radius {} mm is not > 0", cloud.radius_mm));

@@ -38,6 +38,10 @@ struct DrawTally {
 [[nodiscard]] double numerical_tolerance_mm(std::span<const std::span<const double>> chains,
                                             double coverage);
 
+/// Gives each line its share of the lines of (a), sampling its share of all lines; then ranks them,
+/// the largest spread first.
+void share_out(std::vector<BudgetLine>& budget);
+
 [[nodiscard]] core::Result<void> check_cloud(const FormCloud& cloud);
 [[nodiscard]] core::Result<void> check_options(const UncertaintyOptions& options);
 /// A reference that exists for the measured points may not exist for every possible drawn form.

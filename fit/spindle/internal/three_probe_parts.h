@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "fit/profiles/internal/dft.h"
 #include "fit/spindle/three_probe.h"
@@ -39,6 +42,20 @@ struct ProbeSamples {
 void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
                      const ThreeProbeOptions& options, ThreeProbeResult& result);
 
+/// Half spectrum of r(theta + shift), or of its derivative of the given order.
+[[nodiscard]] Spectrum shifted(const Spectrum& spectrum, double shift_rad, int derivative);
+
+/// The matrix P of the least-squares solution (X, Y) = P m without swing, where m holds the three
+/// readings minus the part.
+[[nodiscard]] Eigen::Matrix<double, 2, 3> motion_solver(const std::array<double, 3>& angles_rad);
+/// The same matrix after a swing, which turns all probes, and so the solution, by beta.
+[[nodiscard]] Eigen::Matrix<double, 2, 3> swung(const Eigen::Matrix<double, 2, 3>& p,
+                                                double beta_rad);
+
+/// Removes the best c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) from a motion.
+void remove_eccentricity(std::span<const double> alpha_rad, std::span<const double> beta_rad,
+                         CentreMotion& motion);
+
 /// The mean motion with eccentricity, but without probe zeros. The zeros are removed as
 /// c0 e^{-j beta}, with c0 from the mean over the work angle, to which no other synchronous motion
 /// contributes. A constant displacement of the centre looks the same and is removed with them.
@@ -60,6 +77,11 @@ double correct_second_order(const ProbeSamples& measured, const Spectrum& spectr
 [[nodiscard]] std::optional<double> estimated_noise_mm(const ProbeSamples& samples,
                                                        const Spectrum& sum,
                                                        const ProbeLayout& layout, int highest);
+
+/// Standard deviation of a reading from the differences between the revolutions, for each harmonic
+/// 2..highest of the weighted sum. Empty for a single revolution.
+[[nodiscard]] std::vector<double> scatter_by_order_mm(const ProbeSamples& samples,
+                                                      const ProbeLayout& layout, int highest);
 
 /// Adds readings that contradict the stated geometry or are invalid to
 /// ThreeProbeResult::contradictions.

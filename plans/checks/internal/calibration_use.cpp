@@ -59,7 +59,8 @@ core::Result<std::optional<UsedCalibration>> used_calibration(const Plan& plan,
 }
 
 std::vector<record::Setting> fixture_settings(const Plan& plan,
-                                              const std::optional<UsedCalibration>& calibration) {
+                                              const std::optional<UsedCalibration>& calibration,
+                                              std::optional<double> resolution_rad) {
   if (!plan.fixture) return {};
   const FixturePlan& fixture = *plan.fixture;
   record::FixtureSettings out;
@@ -70,6 +71,13 @@ std::vector<record::Setting> fixture_settings(const Plan& plan,
   out.max_alpha_deg = fixture.max_alpha_deg;
   out.min_beta_deg = fixture.min_beta_deg;
   out.max_beta_deg = fixture.max_beta_deg;
+  if (resolution_rad &&
+      std::any_of(plan.features.begin(), plan.features.end(), measures_by_touch)) {
+    out.resolution_deg = *resolution_rad / core::kDegree;
+    if (fixture.reached_pose) {
+      out.setting_uncertainty_deg = fixture.reached_pose->setting_uncertainty_deg;
+    }
+  }
   if (calibration) {
     out.max_age_days = fixture.calibration->max_age_days;
     out.max_residual_um = fixture.calibration->max_residual_um;

@@ -29,8 +29,10 @@ struct UsedCalibration {
 /// The settings of the fixture in the journal, for the whole run: its nominal axes, its travel and,
 /// if there is one, the calibration itself ("fixture/calibration") with the plan's requirements on
 /// it. Empty for a plan without a fixture.
+/// @param resolution_rad  Of the driver; kept for a run that calibrates the fixture.
 [[nodiscard]] std::vector<record::Setting> fixture_settings(
-    const Plan& plan, const std::optional<UsedCalibration>& calibration);
+    const Plan& plan, const std::optional<UsedCalibration>& calibration,
+    std::optional<double> resolution_rad);
 
 /// Checks the key `fixture.calibration` of a plan, except for the age.
 void check_calibration_use(const Plan& plan, Findings& findings);

@@ -82,6 +82,15 @@ bool RecordedRun::has_decision(const core::Message& message) const {
   });
 }
 
+bool RecordedRun::knows_true_values() const {
+  // Those of an analysis come with its series, maybe long before the run was interrupted.
+  return std::any_of(run_.truth_values.begin(), run_.truth_values.end(),
+                     [&](const record::TruthValue& value) {
+                       const auto feature = static_cast<std::size_t>(value.feature);
+                       return !record::is_analysis(run_.features[feature].shape);
+                     });
+}
+
 bool RecordedRun::knows_series(int feature) const {
   return std::any_of(run_.series.begin(), run_.series.end(),
                      [&](const auto& series) { return series.feature == feature; });

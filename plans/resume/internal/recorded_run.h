@@ -42,7 +42,7 @@ class RecordedRun {
   /// Whether the series of a feature are in the journal; either all of them are, or none.
   [[nodiscard]] bool knows_series(int feature) const;
   /// Whether the true values of the characteristics are in the journal; all of them are, or none.
-  [[nodiscard]] bool knows_true_values() const { return !run_.truth_values.empty(); }
+  [[nodiscard]] bool knows_true_values() const;
   /// The number of the next check: -1, -2, ...
   [[nodiscard]] std::int64_t next_check() const;
 

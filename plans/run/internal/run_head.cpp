@@ -114,10 +114,11 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
 std::vector<record::Setting> settings_of(const Plan& plan) {
   std::vector<record::Setting> out = record::settings_of_task(plan.decision_rule, "decision_rule/");
   if (plan.environment) {
-    append(
-        record::settings_of_task(
-            record::EnvironmentSettings{"limits", plan.environment->assumed_degC}, "environment/"),
-        out);
+    const EnvironmentPlan& environment = *plan.environment;
+    append(record::settings_of_task(record::EnvironmentSettings{"limits", environment.assumed_degC,
+                                                                environment.max_drift_K},
+                                    "environment/"),
+           out);
   }
   if (plan.uncertainty) {
     append(record::settings_of_uncertainty(*plan.uncertainty, plan.part.expansion_per_K), out);

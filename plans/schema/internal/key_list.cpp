@@ -87,6 +87,9 @@ class KeyList {
   void passed_over(std::string_view key, std::string_view meaning) {
     row(key, "text", "", false, meaning);
   }
+  void influence(std::string_view key, const record::Influence&, const NumberSpec& spec) {
+    row(key, range_text(key, spec) + ", or object", "", spec.required, spec.meaning);
+  }
 
   template <class T>
   void object(std::string_view key, T& value, const GroupSpec& spec) {

@@ -284,6 +284,10 @@ void describe(Visitor& v, EnvironmentPlan& p) {
            range(10.0, 40.0,
                  "Temperature of part and scales where no sensor gives one; reports print it "
                  "as declared. Left out: what nobody measured makes the result void."));
+  v.number("max_drift_K", p.max_drift_K,
+           above(0.0, 10.0,
+                 "Of spindle, wheel, contour and rotary_axes: a temperature that changes by more "
+                 "at one place while they are measured makes the result void."));
 }
 
 template <class Visitor>

@@ -227,6 +227,24 @@ void TableReader::number(std::string_view key, std::optional<double>& value,
   if (read_number(*json, pointer_to(key), key, spec, given)) value = given;
 }
 
+void TableReader::influence(std::string_view key, record::Influence& value,
+                            const NumberSpec& spec) {
+  const JsonValue* json = value_at(key, spec.required, spec.meaning);
+  if (json == nullptr) return;
+  const std::string pointer = pointer_to(key);
+  record::DeclaredInfluence given;
+  if (json->kind == Kind::kObject) {
+    read(*json, pointer, given, spec);
+  } else if (json->kind != Kind::kNumber) {
+    return problem(*json, Code::kWrongType, pointer,
+                   fmt::format("is {}; a number{} is needed, or an object {{ \"value\": ... }}",
+                               found(*json), in_unit(key)));
+  } else if (!read_number(*json, pointer, key, spec, given.value)) {
+    return;
+  }
+  value = given;
+}
+
 const JsonValue* TableReader::array_at(std::string_view key, const NumberSpec& spec) {
   const JsonValue* json = value_at(key, spec.required, spec.meaning);
   if (json == nullptr || json->kind == Kind::kArray) return json;

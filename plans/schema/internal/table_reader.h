@@ -10,6 +10,7 @@
 #include "plans/schema/findings.h"
 #include "plans/schema/json_text.h"
 #include "plans/schema/key_spec.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::plans {
 
@@ -42,6 +43,8 @@ class TableReader {
   void numbers(std::string_view key, std::vector<double>& values, const NumberSpec& spec);
   void whole(std::string_view key, int& value, const NumberSpec& spec);
   void whole(std::string_view key, std::uint64_t& value, const NumberSpec& spec);
+  /// Accepts a number, the standard uncertainty, or an object with the distribution.
+  void influence(std::string_view key, record::Influence& value, const NumberSpec& spec);
   /// Accepts a text and ignores it.
   void passed_over(std::string_view key, std::string_view meaning);
 
@@ -70,10 +73,10 @@ class TableReader {
   void finish();
 
  private:
-  template <class T>
-  void read(const JsonValue& json, const std::string& pointer, T& value) {
+  template <class T, class... Spec>
+  void read(const JsonValue& json, const std::string& pointer, T& value, const Spec&... spec) {
     TableReader reader(json, pointer, findings_);
-    describe(reader, value);
+    describe(reader, value, spec...);
     reader.finish();
   }
 

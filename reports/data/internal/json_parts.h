@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,8 @@ using Json = nlohmann::ordered_json;
 }
 /// The characteristics of a feature.
 [[nodiscard]] Json characteristics_json(const evaluation::FeatureResult& feature);
+/// The conditions that were checked, passed or not.
+[[nodiscard]] Json gates_json(const std::vector<evaluation::Gate>& gates);
 /// How a value came about.
 /// @param unit  Of the value: of all its lengths but places.
 [[nodiscard]] Json finding_json(const evaluation::Finding& finding, core::LengthUnit unit);

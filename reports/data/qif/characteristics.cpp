@@ -11,6 +11,7 @@
 #include "evaluation/results/finding.h"
 #include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -316,6 +317,11 @@ std::string uncertainty_words(const evaluation::CharacteristicResult& result) {
   const evaluation::UncertaintyStatement* known =
       result.value ? result.value->statement() : nullptr;
   if (known == nullptr) return {};
+  if (known->at_most) {
+    return fmt::format("none: the value is the upper bound, {:g} % lie below {} mm",
+                       50.0 * (1.0 + result.value->uncertainty().coverage_1()),
+                       decimal(known->high_mm));
+  }
   return fmt::format("standard uncertainty in mm (k = 1), {}; {:g} % lie within {} and {} mm",
                      name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
                      decimal(known->low_mm), decimal(known->high_mm));
@@ -326,11 +332,13 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   const record::Characteristic& asked = result.characteristic;
   pugi::xml_node node = add_numbered(draft, draft.lists.measured_characteristics,
                                      element(placed.family, "Measurement"));
-  add_attributes(node, {{"verdict", std::string(name_of(result.verdict))},
-                        {"verification_operator",
-                         result.value ? result.value->operator_text() : std::string()},
-                        {"stated", result.value ? result.value->sentence() : std::string()},
-                        {"combinedUncertainty", uncertainty_words(result)}});
+  add_attributes(
+      node,
+      {{"verdict", std::string(name_of(result.verdict))},
+       {"verification_operator", result.value ? result.value->operator_text() : std::string()},
+       {"stated", result.value ? result.value->sentence() : std::string()},
+       {"combinedUncertainty", uncertainty_words(result)},
+       {"gates", placed.feature.gates.empty() ? std::string() : in_words(placed.feature.gates)}});
   if (!result.reason.empty()) add(node, "Description", result.reason.english());
   add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict).of_characteristic);
   add(node, "CharacteristicItemId", placed.item);
@@ -338,8 +346,9 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   if (has_reference(asked)) add_algorithm(node, asked.reference);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   if (!result.value || !std::isfinite(result.value->value_mm())) return;
-  pugi::xml_node value = add(node, "Value", decimal(result.value->quoted_mm()));
-  if (const evaluation::UncertaintyStatement* known = result.value->statement()) {
+  pugi::xml_node value = add(node, "Value", decimal(shown_mm(*result.value)));
+  const evaluation::UncertaintyStatement* known = result.value->statement();
+  if (known != nullptr && !known->at_most) {
     set(value, "combinedUncertainty", decimal(known->standard_uncertainty_mm));
   }
   if (asked.reference != Reference::kMinimumZone) return;

@@ -31,8 +31,8 @@ const ofAnalysis = {
   contour: (f) => [/^Contour errors t/, /^Main journals/, /^Errors of the C axis/, /^Errors of the X axis/,
     /^Following parts/, /^Non-following parts/, /^Mean contour/,
     ...f.contour.curves.map((_, i) => RegExp(`^Part ${i + 1}`))],
-  rotary_axes: () => ['alpha', 'beta'].flatMap((axis) => ['shift', 'tilt'].flatMap((kind) =>
-    ['x', 'y', 'z'].map((along) => RegExp(`^Axis ${axis}: ${kind} .*${along}`)))),
+  rotary_axes: () => [/^Residuals of the combined poses/].concat(['alpha', 'beta'].flatMap((axis) => ['shift', 'tilt'].flatMap((kind) =>
+    ['x', 'y', 'z'].map((along) => RegExp(`^Axis ${axis}: ${kind} .*${along}`))))),
 };
 
 /// Labels (patterns) of the drawings of every feature, and the number of tolerance bars.

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "evaluation/rotary/result.h"
+
+namespace rondure::evaluation {
+
+/// The errors of prediction at the combined poses, free of the noise of the balls there.
+///
+/// In each pose the error is a rigid motion. The residuals are projected on the motions that the
+/// covariance of the calibration allows, in its principal directions: coefficients of unit variance
+/// times a scale common to all poses, each with the noise u / s_k. The scale has a log-normal prior
+/// of one decade about 1; its posterior follows from the coefficients. A scale about 1 says that
+/// the calibration explains what is left; one above says that errors depend on both angles. Source:
+/// docs/rotary-axes.md, "Residual at combined poses".
+class CombinedField {
+ public:
+  struct Residual {
+    double rms_mm = 0.0;
+    double max_mm = 0.0;
+  };
+
+  /// @param noise_mm  Standard uncertainty of a coordinate of a ball centre; > 0.
+  CombinedField(std::span<const CombinedPose> poses, double noise_mm);
+
+  /// Quantile of the posterior of the scale.
+  [[nodiscard]] double scale_at(double probability) const;
+  /// Residual of a draw of the true errors: a pure function of its arguments.
+  [[nodiscard]] Residual draw(std::uint64_t seed, int trial) const;
+  /// Change of both values for one standard uncertainty of the ball centres, to first order.
+  [[nodiscard]] Residual per_noise() const;
+
+ private:
+  struct Pose {
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>
+        motions;                ///< Columns per coefficient [mm].
+    std::vector<double> found;  ///< Of unit variance.
+    std::vector<double> u;      ///< Noise of each.
+  };
+
+  void weigh_scales();
+
+  double noise_mm_ = 0.0;
+  std::vector<Pose> poses_;
+  double points_ = 0.0;
+  std::vector<double> scales_;
+  std::vector<double> cumulative_;  ///< Posterior of the scales, 0..1.
+};
+
+}  // namespace rondure::evaluation

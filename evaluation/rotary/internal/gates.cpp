@@ -1,0 +1,196 @@
+#include "evaluation/rotary/internal/gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/numbers.h"
+#include "core/statistics.h"
+#include "core/units.h"
+#include "fit/rotary/ball_setup.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::kMicroradian;
+using Outcome = Gate::Outcome;
+
+constexpr double kReferenceSigmas = 4.0;
+constexpr double kExplained = 3.0;   // times what the calibration explains
+constexpr double kDigits_mm = 1e-6;  // of touches in files and on the wire
+constexpr double kRedundancy = 0.1;  // below, an error of a ball is not seen
+constexpr double kChance = 0.001;    // of a gate that fails although all is well
+
+/// A gate that passes up to its limit.
+Gate up_to(std::string code, core::Phrase condition, double found, double limit, std::string unit,
+           Outcome otherwise, core::Phrase reason) {
+  Gate out{std::move(code), std::move(condition), found,         limit,
+           std::move(unit), Outcome::kPassed,     core::Phrase()};
+  if (found <= limit) return out;
+  out.outcome = otherwise;
+  out.reason = std::move(reason);
+  return out;
+}
+
+Gate at_least(std::string code, core::Phrase condition, double found, double limit,
+              core::Phrase reason) {
+  Gate out{std::move(code),  std::move(condition), found, limit, {},
+           Outcome::kPassed, core::Phrase()};
+  if (found >= limit) return out;
+  out.outcome = Outcome::kWarns;
+  out.reason = std::move(reason);
+  return out;
+}
+
+Gate other_axis_gate(const PlacingFacts& placing) {
+  return up_to(
+      "other-axis", core::phrase("reading of the other axis while a station is measured"),
+      placing.off_rad / kMicroradian, placing.off_limit_rad / kMicroradian, "urad", Outcome::kVoids,
+      core::phrase("the other axis read {:.0f} urad while a station was measured, the limit is "
+                   "{:.0f} urad: set it closer to 0 and calibrate again",
+                   placing.off_rad / kMicroradian, placing.off_limit_rad / kMicroradian));
+}
+
+Gate drive_gate(const PlacingFacts& placing) {
+  const core::Phrase condition = core::phrase("distance of a reading from its command");
+  const double missed_urad = placing.missed_rad / kMicroradian;
+  if (!placing.missed_limit_rad) {
+    return {"drive-missed",
+            condition,
+            missed_urad,
+            std::nullopt,
+            "urad",
+            Outcome::kWarns,
+            core::phrase("the journal does not state the resolution of the fixture, so that a "
+                         "missed command is not noticed")};
+  }
+  const double limit_urad = *placing.missed_limit_rad / kMicroradian;
+  return up_to("drive-missed", condition, missed_urad, limit_urad, "urad", Outcome::kVoids,
+               core::phrase("the fixture stood {:.0f} urad from its command, the limit is {:.0f} "
+                            "urad: the drive missed it; check the drive and calibrate again",
+                            missed_urad, limit_urad));
+}
+
+Gate reference_gate(const PlacingFacts& placing) {
+  return up_to(
+      "references",
+      core::phrase("difference of a ball between two zero poses over its uncertainty"),
+      placing.reference_sigmas, kReferenceSigmas, {}, Outcome::kVoids,
+      core::phrase("a ball differs between two zero poses by {:.1f} times the uncertainty of the "
+                   "difference, the limit is {:g}: warm-up, a loose ball or an axis that does not "
+                   "return; let the machine warm up and calibrate again",
+                   placing.reference_sigmas, kReferenceSigmas));
+}
+
+/// The station with the largest chi-square over its limit. All of them together fail by chance once
+/// in a thousand calibrations.
+Gate station_gate(const RotaryResult& facts) {
+  double stations = 0.0;
+  for (const AxisFacts& axis : axes_of(facts)) {
+    stations += static_cast<double>(axis.study->stations.size());
+  }
+  double worst = 0.0;
+  double angle_deg = 0.0;
+  std::string name;
+  for (const AxisFacts& axis : axes_of(facts)) {
+    for (const fit::RotaryStation& station : axis.study->stations) {
+      if (station.undetermined || station.dof <= 0) continue;
+      const double ratio =
+          station.chi2 / core::chi_square_quantile(1.0 - kChance / stations, station.dof);
+      if (ratio <= worst) continue;
+      worst = ratio;
+      angle_deg = core::degrees(station.angle_rad);
+      name = axis.key;
+    }
+  }
+  return up_to("station-chi2", core::phrase("chi2 of the worst station over its limit"), worst, 1.0,
+               {}, Outcome::kVoids,
+               core::phrase("at station {:g} deg of axis {} the balls contradict one another: chi2 "
+                            "is {:.1f} times its limit; check that no ball is loose, or declare "
+                            "the uncertainty of a ball centre (ball_um)",
+                            angle_deg, name, worst));
+}
+
+Gate small_residual_gate(const RotaryResult& facts) {
+  double chi2 = 0.0;
+  double dof = 0.0;
+  for (const AxisFacts& axis : axes_of(facts)) {
+    chi2 += axis.study->s0 * axis.study->s0 * axis.study->dof;
+    dof += axis.study->dof;
+  }
+  const double least = dof > 0.0 ? core::chi_square_quantile(kChance, dof) : 0.0;
+  return at_least("u-too-large", core::phrase("chi2 of all stations"), chi2, least,
+                  core::phrase("the balls agree better than their uncertainty allows: chi2 is "
+                               "{:.1f}, at least {:.1f} is expected; the uncertainty stated for a "
+                               "ball centre is too large",
+                               chi2, least));
+}
+
+Gate redundancy_gate(const RotaryResult& facts) {
+  double least = 1.0;
+  for (const AxisFacts& axis : axes_of(facts)) {
+    for (const fit::RotaryStation& station : axis.study->stations) {
+      for (const Eigen::Vector3d& r : station.redundancy) least = std::min(least, r.minCoeff());
+    }
+  }
+  // Round-off leaves a little below 0 where a ball has no redundancy at all.
+  least = std::max(0.0, least);
+  return at_least("redundancy", core::phrase("least redundancy of a coordinate"), least,
+                  kRedundancy,
+                  core::phrase("an error of one ball is not seen by the others (redundancy {:.2f}, "
+                               "at least {:g} is needed): use 4 balls or more, spread out",
+                               least, kRedundancy));
+}
+
+Gate condition_gate(const RotaryResult& facts) {
+  return up_to("condition", core::phrase("condition of the balls"), facts.condition,
+               fit::kConditionWarning, {}, Outcome::kWarns,
+               core::phrase("the balls lie nearly on one line (condition {:.1f}, limit {:g}): "
+                            "spread them out",
+                            facts.condition, fit::kConditionWarning));
+}
+
+Gate residual_gate(const RotaryResult& facts) {
+  const fixture::Verification& v = facts.calibration.verification;
+  // A simulation without errors explains nothing, and leaves what the digits of the touches do.
+  const double ratio = v.rms_mm / std::max(v.expected_mm, kDigits_mm);
+  return up_to("depends-on-both",
+               core::phrase("residual at combined poses over what the uncertainty explains"), ratio,
+               kExplained, {}, Outcome::kVoids,
+               core::phrase("the combined poses leave {} um rms, {:.1f} times what the uncertainty "
+                            "explains (limit {:g}): errors depend on both angles (gravity, play), "
+                            "or something moved; no table of single axes holds them",
+                            core::um(v.rms_mm), ratio, kExplained));
+}
+
+Gate scale_gate(const RotaryResult& facts) {
+  return up_to("residual-scale",
+               core::phrase("scale of the errors at combined poses, lower end of its interval"),
+               facts.scale_low, 1.0, {}, Outcome::kWarns,
+               core::phrase("the errors at combined poses are {:.1f} times those that the "
+                            "calibration explains ({:.1f} to {:.1f}): they depend on both angles; "
+                            "its standard uncertainties were multiplied by {:.1f}",
+                            facts.scale, facts.scale_low, facts.scale_high, facts.scale));
+}
+
+}  // namespace
+
+std::vector<Gate> rotary_gates(const RotaryResult& facts, const PlacingFacts& placing) {
+  std::vector<Gate> out = {other_axis_gate(placing), drive_gate(placing),
+                           condition_gate(facts),    redundancy_gate(facts),
+                           station_gate(facts),      small_residual_gate(facts)};
+  if (placing.references > 1) out.push_back(reference_gate(placing));
+  if (facts.combined.empty()) return out;
+  out.push_back(residual_gate(facts));
+  out.push_back(scale_gate(facts));
+  return out;
+}
+
+std::optional<core::Phrase> voided_by(const std::vector<Gate>& gates) {
+  const auto at = std::find_if(gates.begin(), gates.end(),
+                               [](const Gate& gate) { return gate.outcome == Outcome::kVoids; });
+  if (at == gates.end()) return std::nullopt;
+  return at->reason;
+}
+
+}  // namespace rondure::evaluation

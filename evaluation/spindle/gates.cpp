@@ -1,0 +1,364 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "core/statistics.h"
+#include "core/units.h"
+#include "evaluation/spindle/result.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::micrometres;
+using core::phrase;
+using Outcome = Gate::Outcome;
+using record::Form;
+
+constexpr std::size_t kSteadyRows = 8;
+/// Movement of another probe, in steps of the resolution of the steady one, that it would have
+/// seen.
+constexpr double kSurelySeen = 10.0;
+constexpr double kNormal999 = 3.0902;
+
+/// 0.999 quantile of chi square, by Wilson and Hilferty: within 1 % from two degrees of freedom on.
+double chi2_999(double freedom) {
+  const double share = 2.0 / (9.0 * freedom);
+  return freedom * std::pow(1.0 - share + kNormal999 * std::sqrt(share), 3.0);
+}
+
+Gate first_harmonic_gate(const SpindleResult& facts) {
+  Gate out{.code = "first-harmonic",
+           .condition = {},
+           .found = {},
+           .limit = {},
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (facts.declares_probes()) {
+    out.condition = phrase("chi2 of the first harmonic with the declared gains and angles");
+    out.found = facts.first_harmonic->chi2;
+    out.limit = fit::kFirstHarmonicLimit;
+    if (!(*out.found > *out.limit)) return out;
+    out.outcome = Outcome::kVoids;
+    out.reason = phrase(
+        "the readings contradict the declared gains and angles of the probes: chi2 of the first "
+        "harmonic is {:.1f}, the limit {:.1f}; calibrate gains and angles, look for drift within a "
+        "revolution, or declare what is known of them",
+        *out.found, *out.limit);
+    return out;
+  }
+  const fit::ThreeProbeResult& s = facts.separation;
+  out.condition = phrase("content of the weighted sum at one undulation, against noise");
+  out.found = micrometres(s.first_harmonic_mm);
+  out.limit = micrometres(s.first_harmonic_limit_mm);
+  out.unit = "um";
+  if (!(*out.found > *out.limit)) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "the weighted sum holds {:.4g} um at one undulation, where it must vanish (limit {:.4g} um): "
+      "calibrate gains and angles of the probes, or declare their uncertainties",
+      *out.found, *out.limit);
+  return out;
+}
+
+Gate blind_gate(const SpindleResult& facts) {
+  const fit::FirstHarmonic& first = *facts.first_harmonic;
+  Gate out{.code = "k1-blind",
+           .condition = phrase("least error of gains and angles that the first harmonic shows"),
+           .found = {},
+           .limit = first.prior_lambda,
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (std::isfinite(first.u_lambda)) out.found = 3.0 * first.u_lambda;
+  if (!first.blind()) return out;
+  // Without declarations nothing vouches for the probes: no rule gives a verdict, nor does simple
+  // acceptance.
+  out.outcome = facts.declares_probes() ? Outcome::kWarns : Outcome::kVoids;
+  out.reason =
+      facts.declares_probes()
+          ? phrase(
+                "the eccentricity of {:.3g} um is too small to show errors of gains and angles: "
+                "the "
+                "interval rests on their certificates alone; mount the part 5 to 20 um off centre",
+                micrometres(facts.separation.eccentricity_mm))
+          : phrase(
+                "the eccentricity of {:.3g} um is too small to show errors of gains and angles, "
+                "and "
+                "none are declared: a wrong gain goes unnoticed; mount the part 5 to 20 um off "
+                "centre and declare gain_1 and angle_deg",
+                micrometres(facts.separation.eccentricity_mm));
+  return out;
+}
+
+/// Drift that is not linear, slip or temperature: the part differs from revolution to revolution by
+/// more than noise.
+Gate turns_gate(const SpindleResult& facts) {
+  const fit::ThreeProbeResult& s = facts.separation;
+  Gate out{.code = "turns",
+           .condition = phrase("chi2 of the part between the revolutions"),
+           .found = {},
+           .limit = {},
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  const std::vector<double>& scatter = s.scatter_mm;
+  if (scatter.empty()) {
+    out.condition = phrase("chi2 of the part between the revolutions: one revolution only");
+    return out;
+  }
+  const double each = 2.0 * (s.revolutions - 1);
+  const auto orders = static_cast<double>(scatter.size());
+  double base = s.noise_mm * s.noise_mm;
+  double widened = 1.0;
+  if (s.noise_estimated) {
+    // The mean scatter is the estimate itself; the median over the harmonics is what the bulk of
+    // them says. Its own standard deviation widens the limit.
+    std::vector<double> squares;
+    for (const double one : scatter) squares.push_back(one * one);
+    const double median_of_unit = std::pow(1.0 - 2.0 / (9.0 * each), 3.0);
+    base = core::upper_median(std::move(squares)) / median_of_unit;
+    widened += kNormal999 * 1.44 / std::sqrt(orders * (s.revolutions - 1));
+  }
+  // A noise that is declared as 0 does not excuse revolutions that differ.
+  constexpr double kLeastNoise_mm = 1e-6 * core::kMicrometre;
+  base = std::max(base, kLeastNoise_mm * kLeastNoise_mm);
+  double chi2 = 0.0;
+  for (const double one : scatter) chi2 += each * one * one / base;
+  out.found = chi2;
+  out.limit = widened * chi2_999(each * orders);
+  const double mean =
+      std::sqrt(std::inner_product(scatter.begin(), scatter.end(), scatter.begin(), 0.0) / orders);
+  constexpr double kLeastScatter_mm = 1e-3 * core::kMicrometre;  // better than any probe
+  if (chi2 <= *out.limit || mean < kLeastScatter_mm) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "the part differs from revolution to revolution by more than noise: chi2 {:.0f}, limit "
+      "{:.0f}; look for drift of the probes, slip of the drive and changing temperature, and "
+      "measure again",
+      chi2, *out.limit);
+  return out;
+}
+
+/// Largest standard uncertainty of an amplitude in parts of the limits that are asked for.
+Gate weak_gate(const SpindleResult& facts,
+               std::span<const record::Characteristic> characteristics) {
+  Gate out{.code = "weak-harmonic",
+           .condition = phrase("greatest standard uncertainty of an amplitude over its limit"),
+           .found = {},
+           .limit = kWeakShare,
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  int order = 0;
+  const auto look = [&](const fit::RecoveredHarmonic& h, double limit_mm) {
+    if (!h.recovered || h.sigma_mm / limit_mm <= out.found.value_or(-1.0)) return;
+    out.found = h.sigma_mm / limit_mm;
+    order = h.order;
+  };
+  for (const record::Characteristic& asked : characteristics) {
+    const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
+    for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
+      if (part && asked.tolerance_mm) look(h, *asked.tolerance_mm);
+      for (const record::HarmonicLimit& line : asked.harmonic_limits) {
+        if (h.order >= line.first && h.order <= line.last) look(h, line.amplitude_mm);
+      }
+    }
+  }
+  if (!(out.found.value_or(0.0) > kWeakShare)) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "the standard uncertainty of harmonic {} is {:.2g} of its limit, at most a quarter is "
+      "judged: record more revolutions or choose a layout with less gain there",
+      order, *out.found);
+  return out;
+}
+
+Gate suppressed_gate(const SpindleResult& facts) {
+  const auto lost = facts.separation.unrecovered.size();
+  Gate out{.code = "suppressed",
+           .condition = phrase("harmonics that were not recovered"),
+           .found = static_cast<double>(lost),
+           .limit = 0.0,
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (lost == 0) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "{} harmonics were not recovered, and no bound of their amplitudes is stated: part and "
+      "synchronous motion may be greater; choose a layout with less gain there",
+      lost);
+  return out;
+}
+
+/// Longest run of equal readings of a channel in which another one moves.
+struct SteadyRun {
+  std::size_t channel = 0;
+  std::size_t first = 0;
+  std::size_t rows = 0;
+};
+
+double spread(std::span<const double> values) {
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  return *greatest - *least;
+}
+
+/// Whether a channel that stands still in these rows should have moved, because another one does.
+bool others_move(const fit::ProbeReadings& readings, const SteadyRun& run, double resolution) {
+  for (std::size_t i = 0; i < readings.h_mm.size(); ++i) {
+    if (i == run.channel) continue;
+    const auto rows = std::span(readings.h_mm[i]).subspan(run.first, run.rows);
+    if (spread(rows) > kSurelySeen * resolution) return true;
+  }
+  return false;
+}
+
+/// Least step of a channel; 0 where it is constant.
+double resolution_of(const std::vector<double>& h) {
+  double out = spread(h);
+  for (std::size_t m = 1; m < h.size(); ++m) {
+    if (h[m] != h[m - 1]) out = std::min(out, std::abs(h[m] - h[m - 1]));
+  }
+  return out;
+}
+
+SteadyRun longest_steady(const fit::ProbeReadings& readings) {
+  SteadyRun longest;
+  for (std::size_t i = 0; i < readings.h_mm.size(); ++i) {
+    const std::vector<double>& h = readings.h_mm[i];
+    const double resolution = resolution_of(h);
+    std::size_t first = 0;
+    for (std::size_t m = 1; m <= h.size(); ++m) {
+      if (m < h.size() && h[m] == h[first]) continue;
+      const SteadyRun run{i, first, m - first};
+      if (run.rows > std::max<std::size_t>(longest.rows, 1) &&
+          others_move(readings, run, resolution)) {
+        longest = run;
+      }
+      first = m;
+    }
+  }
+  return longest;
+}
+
+/// Rows in which no probe moves, although their steps are fine: the acquisition stood still while
+/// the work turned on. None: rows 0.
+SteadyRun standstill(const fit::ProbeReadings& readings) {
+  constexpr double kLeastTurn_rad = core::kTwoPi / 16.0;  // fine steps do not skip so much
+  const auto& h = readings.h_mm;
+  const std::size_t count = h[0].size();
+  bool fine = false;
+  bool moves = false;
+  for (const std::vector<double>& one : h) {
+    fine = fine || spread(one) > kSurelySeen * resolution_of(one);
+    moves = moves || spread(one) > 0.0;
+  }
+  if (!moves) return {0, 0, count};
+  SteadyRun longest;
+  std::size_t first = 0;
+  for (std::size_t m = 1; fine && m <= count; ++m) {
+    const auto stays = [&](const std::vector<double>& one) { return one[m] == one[first]; };
+    if (m < count && std::all_of(h.begin(), h.end(), stays)) continue;
+    const double turned = std::abs(readings.alpha_rad[m - 1] - readings.alpha_rad[first]);
+    if (turned > kLeastTurn_rad && m - first > longest.rows) longest = {0, first, m - first};
+    first = m;
+  }
+  return longest;
+}
+
+Gate disconnect_gate(const fit::ProbeReadings& readings) {
+  SteadyRun run = longest_steady(readings);
+  const SteadyRun still = standstill(readings);
+  const bool all = still.rows >= kSteadyRows && still.rows > run.rows;
+  if (all) run = still;
+  Gate out{.code = "disconnect",
+           .condition = phrase("equal readings of a channel in a row while another one moves"),
+           .found = static_cast<double>(run.rows),
+           .limit = static_cast<double>(kSteadyRows - 1),
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (run.rows < kSteadyRows) return out;
+  out.outcome = Outcome::kVoids;
+  if (all) {
+    out.reason = phrase(
+        "no probe moves in {} readings from row {} on: the acquisition stood still, or the probes "
+        "do not touch; measure again",
+        run.rows, run.first);
+    return out;
+  }
+  out.reason = phrase(
+      "probe {} reads the same {} times from row {} on while another one moves: it is "
+      "disconnected, stuck or at the end of its range; leave out these rows or measure again",
+      run.channel + 1, run.rows, run.first);
+  return out;
+}
+
+/// Gross readings and readings that contradict the stated arm.
+Gate readings_gate(const SpindleResult& facts) {
+  const fit::ThreeProbeResult& s = facts.separation;
+  Gate out{.code = "readings",
+           .condition = phrase("contradictions between the readings, their neighbours and the arm"),
+           .found = 0.0,
+           .limit = 0.0,
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  bool skip = !facts.declares_probes() && s.first_harmonic_mm > s.first_harmonic_limit_mm;
+  for (const core::Error& one : s.contradictions) {
+    // The first harmonic, which has its own gate, follows the gross readings.
+    if (skip && one.code != core::Code::kOutliers) {
+      skip = false;
+      continue;
+    }
+    if (*out.found == 0.0) out.reason = one.said();
+    *out.found += 1.0;
+  }
+  if (*out.found > 0.0) out.outcome = Outcome::kVoids;
+  return out;
+}
+
+Gate few_turns_gate(const SpindleResult& facts) {
+  const int turns = facts.separation.revolutions;
+  Gate out{.code = "few-turns",
+           .condition = phrase("revolutions for asynchronous motion, at least"),
+           .found = static_cast<double>(turns),
+           .limit = static_cast<double>(kLeastAsynchronousTurns),
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (turns >= kLeastAsynchronousTurns) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "asynchronous motion of {} turns is reported, not judged: it grows with the turns; record at "
+      "least {}",
+      turns, kLeastAsynchronousTurns);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings& readings,
+                           std::span<const record::Characteristic> characteristics) {
+  std::vector<Gate> out = {first_harmonic_gate(result), blind_gate(result),
+                           turns_gate(result),          weak_gate(result, characteristics),
+                           suppressed_gate(result),     disconnect_gate(readings),
+                           readings_gate(result)};
+  const bool asynchronous = std::any_of(
+      characteristics.begin(), characteristics.end(), [](const record::Characteristic& asked) {
+        return asked.form == Form::kMotionAsynchronous && asked.toleranced();
+      });
+  if (asynchronous) out.push_back(few_turns_gate(result));
+  return out;
+}
+
+bool voids_all(const Gate& gate) {
+  return gate.code == "first-harmonic" || gate.code == "k1-blind" || gate.code == "turns" ||
+         gate.code == "disconnect" || gate.code == "readings";
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,136 @@
+#include "evaluation/spindle/internal/probe_influences.h"
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using record::DeclaredInfluence;
+using record::Influence;
+
+bool is_rectangular(const Influence& influence) {
+  return influence->distribution == DeclaredInfluence::Distribution::kRectangular;
+}
+
+/// One source for each probe.
+void add_of_each(std::string_view what, const Influence& influence, double unit, int first,
+                 std::vector<ProbeSource>& out) {
+  if (!influence) return;
+  for (int i = 0; i < 3; ++i) {
+    ProbeSource source{fmt::format("probe-{}-{}", i + 1, what), fmt::format("probe.{}", what),
+                       static_cast<std::uint64_t>(i)};
+    source.per_u[first + i] = influence->standard_uncertainty() * unit;
+    source.rectangular = is_rectangular(influence);
+    out.push_back(std::move(source));
+  }
+}
+
+InfluenceStatement covered(std::string name, const Influence& influence, core::Phrase what) {
+  return {std::move(name), true,
+          is_rectangular(influence)
+              ? core::phrase("{}: half-width {:g}, rectangular", what, influence->value)
+              : core::phrase("{}: standard uncertainty {:g}", what, influence->value)};
+}
+
+InfluenceStatement not_covered(std::string name, core::Phrase why) {
+  return {std::move(name), false, std::move(why)};
+}
+
+}  // namespace
+
+std::vector<ProbeSource> probe_sources(const record::SpindleInfluencesTask& declared,
+                                       const fit::SwingArm& arm, const fit::ProbeLayout& layout) {
+  std::vector<ProbeSource> out;
+  add_of_each("gain", declared.gain_1, 1.0, fit::kFirstGain, out);
+  add_of_each("angle", declared.angle_deg, core::kDegree, fit::kFirstAngle, out);
+  if (arm.pin_radius_mm > 0.0) {
+    add_of_each("line", declared.line_um, core::kMicrometre / arm.pin_radius_mm, fit::kFirstAngle,
+                out);
+  }
+  if (declared.arm_mm && arm.swings() && arm.pin_radius_mm > 0.0) {
+    ProbeSource source{"arm", "probe.arm"};
+    const auto angles = layout.angles_rad();
+    for (int i = 0; i < 3; ++i) {
+      source.per_u[fit::kFirstAngle + i] = declared.arm_mm->standard_uncertainty() *
+                                           std::sin(angles[static_cast<std::size_t>(i)]) /
+                                           arm.pin_radius_mm;
+    }
+    source.rectangular = is_rectangular(declared.arm_mm);
+    out.push_back(std::move(source));
+  }
+  add_of_each("drift", declared.drift_um_per_turn, core::kMicrometre, fit::kFirstDrift, out);
+  if (declared.encoder_urad) {
+    for (int i = 0; i < 2; ++i) {
+      ProbeSource source{i == 0 ? "encoder-cosine" : "encoder-sine", "encoder",
+                         static_cast<std::uint64_t>(i)};
+      source.per_u[fit::kFirstEncoder + i] =
+          declared.encoder_urad->standard_uncertainty() * core::kMicroradian;
+      source.rectangular = is_rectangular(declared.encoder_urad);
+      out.push_back(std::move(source));
+    }
+  }
+  return out;
+}
+
+fit::ProbeErrorCovariance covariance_of(const std::vector<ProbeSource>& sources) {
+  fit::ProbeErrorCovariance out = fit::ProbeErrorCovariance::Zero();
+  for (const ProbeSource& source : sources) out += source.per_u * source.per_u.transpose();
+  return out;
+}
+
+record::SpindleInfluencesTask usual_probes() {
+  record::SpindleInfluencesTask out;
+  out.gain_1 = DeclaredInfluence{.value = 0.005};
+  out.angle_deg = DeclaredInfluence{.value = 0.1};
+  return out;
+}
+
+std::vector<InfluenceStatement> probe_declaration(const record::SpindleInfluencesTask& declared,
+                                                  const fit::SwingArm& arm, double noise_mm) {
+  std::vector<InfluenceStatement> out;
+  const core::Phrase undeclared = core::phrase("not declared");
+  out.push_back({"probe-noise", true,
+                 declared.noise_um
+                     ? core::phrase("noise of a reading [um]: standard uncertainty {:g}",
+                                    declared.noise_um->standard_uncertainty())
+                     : core::phrase("noise of a reading: {:.3g} um, not declared as an influence",
+                                    core::micrometres(noise_mm))});
+  const auto add = [&](std::string name, const Influence& influence, core::Phrase what,
+                       const core::Phrase& obstacle = {}) {
+    if (!influence) {
+      out.push_back(not_covered(std::move(name), undeclared));
+    } else if (!obstacle.empty()) {
+      out.push_back(not_covered(std::move(name), obstacle));
+    } else {
+      out.push_back(covered(std::move(name), influence, std::move(what)));
+    }
+  };
+  const core::Phrase no_radius =
+      arm.pin_radius_mm > 0.0
+          ? core::Phrase()
+          : core::phrase("declared, but the plan states no radius of the part (pin_radius_mm)");
+  const core::Phrase no_arm =
+      arm.swings() ? no_radius : core::phrase("declared, but the probes are not on a swing arm");
+  add("probe-gain", declared.gain_1, core::phrase("gain of each probe, relative"));
+  add("probe-angle", declared.angle_deg, core::phrase("angle of each probe [deg]"));
+  add("probe-line", declared.line_um,
+      core::phrase("sideways distance of each measuring line [um]; acts as an angle"), no_radius);
+  add("arm", declared.arm_mm, core::phrase("length of the swing arm [mm]; acts as angles"), no_arm);
+  add("probe-drift", declared.drift_um_per_turn, core::phrase("drift of each probe [um/turn]"));
+  add("encoder", declared.encoder_urad,
+      core::phrase("encoder of the work [urad], as one cycle a turn of any phase"));
+  add("channel-skew", declared.skew_us, {},
+      core::phrase("declared, but the readings have no time and the plan no speed of the work"));
+  add("probe-quadratic", declared.quadratic_1, {},
+      core::phrase("declared, but the plan does not state the range of the probes"));
+  return out;
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "evaluation/wheel/internal/unseen.h"
+#include "fit/wheel/loss.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::kDegree;
+using core::um;
+
+constexpr double kLossShare = 0.1;   ///< Of the tolerance; more makes a bound.
+constexpr double kFormShare = 0.25;  ///< Of the tolerance; more voids the radius of an arc.
+
+using Outcome = Gate::Outcome;
+
+/// A gate that passed.
+Gate gate(std::string code, core::Phrase condition, std::optional<double> found,
+          std::optional<double> limit, std::string unit = {}) {
+  return {std::move(code), std::move(condition), found, limit,
+          std::move(unit), Outcome::kPassed,     {}};
+}
+
+Gate gap_gate(const fit::WheelMeasurement& m) {
+  Gate out = gate("gap", core::phrase("largest gap between neighbouring points"),
+                  m.order.largest_gap_rad / kDegree, fit::kWidestGap / kDegree, "deg");
+  if (m.sees_whole_turn()) return out;
+  out.outcome = Outcome::kBounds;
+  out.reason = core::phrase(
+      "run-out, effective radius and roundness are lower bounds: measure the whole turn");
+  return out;
+}
+
+Gate loss_gate(const WheelResult& facts, const record::Characteristic& asked) {
+  const auto loss_mm = between_points(facts, asked.form).loss_mm;
+  Gate out = gate("loss-between-points",
+                  asked.form == record::Form::kRunOut
+                      ? core::phrase("most that run-out can lose between the points")
+                      : core::phrase("most that roundness can lose between the points"),
+                  std::nullopt, std::nullopt, "um");
+  if (loss_mm) out.found = core::micrometres(*loss_mm);
+  if (asked.tolerance_mm) out.limit = core::micrometres(kLossShare * *asked.tolerance_mm);
+  if (auto reason = unseen_because(facts, asked)) {
+    out.outcome = Outcome::kBounds;
+    out.reason = *std::move(reason);
+  }
+  return out;
+}
+
+/// Quadruples, as fit decides on them: the first that does not pass gives its reason.
+std::vector<Gate> quadruple_gates(const WheelResult& facts) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  const double best = m.centers.best_kappa();
+  // Fewer give no wheel at all: select_centers().
+  std::vector<Gate> out = {
+      gate("quadruples", core::phrase("quadruples of points that give a centre, at least"),
+           static_cast<double>(m.centers.accepted.size()), static_cast<double>(fit::kLeastCenters)),
+      gate("conditioning", core::phrase("conditioning of the best quadruple"), best,
+           fit::kWorstBestKappa),
+      gate("centers-agree", core::phrase("distance of the centre of quadruples from least squares"),
+           core::micrometres(m.center_apart_mm), core::micrometres(m.center_apart_limit_mm), "um")};
+  if (m.mean != fit::WheelMean::kLeastSquares &&
+      facts.task.wheel.quadruples.choice == fit::QuadrupleChoice::kRandom &&
+      m.centers.accepted.size() <= fit::kLeastCenters) {
+    out.push_back(gate("random-quadruples",
+                       core::phrase("part of the circle for a few random quadruples, at least"),
+                       m.order.coverage_rad() / kDegree, fit::kLeastArcOfRandom / kDegree, "deg"));
+  }
+  if (m.radius_void_because.empty()) return out;
+  Gate& failed = best > fit::kWorstBestKappa                   ? out[1]
+                 : m.center_apart_mm > m.center_apart_limit_mm ? out[2]
+                                                               : out.back();
+  failed.outcome = Outcome::kVoids;
+  failed.reason = m.radius_void_because;
+  return out;
+}
+
+Gate correlation_gate(const fit::WheelMeasurement& m,
+                      std::span<const record::Characteristic> characteristics) {
+  Gate out = gate("form-on-an-arc", core::phrase("correlation of neighbouring residuals"),
+                  m.correlation, fit::kCorrelationLimit);
+  const double form_mm = m.form_in_radius_mm();
+  if (form_mm == 0.0) return out;
+  out.outcome = Outcome::kWarns;
+  out.reason = core::phrase("form may move R by {} um to each side", um(form_mm));
+  for (const record::Characteristic& asked : characteristics) {
+    if (asked.form != record::Form::kRadius) continue;
+    if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
+      out.outcome = Outcome::kVoids;
+      out.reason = *std::move(reason);
+    }
+  }
+  return out;
+}
+
+/// The radius of the path against the one it is meant for.
+Gate path_gate(const fit::WheelEvaluation& e) {
+  const fit::WheelMeasurement& m = e.wheel;
+  Gate out = gate("path-radius", core::phrase("radius of the path from the measured radius"),
+                  std::nullopt, core::micrometres(2.0 * m.radius_uncertainty_mm), "um");
+  if (e.path) {
+    const double measured_mm = e.radius == fit::RadiusChoice::kMean
+                                   ? m.radius_mm
+                                   : m.effective_radius_mm().value_or(m.radius_mm);
+    out.found = core::micrometres(std::abs(e.path->radius_mm - measured_mm));
+  } else if (e.refused && e.refused->code == core::Code::kMeaning) {  // others are of the surface
+    out.outcome = Outcome::kVoids;
+    out.reason = core::phrase("there is no path: {}", e.refused->said());
+  }
+  return out;
+}
+
+}  // namespace
+
+BetweenPoints between_points(const WheelResult& facts, record::Form form) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  const bool runout = form == record::Form::kRunOut && m.runout;
+  const Eigen::Vector2d center_mm = runout ? m.runout->axis_mm : m.center_mm;
+  BetweenPoints out;
+  out.gap_rad = fit::angular_order(facts.points_mm, center_mm).largest_gap_rad;
+  if (!m.sees_whole_turn()) return out;
+  const auto amplitudes = fit::found_amplitudes(facts.points_mm, center_mm);
+  out.held = static_cast<int>(amplitudes.size());
+  // Points in four clusters hold the eccentricity, but no oval: what they miss has no bound.
+  if (out.held >= kOrdersOfLobes) {
+    out.loss_mm = fit::loss_in_gap_mm(out.gap_rad, amplitudes, runout ? 1 : 2);
+  }
+  return out;
+}
+
+std::optional<core::Phrase> unseen_because(const WheelResult& facts,
+                                           const record::Characteristic& characteristic) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  if (characteristic.form == record::Form::kRadius) return std::nullopt;
+  const BetweenPoints found = between_points(facts, characteristic.form);
+  if (!m.sees_whole_turn()) {
+    return core::phrase(
+        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
+        "deviation; measure the whole turn",
+        std::max(m.order.largest_gap_rad, found.gap_rad) / kDegree);
+  }
+  if (!found.loss_mm) {
+    return core::phrase(
+        "the places of the points hold lobes up to order {} only, those up to order {} matter: the "
+        "value is a lower bound; measure at least {} points evenly about the turn",
+        found.held, kOrdersOfLobes, 2 * kOrdersOfLobes + 1);
+  }
+  const auto& tolerance_mm = characteristic.tolerance_mm;
+  if (!tolerance_mm || *found.loss_mm <= kLossShare * *tolerance_mm) return std::nullopt;
+  return core::phrase(
+      "between points {:.1f} deg apart up to {} um may be missing, more than a tenth of the "
+      "tolerance of {} um: the value is a lower bound; measure more points",
+      found.gap_rad / kDegree, um(*found.loss_mm), um(*tolerance_mm));
+}
+
+bool has_signed_limits(const record::Characteristic& characteristic) {
+  return characteristic.lower_mm.has_value();
+}
+
+std::optional<double> radius_tolerance_mm(const record::Characteristic& characteristic) {
+  const std::optional<double>& upper_mm = characteristic.tolerance_mm;
+  if (!upper_mm || !characteristic.lower_mm) return upper_mm;
+  return 0.5 * (*upper_mm - *characteristic.lower_mm);
+}
+
+std::optional<core::Phrase> form_moves_radius(const fit::WheelMeasurement& wheel,
+                                              const std::optional<double>& tolerance_mm) {
+  const double form_mm = wheel.form_in_radius_mm();
+  if (!tolerance_mm || form_mm <= kFormShare * *tolerance_mm) return std::nullopt;
+  return core::phrase(
+      "neighbouring residuals are alike (tau {:.2f}): form may move R by {} um to each side, more "
+      "than a quarter of the tolerance of {} um; measure more of the circle",
+      wheel.correlation, um(form_mm), um(*tolerance_mm));
+}
+
+std::vector<Gate> gates_of(const WheelResult& result,
+                           std::span<const record::Characteristic> characteristics) {
+  const fit::WheelMeasurement& m = result.evaluation.wheel;
+  std::vector<Gate> out = {gap_gate(m)};
+  for (const record::Characteristic& asked : characteristics) {
+    const bool runout = asked.form == record::Form::kRunOut && m.runout;
+    if (runout || asked.form == record::Form::kRoundness) out.push_back(loss_gate(result, asked));
+  }
+  for (Gate& one : quadruple_gates(result)) out.push_back(std::move(one));
+  // All round, form moves the radius little, whatever the residuals are.
+  if (!m.order.closed()) out.push_back(correlation_gate(m, characteristics));
+  if (result.task.path) out.push_back(path_gate(result.evaluation));
+  return out;
+}
+
+}  // namespace rondure::evaluation

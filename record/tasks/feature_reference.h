@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "record/key_spec.h"
+
+namespace rondure::record {
+
+/// A value that a feature takes from an earlier feature of the same plan: { "feature": "ID" }.
+/// Nothing of the value itself is kept: it is computed again whenever the run is evaluated.
+struct FeatureReference {
+  std::string feature;  ///< Its id.
+};
+
+template <class Visitor>
+void describe(Visitor& v, FeatureReference& p) {
+  v.text("feature", p.feature,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Id of the feature, which stands earlier in the plan."});
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/results/gate.h"
+#include "evaluation/results/stated_value.h"
+
+namespace rondure::reports {
+
+/// "passed", "warns", "bounds", "voids": as report.json spells it.
+[[nodiscard]] const char* name_of(evaluation::Gate::Outcome outcome);
+/// The effect of an outcome on the values, in the language of the report: "some values prove
+/// nothing".
+[[nodiscard]] std::string effect_of(evaluation::Gate::Outcome outcome);
+/// Number of a gate with its unit: "0.0431 um"; "-" where it could not be computed.
+[[nodiscard]] std::string number_of(const std::optional<double>& number, const std::string& unit);
+/// "7 of 8 passed; first-harmonic: chi2 is 12.4": each that did not pass with its reason, in the
+/// language of the report.
+[[nodiscard]] std::string in_words(const std::vector<evaluation::Gate>& gates);
+
+/// Whether only the upper end of the interval of a value is stated.
+[[nodiscard]] bool is_at_most(const evaluation::StatedValue& value);
+/// The one number of a value: that upper end, where only it is stated, else the quoted value [mm].
+[[nodiscard]] double shown_mm(const evaluation::StatedValue& value);
+
+}  // namespace rondure::reports

@@ -1,0 +1,712 @@
+// Calibration of the fixture: uncertainty of the six errors, residual at combined poses, gates.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "evaluation/analysis_result.h"
+#include "evaluation/evaluate.h"
+#include "evaluation/internal/fixture_use.h"
+#include "evaluation/rotary/internal/axis_extreme.h"
+#include "evaluation/rotary/internal/combined_field.h"
+#include "evaluation/rotary/internal/gates.h"
+#include "evaluation/rotary/result.h"
+#include "fit/rotary/reading.h"
+#include "fixture/calibration.h"
+#include "fixture/drawn_motion.h"
+#include "fixture/simulated.h"
+#include "record/tasks/rotary_axes.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
+#include "reports/formats/exports.h"
+#include "tests/fit/rotary_cases.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::kDegree;
+using core::kMicrometre;
+using core::kMicroradian;
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+constexpr double kPlateBallRadius_mm = 5.0;
+constexpr double kTip_mm = 2.0;
+constexpr double kStep_deg = 15.0;
+
+/// How a simulated calibration is made.
+struct Bench {
+  double noise_mm = 0.35e-3;     ///< Of a touch.
+  double setting_rad = 0.0;      ///< Standard deviation of a reading from its command.
+  double reading_rad = 0.0;      ///< Standard deviation of the truth from the reading.
+  double resolution_deg = 0.05;  ///< As the driver states it.
+  double setting_uncertainty_deg = 0.0;
+  double temperature_degC = 20.1;
+  std::optional<record::RotaryInfluencesTask> declared;
+  /// Changes a visit after it was simulated, the touches following it.
+  std::function<void(core::Pose& reached, int visit)> disturb;
+  std::uint64_t seed = 1;
+};
+
+fixture::SimulatedFixtureOptions fixture_options() {
+  fixture::SimulatedFixtureOptions out;
+  out.kinematics.axis_point_W_mm = {0.0, 0.0, 150.0};
+  out.kinematics.axis_offset_mm = {0.4, -0.3, 12.0};
+  out.limits = {-1.6, 1.6, -1.6, 1.6, 0.0};
+  const fixture::MotionClass size{25e-3, 120e-6, 3e-3, 15e-6, 1};
+  out.errors.alpha_motion = fixture::drawn_motion(size, Vector3d::UnitX(), 1);
+  out.errors.beta_motion = fixture::drawn_motion(size, Vector3d::UnitY(), 2);
+  return out;
+}
+
+std::vector<record::BallTask> five_balls() {
+  return {{"B1", {-70, 35, 20}},
+          {"B2", {-35, -70, 60}},
+          {"B3", {0, 0, 90}},
+          {"B4", {35, 70, 40}},
+          {"B5", {70, -35, 70}}};
+}
+
+std::vector<core::Pose> poses() {
+  std::vector<core::Pose> out;
+  const auto stations = [&](bool alpha) {
+    for (int k = -4; k <= 4; ++k) {
+      const double angle = k * kStep_deg * kDegree;
+      if (k != 0) out.push_back(alpha ? core::Pose{angle, 0.0} : core::Pose{0.0, angle});
+    }
+  };
+  out.push_back({});
+  stations(false);
+  out.push_back({});
+  stations(true);
+  for (const auto& [a, b] :
+       {std::pair(30.0, -45.0), std::pair(-45.0, 30.0), std::pair(50.0, 50.0),
+        std::pair(-50.0, -30.0), std::pair(20.0, 55.0), std::pair(-25.0, -55.0)}) {
+    out.push_back({a * kDegree, b * kDegree});
+  }
+  out.push_back({});
+  return out;
+}
+
+void touch(record::RunRecord& run, const Vector3d& center_mm, double radius_mm, int pose, int layer,
+           const Bench& bench, core::KeyedNoise& noise) {
+  for (int i = 0; i < 9; ++i) {
+    const double up = i == 0 ? 1.0 : i < 5 ? 0.6 : 0.05;
+    const double turn = 0.5 * std::numbers::pi * i + (i < 5 ? 0.0 : 0.7);
+    const double across = std::sqrt(1.0 - up * up);
+    const Vector3d n(across * std::cos(turn), across * std::sin(turn), up);
+    record::Touch row;
+    row.id = static_cast<std::int64_t>(run.touches.size());
+    row.pose = pose;
+    row.layer = layer;
+    row.point = i;
+    row.purpose =
+        pose < 0 ? record::Touch::Purpose::kQualification : record::Touch::Purpose::kMeasure;
+    row.tip_mm = center_mm + (radius_mm + kTip_mm + bench.noise_mm * noise.normal()) * n;
+    row.approach = -n;
+    row.temperature_degC = bench.temperature_degC;
+    run.touches.push_back(row);
+  }
+}
+
+record::RunRecord calibration_run(const Bench& bench) {
+  record::RunRecord run;
+  run.ending = "finished";
+  run.header.run_id = "calibration";
+  run.header.started_utc = "2026-11-21T10:00:00Z";
+  run.header.decision_rule = "simple-acceptance";
+  run.header.temperature_min_degC = 18.0;
+  run.header.temperature_max_degC = 22.0;
+  run.artefact = {12.5, kTip_mm, 0.1, 0.01};
+  record::RotaryTask task;
+  task.balls = five_balls();
+  task.points = 9;
+  task.uncertainty = bench.declared;
+  record::Feature feature;
+  feature.id = "fixture F-01";
+  feature.shape = record::Shape::kRotaryAxes;
+  feature.strategy = record::Strategy::kStations;
+  feature.characteristics = {
+      {"largest", record::Form::kFixtureResidual, record::Reference::kLeastSquares, 20e-3, ""},
+      {"rms", record::Form::kFixtureResidualRms, record::Reference::kLeastSquares, 10e-3, ""}};
+  const fixture::SimulatedFixtureOptions hidden = fixture_options();
+  record::FixtureSettings fixture;
+  fixture.id = "F-01";
+  for (int i = 0; i < 3; ++i) {
+    fixture.axis_point_mm[static_cast<std::size_t>(i)] = hidden.kinematics.axis_point_W_mm(i);
+    fixture.axis_offset_mm[static_cast<std::size_t>(i)] = hidden.kinematics.axis_offset_mm(i);
+  }
+  fixture.resolution_deg = bench.resolution_deg;
+  fixture.setting_uncertainty_deg = bench.setting_uncertainty_deg;
+  run.settings = record::settings_of_task(fixture, "fixture/");
+  core::KeyedNoise noise(bench.seed, {1});
+  // An error of the tip radius shifts all balls alike; it is not among the influences.
+  Bench exact = bench;
+  exact.noise_mm = 0.0;
+  touch(run, {300.0, 0.0, 100.0}, 12.5, -1, 0, exact, noise);
+  fixture::Kinematics real = hidden.kinematics;
+  real.alpha_motion = hidden.errors.alpha_motion;
+  real.beta_motion = hidden.errors.beta_motion;
+  const std::vector<core::Pose> commands = poses();
+  for (std::size_t k = 0; k < commands.size(); ++k) {
+    const int visit = static_cast<int>(k);
+    const core::Pose& commanded = commands[k];
+    // A setting beyond two standard deviations is repeated.
+    const auto set = [&] { return bench.setting_rad * std::clamp(noise.normal(), -2.0, 2.0); };
+    core::Pose reached{commanded.alpha_rad + set(), commanded.beta_rad + set()};
+    if (bench.disturb) bench.disturb(reached, visit);
+    const core::Pose truth{reached.alpha_rad + bench.reading_rad * noise.normal(),
+                           reached.beta_rad + bench.reading_rad * noise.normal()};
+    run.poses.push_back({visit, 0, commanded, reached, false, 0.0});
+    const Eigen::Isometry3d X_WB = fixture::body_to_machine(real, truth);
+    for (std::size_t b = 0; b < task.balls.size(); ++b) {
+      const Vector3d center = Vector3d::Map(task.balls[b].center_mm.data());
+      touch(run, X_WB * center, kPlateBallRadius_mm, visit, static_cast<int>(b), bench, noise);
+    }
+  }
+  feature.settings = record::settings_of_task(std::move(task));
+  run.features.push_back(std::move(feature));
+  return run;
+}
+
+const RotaryResult* result_of(const FeatureResult& feature) {
+  return feature.analysis ? std::get_if<RotaryResult>(&feature.analysis->found) : nullptr;
+}
+
+const Gate* rotary_gate(const FeatureResult& feature, std::string_view code) {
+  const auto at = std::find_if(feature.gates.begin(), feature.gates.end(),
+                               [&](const Gate& gate) { return gate.code == code; });
+  return at == feature.gates.end() ? nullptr : &*at;
+}
+
+/// Share of the errors of both axes that lie within 1.96 u of the truth.
+double share_inside(const RotaryResult& found) {
+  const fixture::SimulatedFixture hidden(fixture_options());
+  double inside = 0.0;
+  double all = 0.0;
+  for (const AxisFacts& axis : axes_of(found)) {
+    for (const fixture::AxisStation& station : axis.motion->stations()) {
+      if (std::abs(station.angle_rad) < 0.1) continue;  // zero by definition
+      const auto truth =
+          hidden.true_errors(std::string_view(axis.key) == "beta", station.angle_rad);
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        const double off = k < 3 ? station.errors.shift_mm(k) - truth.shift_mm(k)
+                                 : station.errors.tilt_rad(k - 3) - truth.tilt_rad(k - 3);
+        inside += std::abs(off) <= 1.96 * std::sqrt(station.covariance(k, k)) ? 1.0 : 0.0;
+        all += 1.0;
+      }
+    }
+  }
+  return inside / all;
+}
+
+/// The file that the run writes for others.
+std::string written(const record::RunRecord& run, const Evaluation& evaluation) {
+  for (const reports::Export& one : reports::exports()) {
+    if (one.file == std::string_view("fixture-calibration.json")) {
+      return reports::render(one, run, evaluation);
+    }
+  }
+  return {};
+}
+
+// Section 13, R-1: a rectangle of four setups, u 0.5 um, the mean of three references.
+TEST(RotaryIntervals, HoldTheReferenceAtEveryStation) {
+  const auto balls = test::hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
+  test::Probing exact;
+  exact.noisy = false;
+  const auto study = fit::identify_rotary_axis(
+      test::measured(test::kC, balls, test::circle_of(24), test::no_errors, exact));
+  ASSERT_TRUE(study) << study.error().what;
+  for (const double deg : {45.0, 225.0}) {
+    SCOPED_TRACE(deg);
+    const fit::Vector6 u = test::station_at(*study, deg).errors.sigma();
+    const std::array<double, 6> expected = {1.118e-3, 1.118e-3, 0.500e-3,
+                                            5.000e-6, 5.000e-6, 5.774e-6};
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      const double digit = k < 3 ? 0.5e-6 : 0.5e-9;
+      EXPECT_NEAR(u(k), expected[static_cast<std::size_t>(k)], 1.01 * digit) << k;
+    }
+  }
+}
+
+TEST(RotaryIntervals, HoldTheReadingOfStationAndReference) {
+  const auto balls = test::hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
+  test::Probing exact;
+  exact.noisy = false;
+  auto task = test::measured(test::kC, balls, test::circle_of(24), test::no_errors, exact);
+  const fit::Matrix6 reading = fit::turn_covariance(Vector3d::UnitZ(), Vector3d::Zero(), 3e-6);
+  for (fit::RotaryPose& station : task.stations) station.placing_covariance = reading;
+  task.reference_placing = reading / 3.0;
+  const auto study = fit::identify_rotary_axis(task);
+  ASSERT_TRUE(study) << study.error().what;
+  const fit::Vector6 u = test::station_at(*study, 45.0).errors.sigma();
+  EXPECT_NEAR(u(4), 5.000e-6, 0.5e-9);  // about another axis: unchanged
+  EXPECT_NEAR(u(5), std::sqrt(100.0 / 3.0 + 9.0 * (1.0 + 1.0 / 3.0)) * 1e-6, 0.5e-9);
+}
+
+// A turn about a line beside the origin shifts the origin.
+TEST(RotaryIntervals, AnUncertainTurnAboutALineShiftsTheOrigin) {
+  const fit::Matrix6 c = fit::turn_covariance(Vector3d::UnitX(), Vector3d(0.0, 0.0, 100.0), 10e-6);
+  const Vector3d on_the_line(7.0, 0.0, 100.0);
+  EXPECT_NEAR(fit::point_covariance_mm2(c, on_the_line).norm(), 0.0, 1e-18);
+  EXPECT_NEAR(std::sqrt(fit::point_covariance_mm2(c, Vector3d::Zero()).trace()), 1e-3, 1e-9);
+}
+
+// Section 13, F-1, and the table of 6.2.
+TEST(StationGate, IsThatOfTheSpecification) {
+  EXPECT_NEAR(fit::station_gate_rad(110.0), 2.15e-3, 0.005e-3);
+  const std::vector<std::pair<double, double>> stages = {
+      {9.091, 2.624}, {2.793, 0.806}, {4.014, 1.159}, {0.128, 0.037}};
+  for (const auto& [count, u] : stages) {
+    EXPECT_NEAR(fit::reading_u_rad(count * 1e-6, 0.0) / 1e-6, u, 0.0006) << count;
+    EXPECT_LT(count * 1e-6, fit::station_gate_rad(110.0));
+  }
+  EXPECT_NEAR(fit::drive_gate_rad(6e-6, 2e-6, 1e-3), 1e-3 + 4.0 * std::sqrt(10.0) * 1e-6, 1e-12);
+}
+
+TEST(RotaryCalibration, TakesAStageOfNineMicroradians) {
+  Bench bench;
+  bench.setting_rad = 9.09e-6;
+  bench.reading_rad = 2.62e-6;
+  bench.declared.emplace();
+  bench.declared->reading_urad =
+      record::DeclaredInfluence{4.545, record::DeclaredInfluence::Distribution::kRectangular};
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  const RotaryResult* found = result_of(feature);
+  ASSERT_NE(found, nullptr) << (feature.failure ? feature.failure->what : "");
+  EXPECT_FALSE(found->withheld) << found->withheld->english();
+  const Gate* other = rotary_gate(feature, "other-axis");
+  ASSERT_NE(other, nullptr);
+  EXPECT_EQ(other->outcome, Gate::Outcome::kPassed);
+  EXPECT_GT(*other->found, 1.0);  // urad: the former limit of every station
+  EXPECT_GE(share_inside(*found), 0.82);
+  EXPECT_LT(found->calibration.verification.rms_mm, 2e-3);
+  EXPECT_THAT(written(run, *evaluation), HasSubstr("rondure fixture calibration"));
+}
+
+// Set by hand within 0.05 deg, read within 20 urad from three spheres.
+TEST(RotaryCalibration, TakesAFixtureHeldByFriction) {
+  Bench bench;
+  bench.setting_rad = 0.05 * kDegree;
+  bench.reading_rad = 20e-6;
+  bench.setting_uncertainty_deg = 0.12;
+  bench.declared.emplace();
+  bench.declared->reading_urad = record::DeclaredInfluence{20.0};
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  const RotaryResult* found = result_of(feature);
+  ASSERT_NE(found, nullptr) << (feature.failure ? feature.failure->what : "");
+  EXPECT_FALSE(found->withheld) << found->withheld->english();
+  EXPECT_GE(share_inside(*found), 0.80);  // readings of the zero poses are common to all stations
+  // 66 um where the reading is ignored.
+  EXPECT_LT(found->calibration.verification.rms_mm, 8e-3);
+}
+
+// Touches without noise explain nothing; their digits leave a residual all the same. A residual of
+// some um that nothing explains is no such thing.
+TEST(RotaryCalibration, DigitsOfTouchesDependOnNoAngle) {
+  const auto evaluation = evaluate(calibration_run({}));
+  ASSERT_TRUE(evaluation);
+  const RotaryResult* found = result_of(evaluation->features.at(0));
+  ASSERT_NE(found, nullptr);
+  RotaryResult facts = *found;
+  ASSERT_FALSE(facts.combined.empty());
+  const auto outcome = [&](double rms_mm, double expected_mm) {
+    facts.calibration.verification.rms_mm = rms_mm;
+    facts.calibration.verification.expected_mm = expected_mm;
+    const std::vector<Gate> gates = rotary_gates(facts, {});
+    const auto at = std::ranges::find(gates, std::string("depends-on-both"), &Gate::code);
+    EXPECT_NE(at, gates.end());
+    return at == gates.end() ? Gate::Outcome::kVoids : at->outcome;
+  };
+  EXPECT_EQ(outcome(1e-10, 1e-12), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(1e-10, 0.0), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(2e-3, 0.0), Gate::Outcome::kVoids);
+  EXPECT_EQ(outcome(2e-3, 0.6e-3), Gate::Outcome::kVoids);
+  EXPECT_EQ(outcome(1e-3, 0.6e-3), Gate::Outcome::kPassed);
+}
+
+TEST(RotaryCalibration, IsVoidWhereTheOtherAxisStandsTooFarOff) {
+  Bench bench;
+  bench.setting_uncertainty_deg = 1.0;
+  bench.disturb = [](core::Pose& reached, int visit) {
+    if (visit == 3) reached.alpha_rad += 4e-3;
+  };
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const CharacteristicResult& largest = evaluation->features.at(0).characteristics.at(0);
+  EXPECT_EQ(largest.verdict, Verdict::kVoid);
+  EXPECT_THAT(largest.reason.english(), HasSubstr("the other axis read 4000 urad"));
+  EXPECT_THAT(written(run, *evaluation), Not(HasSubstr("rondure fixture calibration")));
+}
+
+TEST(RotaryCalibration, IsVoidWhereTheDriveMissedItsCommand) {
+  Bench bench;
+  bench.disturb = [](core::Pose& reached, int visit) {
+    if (visit == 12) reached.alpha_rad += 0.2 * kDegree;
+  };
+  const auto evaluation = evaluate(calibration_run(bench));
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
+  const Gate* drive = rotary_gate(feature, "drive-missed");
+  ASSERT_NE(drive, nullptr);
+  EXPECT_EQ(drive->outcome, Gate::Outcome::kVoids);
+}
+
+TEST(RotaryCalibration, IsVoidWhereTheZeroPosesDiffer) {
+  Bench bench;
+  record::RunRecord run = calibration_run(bench);
+  const int last = run.poses.back().id;
+  for (record::Touch& touch : run.touches) {
+    if (touch.pose == last) touch.tip_mm.z() += 5e-3;  // the fixture grew
+  }
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kVoid);
+  const Gate* references = rotary_gate(feature, "references");
+  ASSERT_NE(references, nullptr);
+  EXPECT_EQ(references->outcome, Gate::Outcome::kVoids);
+}
+
+// Limits of 18 to 22 degC.
+TEST(RotaryCalibration, At35DegreesConformsToNothingAndIsNotWritten) {
+  Bench bench;
+  bench.temperature_degC = 35.0;
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  for (const CharacteristicResult& one : evaluation->features.at(0).characteristics) {
+    EXPECT_EQ(one.verdict, Verdict::kVoid);
+    EXPECT_EQ(one.reason, "temperature 35.00 degC is outside 18..22 degC");
+  }
+  const std::string file = written(run, *evaluation);
+  EXPECT_THAT(file, HasSubstr("does not hold"));
+  EXPECT_FALSE(fixture::parse_calibration(file, "file"));
+}
+
+TEST(RotaryCalibration, HandsItsExpansionOn) {
+  Bench bench;
+  bench.declared.emplace();
+  bench.declared->expansion_per_K = record::DeclaredInfluence{23e-6};
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto file = fixture::parse_calibration(written(run, *evaluation), "file");
+  ASSERT_TRUE(file) << file.error().what;
+  EXPECT_EQ(file->expansion_1_K, 23e-6);
+  const Gate* growth = rotary_gate(evaluation->features.at(0), "growth");
+  ASSERT_NE(growth, nullptr);
+  EXPECT_EQ(growth->outcome, Gate::Outcome::kPassed);
+}
+
+// Section 6.4: an axis 150 mm high, 23e-6/K, 35.0 against 20.4 degC: 50.4 um.
+TEST(RotaryCalibration, UsedAtAnotherTemperatureNamesTheShiftOfTheAxes) {
+  FixtureUse use;
+  use.residual_max_mm = 1.2e-3;
+  use.temperature_degC = 35.0;
+  use.expansion_1_K = 23e-6;
+  use.axis_height_mm = 150.0;
+  FeatureResult part;
+  part.feature.strategy = record::Strategy::kStartPose;
+  part.temperatures = Temperatures{20.4, 20.4, 20.4, false};
+  part.characteristics.emplace_back();
+  part.characteristics[0].verdict = Verdict::kConforms;
+  FeatureResult merged = part;
+  merged.feature.strategy = record::Strategy::kMerged;
+  merged.merged = std::make_shared<MergedPoses>();
+  apply_calibration(use, part);
+  const Gate* gate = rotary_gate(part, "calibration-temperature");
+  ASSERT_NE(gate, nullptr);
+  EXPECT_NEAR(*gate->found, 50.4, 0.05);
+  EXPECT_EQ(gate->outcome, Gate::Outcome::kWarns);
+  EXPECT_EQ(part.characteristics[0].verdict, Verdict::kConforms);  // one pose moves as a whole
+  ASSERT_EQ(part.warnings.size(), 1U);
+  EXPECT_THAT(part.warnings[0].what, HasSubstr("50.370 um"));
+  apply_calibration(use, merged);
+  EXPECT_EQ(merged.characteristics[0].verdict, Verdict::kVoid);
+}
+
+TEST(RotaryCalibration, WithoutATemperatureIsNotWritten) {
+  record::RunRecord run = calibration_run({});
+  for (record::Touch& touch : run.touches) touch.temperature_degC.reset();
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const CharacteristicResult& largest = evaluation->features.at(0).characteristics.at(0);
+  EXPECT_EQ(largest.verdict, Verdict::kVoid);
+  EXPECT_THAT(largest.reason.english(), HasSubstr("the temperature was not measured"));
+  EXPECT_FALSE(fixture::parse_calibration(written(run, *evaluation), "file"));
+}
+
+TEST(RotaryCalibration, WithoutDeclaredInfluencesSaysWhatToDeclare) {
+  const auto evaluation = evaluate(calibration_run({}));
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  EXPECT_EQ(feature.characteristics.at(0).verdict, Verdict::kConforms);
+  const RotaryResult* found = result_of(feature);
+  ASSERT_NE(found, nullptr);
+  const auto intervals = intervals_of(*found, feature.feature.characteristics, {});
+  ASSERT_EQ(intervals.size(), 2U);
+  EXPECT_FALSE(intervals[0].result());
+  EXPECT_THAT(intervals[0].why().english(), HasSubstr("reading_urad"));
+}
+
+TEST(RotaryCalibration, StatesAnIntervalThatHoldsLessThanTheNoisyValue) {
+  Bench bench;
+  bench.declared.emplace();
+  bench.declared->reading_urad = record::DeclaredInfluence{0.0};
+  const auto evaluation = evaluate(calibration_run(bench));
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  const RotaryResult* found = result_of(feature);
+  ASSERT_NE(found, nullptr);
+  const auto intervals = intervals_of(*found, feature.feature.characteristics, {});
+  for (const UncertaintyStatus& one : intervals) {
+    ASSERT_TRUE(one.result()) << one.why().english();
+    EXPECT_LT(one.result()->sampled.low_mm, one.result()->uncorrected_mm);
+    EXPECT_GT(one.result()->sampled.high_mm, one.result()->sampled.low_mm);
+    EXPECT_GT(one.result()->noise_inflation_mm, 0.0);
+  }
+}
+
+/// Combined poses with drawn errors `scale` times as large as their covariance says.
+struct DrawnPoses {
+  std::vector<CombinedPose> poses;
+  double rms_mm = 0.0;
+  double max_mm = 0.0;
+};
+
+DrawnPoses drawn_poses(std::uint64_t seed, double scale, double noise_mm) {
+  core::KeyedNoise noise(seed, {7});
+  const auto three = [&](double size) {
+    const double x = size * noise.normal();
+    const double y = size * noise.normal();
+    const double z = size * noise.normal();
+    return Vector3d(x, y, z);
+  };
+  DrawnPoses out;
+  double squares = 0.0;
+  for (const core::Pose& at : poses()) {
+    if (at.alpha_rad == 0.0 || at.beta_rad == 0.0) continue;
+    CombinedPose pose;
+    pose.pose = at;
+    pose.covariance.diagonal() << Vector3d::Constant(0.16e-6), Vector3d::Constant(36e-12);
+    const Vector3d t = three(scale * 0.4e-3);
+    const Vector3d w = three(scale * 6e-6);
+    for (const record::BallTask& ball : five_balls()) {
+      const Vector3d p = Vector3d::Map(ball.center_mm.data());
+      const Vector3d truth = t + w.cross(p);
+      pose.at_mm.push_back(p);
+      pose.residual_mm.emplace_back(truth + three(noise_mm));
+      squares += truth.squaredNorm();
+      out.max_mm = std::max(out.max_mm, truth.norm());
+    }
+    out.poses.push_back(std::move(pose));
+  }
+  out.rms_mm = std::sqrt(squares / 30.0);
+  return out;
+}
+
+TEST(CombinedField, HoldsTheTruthFreeOfNoiseAlsoWhereErrorsAreLargerThanStated) {
+  constexpr int kCases = 200;
+  constexpr int kTrials = 400;
+  constexpr double kNoise_mm = 0.35e-3;
+  for (const double scale : {1.0, 3.0}) {
+    SCOPED_TRACE(scale);
+    int rms = 0;
+    int max = 0;
+    int above = 0;
+    for (int c = 0; c < kCases; ++c) {
+      const DrawnPoses drawn = drawn_poses(static_cast<std::uint64_t>(c), scale, kNoise_mm);
+      const CombinedField field(drawn.poses, kNoise_mm);
+      std::vector<double> of_rms;
+      std::vector<double> of_max;
+      for (int t = 0; t < kTrials; ++t) {
+        const auto one = field.draw(static_cast<std::uint64_t>(c), t);
+        of_rms.push_back(one.rms_mm);
+        of_max.push_back(one.max_mm);
+      }
+      const auto holds = [&](std::vector<double>& values, double truth) {
+        std::sort(values.begin(), values.end());
+        return truth >= values[kTrials / 40] && truth <= values[kTrials - 1 - kTrials / 40];
+      };
+      rms += holds(of_rms, drawn.rms_mm) ? 1 : 0;
+      max += holds(of_max, drawn.max_mm) ? 1 : 0;
+      above += field.scale_at(0.025) > 1.0 ? 1 : 0;
+    }
+    // 94 to 95 % in 1000 cases; below: the scatter of 200 cases.
+    EXPECT_GE(rms, 0.86 * kCases);
+    EXPECT_GE(max, 0.86 * kCases);
+    if (scale == 1.0) {
+      EXPECT_LE(above, 0.09 * kCases);
+    } else {
+      EXPECT_EQ(above, kCases);
+    }
+  }
+}
+
+/// One error of an axis, in limits with a sign.
+record::Characteristic axis_error_of(record::Indication::Axis axis,
+                                     record::Indication::AxisError error, double lower_mm,
+                                     double upper_mm) {
+  record::Characteristic out;
+  out.id = "c";
+  out.form = record::Form::kAxisError;
+  out.lower_mm = lower_mm;
+  out.tolerance_mm = upper_mm;
+  out.indication.axis = axis;
+  out.indication.error = error;
+  return out;
+}
+
+TEST(AxisError, TheStationFarthestFromTheMiddleDecides) {
+  const std::vector<double> errors = {-3.0, 2.0, 1.0};
+  const AxisExtreme about_0 = axis_extreme(errors, 0.0);
+  EXPECT_EQ(about_0.station, 0U);
+  EXPECT_EQ(about_0.from_middle_mm, 3.0);
+  EXPECT_FALSE(about_0.above);
+  const AxisExtreme about_minus_2 = axis_extreme(errors, -2.0);
+  EXPECT_EQ(about_minus_2.station, 1U);
+  EXPECT_EQ(about_minus_2.from_middle_mm, 4.0);
+  EXPECT_TRUE(about_minus_2.above);
+}
+
+TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
+  using AxisIndication = record::Indication;
+  Bench bench;
+  bench.declared.emplace();
+  record::RunRecord run = calibration_run(bench);
+  auto& asked = run.features[0].characteristics;
+  asked.clear();
+  for (const auto axis : {AxisIndication::Axis::kAlpha, AxisIndication::Axis::kBeta}) {
+    for (const auto error :
+         {AxisIndication::AxisError::kX, AxisIndication::AxisError::kY, AxisIndication::AxisError::kZ}) {
+      asked.push_back(axis_error_of(axis, error, -1.0, 1.0));
+    }
+  }
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const FeatureResult& feature = evaluation->features.at(0);
+  ASSERT_NE(result_of(feature), nullptr) << (feature.failure ? feature.failure->what : "");
+  const fixture::SimulatedFixture hidden(fixture_options());
+  for (std::size_t c = 0; c < 6; ++c) {
+    SCOPED_TRACE(c);
+    const CharacteristicResult& one = feature.characteristics.at(c);
+    double truth_mm = 0.0;
+    for (int k = -4; k <= 4; ++k) {
+      const auto errors = hidden.true_errors(c >= 3, k * kStep_deg * kDegree);
+      truth_mm = std::max(truth_mm, std::abs(errors.shift_mm(static_cast<Eigen::Index>(c % 3))));
+    }
+    ASSERT_TRUE(one.value && one.value->statement() != nullptr) << one.reason;
+    const UncertaintyStatement& said = *one.value->statement();
+    const double u_mm = 0.5 * (said.high_mm - said.low_mm);
+    EXPECT_GT(u_mm, 0.0);
+    EXPECT_NEAR(std::abs(said.estimate_mm), truth_mm, 3.0 * u_mm);
+    EXPECT_NEAR(std::abs(*one.value_mm()), truth_mm, 3.0 * u_mm);
+  }
+}
+
+TEST(AxisError, TheSignOfTheErrorCounts) {
+  using AxisIndication = record::Indication;
+  Bench bench;
+  bench.declared.emplace();
+  record::RunRecord run = calibration_run(bench);
+  run.header.decision_rule = "iso-14253-1";
+  const auto judged = [&](double lower_mm, double upper_mm) {
+    run.features[0].characteristics = {
+        axis_error_of(AxisIndication::Axis::kAlpha, AxisIndication::AxisError::kY, lower_mm, upper_mm)};
+    const auto evaluation = evaluate(run);
+    EXPECT_TRUE(evaluation);
+    return evaluation->features.at(0).characteristics.at(0);
+  };
+  const CharacteristicResult within = judged(-1.0, 1.0);
+  EXPECT_EQ(within.verdict, Verdict::kConforms) << within.reason;
+  const double found_mm = within.value_mm().value();
+  const double size_mm = std::abs(found_mm);
+  EXPECT_EQ(judged(-2.0 * size_mm, 2.0 * size_mm).verdict, Verdict::kConforms);
+  const CharacteristicResult beyond = found_mm > 0.0 ? judged(-2.0 * size_mm, 0.5 * size_mm)
+                                                     : judged(-0.5 * size_mm, 2.0 * size_mm);
+  EXPECT_EQ(beyond.verdict, Verdict::kDoesNotConform) << beyond.reason;
+  EXPECT_EQ(beyond.value_mm().value(), found_mm);
+}
+
+/// A result of one axis with 24 stations, whose errors carry noise of standard deviation u.
+RotaryResult of_stations(const std::function<double(double)>& error_mm, double u_mm,
+                         std::uint64_t seed) {
+  core::KeyedNoise noise(seed, {77});
+  std::vector<fixture::AxisStation> stations;
+  for (int k = 0; k < 24; ++k) {
+    fixture::AxisStation station;
+    station.angle_rad = (k * kStep_deg - 172.5) * kDegree;
+    station.errors.shift_mm.x() = error_mm(station.angle_rad) + u_mm * noise.normal();
+    station.covariance(0, 0) = u_mm * u_mm;
+    stations.push_back(station);
+  }
+  auto motion = fixture::StationMotion::through(std::move(stations));
+  EXPECT_TRUE(motion);
+  RotaryResult out;
+  out.calibration.alpha = *motion;
+  out.declared.emplace();
+  return out;
+}
+
+// Section 3.2: the largest of 24 stations without an error reads 2.24 u, and is turned.
+TEST(AxisError, ErrorsOfNoiseAloneAreTurned) {
+  constexpr double kU_mm = 0.3e-3;
+  constexpr int kRuns = 20;
+  record::Characteristic asked =
+      axis_error_of(record::Indication::Axis::kAlpha, record::Indication::AxisError::kX, 0.0, 5e-3);
+  asked.lower_mm.reset();
+  double measured = 0.0;
+  double estimate = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const RotaryResult found =
+        of_stations([](double) { return 0.0; }, kU_mm, static_cast<std::uint64_t>(run));
+    const auto value = value_of(found, asked);
+    ASSERT_TRUE(value);
+    measured += value->value_mm / kU_mm / kRuns;
+    const auto intervals = intervals_of(found, std::vector{asked}, {});
+    ASSERT_EQ(intervals.size(), 1U);
+    const UncertaintyStatement* said = intervals[0].about(Measurand::kSampledPoints);
+    ASSERT_NE(said, nullptr) << intervals[0].why();
+    estimate += said->estimate_mm / kU_mm / kRuns;
+  }
+  EXPECT_NEAR(measured, 2.24, 0.35);
+  EXPECT_LT(estimate, 0.8 * measured);
+}
+
+TEST(AxisError, IntervalsHoldTheLargestError) {
+  constexpr double kU_mm = 0.3e-3;
+  constexpr int kRuns = 60;
+  const record::Characteristic asked = axis_error_of(
+      record::Indication::Axis::kAlpha, record::Indication::AxisError::kX, -20e-3, 20e-3);
+  const auto error = [](double rad) { return -10e-3 * std::cos(rad - 37.5 * kDegree); };
+  int inside = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    // -12 um at 37.5 deg, 8 um at -142.5 deg.
+    const RotaryResult found = of_stations([&](double rad) { return error(rad) - 2e-3; }, kU_mm,
+                                           static_cast<std::uint64_t>(run));
+    const auto intervals = intervals_of(found, std::vector{asked}, {});
+    const UncertaintyStatement* said = intervals.at(0).about(Measurand::kSampledPoints);
+    ASSERT_NE(said, nullptr) << intervals[0].why();
+    EXPECT_LT(said->high_mm, 0.0);
+    if (said->low_mm <= -12e-3 && said->high_mm >= -12e-3) ++inside;
+  }
+  EXPECT_GE(inside, 50);  // of 95 %: fewer once in 10 000
+}
+
+}  // namespace
+}  // namespace rondure::evaluation

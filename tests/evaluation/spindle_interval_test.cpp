@@ -1,0 +1,570 @@
+// Three probes: the first harmonic as an observation, gates and intervals. The worked cases S-1,
+// S-2 and S-4 of the method, analyses_uncertainty 13.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "evaluation/evaluate.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/spindle/result.h"
+#include "fit/spindle/first_harmonic.h"
+#include "fit/spindle/separation_model.h"
+#include "record/run_record.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/spindle.h"
+#include "tests/fit/three_probe_cases.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::kDegree;
+using core::kMicrometre;
+using ::testing::HasSubstr;
+
+const fit::SwingArm kArm = {49.0, 299.88, 24.56};
+
+/// What is wrong with the probes of a simulated measurement.
+struct World {
+  fit::ProbeLayout layout = fit::published_layout_a();
+  std::array<double, 3> gain = {0.0, 0.0, 0.0};
+  std::array<double, 3> angle_deg = {0.0, 0.0, 0.0};
+  std::array<double, 3> zero_um = {1.2, -0.7, 0.4};
+  double eccentricity_um = 6.0;
+  double noise_um = 0.0;
+  int turns = 1;
+  int samples = 1024;
+  std::uint64_t seed = 2;
+};
+
+double x_um(double a) {
+  return 0.7 * std::cos(2 * a + 1) + 0.4 * std::cos(5 * a - 0.5) + 0.3 * std::sin(9 * a);
+}
+double y_um(double a) {
+  return 0.9 * std::cos(3 * a) + 0.5 * std::sin(4 * a + 0.7) + 0.25 * std::cos(13 * a);
+}
+
+/// The exact distance along the line of probe i.
+double exact_um(const World& world, std::size_t i, double alpha) {
+  const fit::SpindleCase part;
+  const double beta = kArm.beta_rad(alpha);
+  const double place = world.layout.angles_rad()[i] + world.angle_deg[i] * kDegree;
+  const double direction = place + beta;
+  const double along = y_um(alpha) * std::cos(direction) + x_um(alpha) * std::sin(direction);
+  const double across = x_um(alpha) * std::cos(direction) - y_um(alpha) * std::sin(direction);
+  const auto profile = [&](double theta) {
+    return fit::sum_of(part.profile, theta) +
+           world.eccentricity_um * std::cos(theta - 35.0 * kDegree);
+  };
+  const double radius_um = kArm.pin_radius_mm / kMicrometre;
+  double reading = profile(alpha + beta + place) + along;
+  for (int pass = 0; pass < 5; ++pass) {
+    const double shift = std::atan2(across, radius_um + reading - along);
+    const double rho = radius_um + profile(alpha + beta + place - shift);
+    reading = along + std::sqrt(rho * rho - across * across) - radius_um;
+  }
+  return reading * (1.0 + world.gain[i]) + world.zero_um[i];
+}
+
+fit::ProbeReadings readings_of(const World& world) {
+  fit::ProbeReadings out;
+  core::KeyedNoise noise(world.seed, {1});
+  for (int m = 0; m < world.turns * world.samples; ++m) {
+    const double alpha = core::kTwoPi * m / world.samples;
+    out.alpha_rad.push_back(alpha);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double drawn = world.noise_um > 0.0 ? world.noise_um * noise.normal() : 0.0;
+      out.h_mm[i].push_back((exact_um(world, i, alpha) + drawn) * kMicrometre);
+    }
+  }
+  return out;
+}
+
+fit::ThreeProbeResult separation_of(const World& world, double stated_noise_um) {
+  fit::ThreeProbeOptions options;
+  options.samples = 512;
+  options.noise_mm = stated_noise_um * kMicrometre;
+  options.second_order = fit::ThreeProbeOptions::SecondOrder::kOff;
+  return fit::separate_three_probe(readings_of(world), kArm, world.layout, options).value();
+}
+
+fit::ProbeErrorCovariance prior_of(double gain, double angle_deg) {
+  fit::ProbeErrorCovariance out = fit::ProbeErrorCovariance::Zero();
+  for (int i = 0; i < 3; ++i) {
+    out(fit::kFirstGain + i, fit::kFirstGain + i) = gain * gain;
+    out(fit::kFirstAngle + i, fit::kFirstAngle + i) = std::pow(angle_deg * kDegree, 2.0);
+  }
+  return out;
+}
+
+/// RONt about LSCI at 50 UPR, RONq, and synchronous motion [um].
+struct SpindleFound {
+  double ront_um = 0.0;
+  double ronq_um = 0.0;
+  double sync_um = 0.0;
+};
+
+SpindleFound found_at(const fit::SeparationModel& model, const fit::ProbeErrors& q) {
+  fit::SpindleCurves curves = model.at(q);
+  for (int k = 2; k <= 50; ++k)
+    curves.profile_mm.segment(2 * (k - 2), 2) *= std::exp2(-std::pow(k / 50.0, 2.0));
+  const Eigen::VectorXd r = model.profile_waves() * curves.profile_mm;
+  const Eigen::VectorXd x = model.motion_waves() * curves.x_mm;
+  const Eigen::VectorXd y = model.motion_waves() * curves.y_mm;
+  return {(r.maxCoeff() - r.minCoeff()) / kMicrometre,
+          std::sqrt(0.5) * curves.profile_mm.norm() / kMicrometre,
+          std::max(x.maxCoeff() - x.minCoeff(), y.maxCoeff() - y.minCoeff()) / kMicrometre};
+}
+
+TEST(FirstHarmonic, HasTheReadingsOfTheWorkedCase) {
+  World world;
+  world.gain = {0.0, 0.01, 0.0};
+  const auto readings = readings_of(world);
+  const std::array<std::array<double, 3>, 2> rows = {
+      {{13.227232, 3.045276, -8.133098}, {13.263853, 3.069827, -8.317672}}};
+  for (std::size_t m = 0; m < 2; ++m) {
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(readings.h_mm[i][m] / kMicrometre, rows[m][i], 1e-6) << m << " " << i;
+  }
+}
+
+// S-1: one gain 1 % off, one angle 0.5 deg off, layout A.
+TEST(FirstHarmonic, TellsAWrongGainAndAWrongAngleByTheEccentricity) {
+  World gain;
+  gain.gain = {0.0, 0.01, 0.0};
+  const auto wrong_gain = separation_of(gain, 1e-4);
+  EXPECT_NEAR(wrong_gain.first_harmonic_mm / kMicrometre, 0.04306, 2e-5);
+  const auto chi2 = [](const fit::ThreeProbeResult& result, double u_gain, double u_angle_deg) {
+    return fit::observe_first_harmonic(result, prior_of(u_gain, u_angle_deg)).chi2;
+  };
+  EXPECT_NEAR(chi2(wrong_gain, 0.005, 0.25), 1.98, 0.02);
+  EXPECT_NEAR(chi2(wrong_gain, 0.002, 0.02), 12.4, 0.1);
+  EXPECT_NEAR(chi2(wrong_gain, 0.001, 0.01), 49.5, 0.3);
+  World angle;
+  angle.angle_deg = {0.0, 0.5, 0.0};
+  const auto wrong_angle = separation_of(angle, 1e-4);
+  EXPECT_NEAR(chi2(wrong_angle, 0.005, 0.25), 2.01, 0.02);
+  EXPECT_NEAR(chi2(wrong_angle, 0.002, 0.02), 311.0, 2.0);
+
+  const auto model = fit::SeparationModel::of(wrong_gain);
+  ASSERT_TRUE(model);
+  const SpindleFound as_measured = found_at(*model, fit::ProbeErrors::Zero());
+  EXPECT_NEAR(as_measured.ront_um, 12.310, 0.006);
+  EXPECT_NEAR(as_measured.ronq_um, 2.7101, 0.001);
+  EXPECT_NEAR(as_measured.sync_um, 3.716, 0.006);  // printed 3.719 over work, 3.714 over the part
+  const auto seen = fit::observe_first_harmonic(wrong_gain, prior_of(0.005, 0.25));
+  EXPECT_NEAR(seen.mean[fit::kFirstGain + 1], 0.00497, 5e-5);
+  EXPECT_NEAR(seen.mean[fit::kFirstGain + 2], -0.00497, 5e-5);
+  const SpindleFound estimate = found_at(*model, seen.mean);
+  EXPECT_NEAR(estimate.ront_um, 12.349, 0.006);
+  EXPECT_NEAR(estimate.ronq_um, 2.691, 0.001);
+  EXPECT_NEAR(estimate.sync_um, 2.927, 0.008);
+  const auto other = fit::SeparationModel::of(wrong_angle);
+  ASSERT_TRUE(other);
+  const SpindleFound corrected =
+      found_at(*other, fit::observe_first_harmonic(wrong_angle, prior_of(0.005, 0.25)).mean);
+  EXPECT_NEAR(corrected.ront_um, 12.309, 0.008);
+  EXPECT_NEAR(corrected.ronq_um, 2.683, 0.001);
+  EXPECT_NEAR(corrected.sync_um, 3.038, 0.008);
+}
+
+TEST(FirstHarmonic, IsBlindWithoutEccentricity) {
+  World world;
+  world.gain = {0.0, 0.01, 0.0};
+  world.noise_um = 0.02;
+  world.turns = 4;
+  const auto prior = prior_of(0.002, 0.02);
+  EXPECT_FALSE(fit::observe_first_harmonic(separation_of(world, 0.02), prior).blind());
+  world.eccentricity_um = 0.0;
+  EXPECT_TRUE(fit::observe_first_harmonic(separation_of(world, 0.02), prior).blind());
+}
+
+// The trials replace whole separations by this model.
+TEST(SeparationModel, AgreesWithAWholeSeparationOfCorrectedProbes) {
+  World world;
+  world.layout = fit::reference_layout();
+  const auto result = separation_of(world, 1e-4);
+  const auto model = fit::SeparationModel::of(result);
+  ASSERT_TRUE(model);
+  fit::ProbeErrors q = fit::ProbeErrors::Zero();
+  q.head<6>() << 0.002, -0.003, 0.004, 0.0, 0.001, -0.0015;
+  auto readings = readings_of(world);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (double& h : readings.h_mm[i]) h /= 1.0 + q[static_cast<int>(i)];
+  }
+  const auto layout = fit::ProbeLayout::of(
+      world.layout.phi2_rad() + q[fit::kFirstAngle + 1],
+      world.layout.phi3_rad() + q[fit::kFirstAngle + 2] - q[fit::kFirstAngle + 1]);
+  ASSERT_TRUE(layout);
+  fit::ThreeProbeOptions options;
+  options.samples = 512;
+  options.noise_mm = 1e-7;
+  options.second_order = fit::ThreeProbeOptions::SecondOrder::kOff;
+  const auto whole = fit::separate_three_probe(readings, kArm, *layout, options);
+  ASSERT_TRUE(whole);
+  const fit::SpindleCurves curves = model->at(q);
+  for (const fit::RecoveredHarmonic& h : whole->harmonics) {
+    EXPECT_NEAR(curves.profile_mm.segment(2 * (h.order - 2), 2).norm(), h.amplitude_mm, 1e-11)
+        << h.order;
+  }
+  const Eigen::VectorXd x = model->over_work(whole->mean_motion.x_mm);
+  const Eigen::VectorXd y = model->over_work(whole->mean_motion.y_mm);
+  EXPECT_LT((curves.x_mm - x.tail(curves.x_mm.size())).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_LT((curves.y_mm - y.tail(curves.y_mm.size())).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+// Trials move the curves along their slopes: 5 standard uncertainties stay within 5 % of the
+// change.
+TEST(SeparationModel, IsLinearInTheErrorsOfTheProbes) {
+  for (const fit::ProbeLayout& layout : {fit::published_layout_a(), fit::reference_layout()}) {
+    World world;
+    world.layout = layout;
+    const auto model = fit::SeparationModel::of(separation_of(world, 1e-4));
+    ASSERT_TRUE(model);
+    const fit::SpindleCurves base = model->at(fit::ProbeErrors::Zero());
+    for (int i = 0; i < 6; ++i) {
+      SCOPED_TRACE(i);
+      const double u = i < 3 ? 0.002 : 0.02 * kDegree;
+      const fit::ProbeErrors unit = fit::ProbeErrors::Unit(i);
+      const Eigen::VectorXd slope =
+          (model->at(u * unit).profile_mm - model->at(-u * unit).profile_mm) / (2.0 * u);
+      const Eigen::VectorXd change = model->at(2.0 * u * unit).profile_mm - base.profile_mm;
+      EXPECT_LT((change - 2.0 * u * slope).norm(), 0.05 * change.norm());
+    }
+  }
+}
+
+// S-2: change of the value as measured for +1 u of gain 0.2 %, angle 0.02 deg. The printed table
+// has no column of P1's angle, which is the largest of layout B.
+TEST(SeparationModel, HasTheBudgetOfTheWorkedCase) {
+  struct Row {
+    fit::ProbeLayout layout;
+    std::array<double, 6> ront_um;  ///< Gains of P1..P3, angles of P1..P3.
+    std::array<double, 6> sync_um;
+  };
+  const std::vector<Row> rows = {{fit::published_layout_a(),
+                                  {0.003, -0.002, 0.024, 0.000, -0.078, 0.078},
+                                  {0.022, 0.108, -0.113, 0.000, 0.025, -0.022}},
+                                 {fit::published_layout_b(),
+                                  {0.018, 0.009, -0.003, -0.046, 0.001, 0.045},
+                                  {0.015, -0.014, 0.005, 0.017, -0.007, -0.012}}};
+  for (const Row& row : rows) {
+    World world;
+    world.layout = row.layout;
+    const auto model = fit::SeparationModel::of(separation_of(world, 1e-4));
+    ASSERT_TRUE(model);
+    for (int i = 0; i < 6; ++i) {
+      SCOPED_TRACE(i);
+      const double u = i < 3 ? 0.002 : 0.02 * kDegree;
+      const SpindleFound up = found_at(*model, -u * fit::ProbeErrors::Unit(i));
+      const SpindleFound down = found_at(*model, u * fit::ProbeErrors::Unit(i));
+      EXPECT_NEAR(0.5 * (up.ront_um - down.ront_um), row.ront_um[static_cast<std::size_t>(i)],
+                  0.004);
+      EXPECT_NEAR(0.5 * (up.sync_um - down.sync_um), row.sync_um[static_cast<std::size_t>(i)],
+                  0.008);
+    }
+  }
+}
+
+record::DeclaredInfluence declared_probe(double value) { return {.value = value}; }
+
+record::Characteristic asked(const std::string& id, record::Form form,
+                             std::optional<double> tolerance_um) {
+  record::Characteristic out;
+  out.id = id;
+  out.form = form;
+  out.reference = record::Reference::kLeastSquares;
+  if (tolerance_um) out.tolerance_mm = *tolerance_um * kMicrometre;
+  return out;
+}
+
+/// A finished run of one spindle that asks for everything with wide limits.
+record::RunRecord run_of(const World& world,
+                         std::optional<record::SpindleInfluencesTask> influences,
+                         const std::function<void(fit::ProbeReadings&)>& spoil = nullptr) {
+  record::SpindleTask task;
+  const auto angles = world.layout.angles_rad();
+  task.p1_to_p2_deg = angles[1] / kDegree;
+  task.p1_to_p3_deg = angles[2] / kDegree;
+  task.crank_radius_mm = kArm.crank_radius_mm;
+  task.wheel_radius_mm = kArm.wheel_radius_mm;
+  task.pin_radius_mm = kArm.pin_radius_mm;
+  task.samples = 512;
+  task.second_order = record::SpindleTask::SecondOrder::kOff;
+  if (world.noise_um > 0.0) task.probe_noise_um = world.noise_um;
+  task.uncertainty = influences;
+  record::RunRecord run;
+  run.header.run_id = "spindle";
+  run.ending = "finished";
+  record::Feature feature;
+  feature.id = "pin";
+  feature.shape = record::Shape::kSpindle;
+  feature.strategy = record::Strategy::kSeries;
+  feature.settings = record::settings_of_task(task);
+  feature.characteristics = {asked("RONt", record::Form::kRoundness, 100.0),
+                             asked("RONq", record::Form::kRoundnessRms, 100.0),
+                             asked("sync", record::Form::kMotionSynchronous, 100.0)};
+  run.features = {feature};
+  fit::ProbeReadings readings = readings_of(world);
+  if (spoil) spoil(readings);
+  record::Series data;
+  data.columns = {{"alpha_deg", "deg"}, {"H1_um", "um"}, {"H2_um", "um"}, {"H3_um", "um"}};
+  for (std::size_t m = 0; m < readings.alpha_rad.size(); ++m) {
+    data.values.push_back(readings.alpha_rad[m] / kDegree);
+    for (const auto& h : readings.h_mm) data.values.push_back(h[m] / kMicrometre);
+  }
+  run.series = {data};
+  return run;
+}
+
+FeatureResult result_of(const record::RunRecord& run) {
+  const auto found = evaluate(run);
+  EXPECT_TRUE(found) << (found ? "" : found.error().what);
+  return found->features.at(0);
+}
+
+const Gate& gate(const FeatureResult& result, const std::string& code) {
+  const auto found = std::find_if(result.gates.begin(), result.gates.end(),
+                                  [&](const Gate& one) { return one.code == code; });
+  EXPECT_NE(found, result.gates.end()) << code;
+  return *found;
+}
+
+record::SpindleInfluencesTask probes(double gain, double angle_deg) {
+  record::SpindleInfluencesTask out;
+  out.gain_1 = declared_probe(gain);
+  out.angle_deg = declared_probe(angle_deg);
+  return out;
+}
+
+/// Four turns of 1024 readings of the reference layout, s = 0.02 um, P2's gain 1 % off.
+World readings_of_a_wrong_gain() {
+  World world;
+  world.layout = fit::reference_layout();
+  world.gain = {0.0, 0.01, 0.0};
+  world.noise_um = 0.02;
+  world.turns = 4;
+  return world;
+}
+
+TEST(SpindleGates, VoidAGainThatContradictsItsCertificate) {
+  for (const char* rule : {"simple-acceptance", "iso-14253-1"}) {
+    SCOPED_TRACE(rule);
+    auto run = run_of(readings_of_a_wrong_gain(), probes(0.002, 0.02));
+    run.header.decision_rule = rule;
+    const FeatureResult result = result_of(run);
+    EXPECT_EQ(gate(result, "first-harmonic").outcome, Gate::Outcome::kVoids);
+    ASSERT_EQ(result.characteristics.size(), 3U);
+    for (const CharacteristicResult& one : result.characteristics) {
+      EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+      EXPECT_THAT(one.reason.english(), HasSubstr("contradict the declared gains and angles"));
+    }
+  }
+}
+
+TEST(SpindleGates, AcceptAGainWithinItsCertificate) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.002, 0.0};
+  const FeatureResult result = result_of(run_of(world, probes(0.002, 0.02)));
+  for (const Gate& one : result.gates) {
+    EXPECT_EQ(one.outcome, Gate::Outcome::kPassed) << one.code << ": " << one.reason;
+  }
+  for (const CharacteristicResult& one : result.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kConforms) << one.reason;
+}
+
+TEST(SpindleGates, VoidAWrongGainWithoutDeclarationsWhereTheEccentricityShowsIt) {
+  const FeatureResult result = result_of(run_of(readings_of_a_wrong_gain(), std::nullopt));
+  EXPECT_EQ(gate(result, "first-harmonic").outcome, Gate::Outcome::kVoids);
+  for (const CharacteristicResult& one : result.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+}
+
+TEST(SpindleGates, VoidWhereNothingWouldShowAWrongGainThatIsNotDeclared) {
+  World world = readings_of_a_wrong_gain();
+  world.layout = fit::published_layout_a();
+  world.noise_um = 0.05;
+  world.eccentricity_um = 0.0;
+  const FeatureResult undeclared = result_of(run_of(world, std::nullopt));
+  EXPECT_EQ(gate(undeclared, "k1-blind").outcome, Gate::Outcome::kVoids);
+  EXPECT_THAT(gate(undeclared, "k1-blind").reason.english(), HasSubstr("goes unnoticed"));
+  for (const CharacteristicResult& one : undeclared.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+  const FeatureResult known = result_of(run_of(world, probes(0.002, 0.02)));
+  EXPECT_EQ(gate(known, "k1-blind").outcome, Gate::Outcome::kWarns);
+  EXPECT_THAT(gate(known, "k1-blind").reason.english(), HasSubstr("certificates alone"));
+}
+
+TEST(SpindleGates, VoidAChannelThatStandsStill) {
+  const auto stuck = [](fit::ProbeReadings& readings) {
+    std::fill_n(readings.h_mm[1].begin() + 100, 21, readings.h_mm[1][100]);
+  };
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const FeatureResult result = result_of(run_of(world, std::nullopt, stuck));
+  EXPECT_EQ(gate(result, "disconnect").outcome, Gate::Outcome::kVoids);
+  EXPECT_THAT(gate(result, "disconnect").reason.english(),
+              HasSubstr("probe 2 reads the same 21 times from row 100"));
+  for (const CharacteristicResult& one : result.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+}
+
+TEST(SpindleGates, VoidAnAcquisitionThatStandsStill) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const auto with_still = [&](std::size_t first, std::size_t rows) {
+    const auto still = [&](fit::ProbeReadings& readings) {
+      for (auto& h : readings.h_mm) {
+        std::fill_n(h.begin() + static_cast<std::ptrdiff_t>(first), rows, h[first]);
+      }
+    };
+    return result_of(run_of(world, std::nullopt, still));
+  };
+  const FeatureResult result = with_still(300, 200);
+  EXPECT_EQ(gate(result, "disconnect").outcome, Gate::Outcome::kVoids);
+  EXPECT_THAT(gate(result, "disconnect").reason.english(), HasSubstr("no probe moves in 200"));
+  for (const auto& one : {result, with_still(0, 4096)}) {
+    for (const CharacteristicResult& c : one.characteristics) EXPECT_EQ(c.verdict, Verdict::kVoid);
+  }
+}
+
+TEST(SpindleGates, VoidRevolutionsThatDifferWhereTheNoiseIsDeclaredAsNone) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  record::SpindleInfluencesTask none = probes(0.002, 0.02);
+  none.noise_um = declared_probe(0.0);
+  EXPECT_EQ(gate(result_of(run_of(world, none)), "turns").outcome, Gate::Outcome::kVoids);
+}
+
+TEST(SpindleGates, VoidRevolutionsThatDiffer) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const FeatureResult good = result_of(run_of(world, std::nullopt));
+  EXPECT_EQ(gate(good, "turns").outcome, Gate::Outcome::kPassed) << gate(good, "turns").reason;
+  // The drive slips by two samples, 0.7 deg, in the third turn.
+  const auto slip = [](fit::ProbeReadings& readings) {
+    for (auto& h : readings.h_mm) std::rotate(h.begin() + 2048, h.begin() + 2050, h.begin() + 3072);
+  };
+  const FeatureResult bad = result_of(run_of(world, std::nullopt, slip));
+  EXPECT_EQ(gate(bad, "turns").outcome, Gate::Outcome::kVoids);
+}
+
+TEST(SpindleGates, DoNotJudgeAsynchronousMotionOfFewTurns) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  auto run = run_of(world, std::nullopt);
+  run.features[0].characteristics = {
+      asked("judged", record::Form::kMotionAsynchronous, 100.0),
+      asked("reported", record::Form::kMotionAsynchronous, std::nullopt)};
+  const FeatureResult result = result_of(run);
+  EXPECT_EQ(result.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(result.characteristics.at(0).reason.english(), HasSubstr("reported, not judged"));
+  EXPECT_NE(result.characteristics.at(1).verdict, Verdict::kVoid);
+  EXPECT_TRUE(result.characteristics.at(1).value_mm());
+}
+
+TEST(SpindleGates, VoidAHarmonicWhoseNoiseHidesItsLimit) {
+  World world = readings_of_a_wrong_gain();
+  world.layout = fit::published_layout_a();
+  world.gain = {0.0, 0.0, 0.0};
+  auto run = run_of(world, std::nullopt);
+  record::Characteristic mask = asked("mask", record::Form::kHarmonicLimits, std::nullopt);
+  // u of harmonic 5 is 19.2 x 0.02 x sqrt(2 / 4096) = 0.0085 um; of harmonic 4, 0.0003 um.
+  mask.harmonic_limits = {{5, 5, 0.030 * kMicrometre}};
+  record::Characteristic other = mask;
+  other.harmonic_limits = {{4, 4, 0.030 * kMicrometre}};
+  run.features[0].characteristics = {mask, other};
+  const FeatureResult result = result_of(run);
+  EXPECT_EQ(result.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(result.characteristics.at(0).reason.english(), HasSubstr("harmonic 5"));
+  EXPECT_EQ(result.characteristics.at(1).verdict, Verdict::kConforms)
+      << result.characteristics.at(1).reason;
+  EXPECT_EQ(gate(result, "weak-harmonic").outcome, Gate::Outcome::kVoids);
+}
+
+// S-4: interval of RONt 0.104 um wide, of RONq 0.019, of the synchronous motion 0.069.
+TEST(SpindleInterval, HoldsTheTruthOfTheWorkedCase) {
+  World world;
+  world.layout = fit::reference_layout();
+  world.gain = {0.002, -0.003, 0.004};
+  world.angle_deg = {0.03, -0.05, 0.02};
+  world.noise_um = 0.05;
+  world.turns = 4;
+  world.samples = 512;
+  const auto run = run_of(world, probes(0.003, 0.05));
+  const FeatureResult result = result_of(run);
+  const std::array<double, 3> truth_um = {12.3125, 2.6825, 2.9489};
+  const std::array<double, 3> width_um = {0.104, 0.019, 0.069};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const CharacteristicResult& one = result.characteristics.at(c);
+    SCOPED_TRACE(one.characteristic.id);
+    ASSERT_TRUE(one.value);
+    const UncertaintyStatement* stated = one.value->statement();
+    ASSERT_NE(stated, nullptr) << one.value->uncertainty().why();
+    const double width = (stated->high_mm - stated->low_mm) / kMicrometre;
+    EXPECT_NEAR(width, width_um[c], 0.4 * width_um[c]);
+    EXPECT_NEAR(stated->estimate_mm / kMicrometre, truth_um[c], width);
+    const auto& budget = one.value->uncertainty().result()->budget;
+    for (const char* name : {"probe-2-gain", "probe-3-angle", "probe-noise"}) {
+      EXPECT_TRUE(std::any_of(budget.begin(), budget.end(), [&](const BudgetLine& line) {
+        return line.name == name;
+      })) << name;
+    }
+  }
+}
+
+TEST(SpindleInterval, NeedsDeclaredGainsAndAngles) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  record::SpindleInfluencesTask only_gain;
+  only_gain.gain_1 = declared_probe(0.002);
+  const FeatureResult result = result_of(run_of(world, only_gain));
+  for (const CharacteristicResult& one : result.characteristics) {
+    ASSERT_TRUE(one.value);
+    EXPECT_EQ(one.value->statement(), nullptr);
+    EXPECT_THAT(one.value->uncertainty().why().english(), HasSubstr("angle_deg"));
+  }
+}
+
+// 0.1 mm of wheel wear turns the outer probes by 0.23 deg: RONt 10.5 um for 12.3 by layout A.
+// Without eccentricity nothing shows it.
+TEST(SpindleInterval, CoversAnArmAndNamesWhatItDoesNot) {
+  World world = readings_of_a_wrong_gain();
+  world.layout = fit::published_layout_a();
+  world.gain = {0.0, 0.0, 0.0};
+  world.eccentricity_um = 0.0;
+  auto influences = probes(0.002, 0.02);
+  const auto width = [&] {
+    const FeatureResult result = result_of(run_of(world, influences));
+    const UncertaintyStatement* stated = result.characteristics.at(0).value->statement();
+    EXPECT_NE(stated, nullptr);
+    return stated == nullptr ? 0.0 : stated->high_mm - stated->low_mm;
+  };
+  const double without = width();
+  influences.arm_mm = declared_probe(0.1);
+  influences.skew_us = declared_probe(5.0);
+  EXPECT_GT(width(), 3.0 * without);
+  const FeatureResult result = result_of(run_of(world, influences));
+  const auto& declaration = result.characteristics.at(0).value->uncertainty().result()->declaration;
+  const auto covered = [&](const std::string& name) {
+    const auto found = std::find_if(declaration.begin(), declaration.end(),
+                                    [&](const auto& one) { return one.name == name; });
+    EXPECT_NE(found, declaration.end()) << name;
+    return found != declaration.end() && found->covered;
+  };
+  EXPECT_TRUE(covered("arm"));
+  EXPECT_TRUE(covered("probe-gain"));
+  EXPECT_FALSE(covered("channel-skew"));
+  EXPECT_FALSE(covered("probe-line"));
+}
+
+}  // namespace
+}  // namespace rondure::evaluation
