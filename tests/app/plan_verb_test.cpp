@@ -128,9 +128,9 @@ TEST(PlanVerb, PredictsAnalysesFromOneSimulatedSetOfData) {
                     HasSubstr("from edge-points"),
                     HasSubstr("One set of data, simulated with the seed 7 in place of 6")));
   EXPECT_LE(longest_line(told.out), 80U);
-  const Outcome json = rondure({"plan", example("06_wheel.json"), "--json"});
-  ASSERT_EQ(json.status, 0) << json.err;
-  const auto document = nlohmann::json::parse(json.out);
+  const Outcome as_json = rondure({"plan", example("06_wheel.json"), "--json"});
+  ASSERT_EQ(as_json.status, 0) << as_json.err;
+  const auto document = nlohmann::json::parse(as_json.out);
   ASSERT_EQ(document["prediction"].size(), 3U);
   for (const auto& of : document["prediction"]) {
     SCOPED_TRACE(of["characteristic"]);
@@ -159,9 +159,9 @@ TEST(PlanVerb, PredictsTheUncertaintyOfACalibration) {
                     HasSubstr("the most that the qualification lets pass"),
                     HasSubstr("The value itself cannot be foretold: it is what the axes do")));
   EXPECT_LE(longest_line(told.out), 80U);
-  const Outcome json = rondure({"plan", folder / "plan.json", "--json"});
-  ASSERT_EQ(json.status, 0) << json.err;
-  const auto document = nlohmann::json::parse(json.out);
+  const Outcome as_json = rondure({"plan", folder / "plan.json", "--json"});
+  ASSERT_EQ(as_json.status, 0) << as_json.err;
+  const auto document = nlohmann::json::parse(as_json.out);
   ASSERT_EQ(document["prediction"].size(), 2U);
   for (const auto& of : document["prediction"]) {
     EXPECT_EQ(of["from"], "linear propagation");
@@ -177,8 +177,8 @@ TEST(PlanVerb, SaysThatNoSamplingOfAnAnalysisIsSearched) {
               AllOf(HasSubstr("No feature is touched"),
                     HasSubstr("proposes samplings of touched surfaces only, and none for wheel.")));
   EXPECT_LE(longest_line(told.out), 80U);
-  const Outcome json = rondure({"plan", example("06_wheel.json"), "--target-U", "1um", "--json"});
-  const auto document = nlohmann::json::parse(json.out);
+  const Outcome as_json = rondure({"plan", example("06_wheel.json"), "--target-U", "1um", "--json"});
+  const auto document = nlohmann::json::parse(as_json.out);
   EXPECT_EQ(document["target"]["not_searched"], nlohmann::json::array({"wheel"}));
 }
 
