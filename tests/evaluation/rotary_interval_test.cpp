@@ -587,7 +587,7 @@ TEST(AxisError, TheStationFarthestFromTheMiddleDecides) {
 TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
   using AxisIndication = record::Indication;
   Bench bench;
-  bench.declared.emplace();
+  bench.declared.emplace().ball_um = record::DeclaredInfluence{0.1};
   record::RunRecord run = calibration_run(bench);
   auto& asked = run.features[0].characteristics;
   asked.clear();
@@ -622,7 +622,7 @@ TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
 TEST(AxisError, TheSignOfTheErrorCounts) {
   using AxisIndication = record::Indication;
   Bench bench;
-  bench.declared.emplace();
+  bench.declared.emplace().ball_um = record::DeclaredInfluence{0.1};
   record::RunRecord run = calibration_run(bench);
   run.header.decision_rule = "iso-14253-1";
   const auto judged = [&](double lower_mm, double upper_mm) {

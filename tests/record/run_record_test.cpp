@@ -40,7 +40,7 @@ void read_back(std::size_t count) {
 TEST(RunRecord, ReadsEachWordBackAndNoOther) {
   read_back<Shape>(9);
   read_back<Side>(2);
-  read_back<Form>(24);
+  read_back<Form>(25);
   read_back<Reference>(4);
   read_back<Strategy>(9);
   read_back<Merge>(2);
