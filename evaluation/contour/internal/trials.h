@@ -5,8 +5,7 @@
 
 #include "evaluation/contour/result.h"
 
-// Trials of the values of a contour. A curve is drawn by its harmonics from 2 up to where the
-// filter transmits 1 %: what lies above moves no value by more than that share of the noise.
+// Trials of the values of a contour.
 
 namespace rondure::evaluation {
 
