@@ -134,10 +134,15 @@ core::Result<AnalysisValue> departure(const WheelResult& facts,
   const std::optional<double>& nominal_mm = facts.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
   AnalysisValue out;
-  const double departure_mm = m.radius_mm - *nominal_mm;
+  const double departure_mm = facts.judged_radius_mm() - *nominal_mm;
   out.value_mm = has_signed_limits(asked) ? departure_mm : std::abs(departure_mm);
-  out.detail = core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
-  if (!m.radius_void_because.empty()) {
+  out.detail = facts.expansion_1_K
+                   ? core::phrase("R {:.6f} mm at 20 degC, nominal {:g} mm",
+                                  facts.judged_radius_mm(), *nominal_mm)
+                   : core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
+  if (auto warm = not_at_20_degC(facts, asked)) {
+    out.void_because = *std::move(warm);
+  } else if (!m.radius_void_because.empty()) {
     out.void_because = m.radius_void_because;
   } else if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
     out.void_because = *std::move(reason);
@@ -274,6 +279,8 @@ core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int in
   facts.points_mm = points_of(*record.data_of(index, "data"));
   facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
   facts.declared = asked->uncertainty;
+  facts.expansion_1_K = asked->expansion_per_K;
+  if (result.temperatures) facts.above_20_K = result.temperatures->mean_degC - 20.0;
   std::optional<core::Phrase> chain;
   if (asked->axis_from) {
     chain = take_axis(asked->axis_from->feature, earlier, facts);

@@ -106,6 +106,7 @@ WheelTask full_wheel() {
   out.quadruples = WheelTask::Quadruples::kRandom;
   out.count = 5000;
   out.kappa_limit = kOdd / 7.0;
+  out.expansion_per_K = kOdd * 1e-7;
   out.robust = Switch::kOn;
   out.short_arc = WheelTask::ShortArc::kAllowed;
   GroundSurfaceTask& surface = out.surface.emplace();
