@@ -3,6 +3,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/age_gate.h"
 #include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
@@ -196,6 +197,13 @@ std::optional<core::Phrase> take_axis(const std::string& id, const EarlierWheel&
   return std::nullopt;
 }
 
+/// Takes back a path that must not be ground.
+void refuse_path(core::Phrase why, fit::WheelEvaluation& e) {
+  e.path.reset();
+  e.forecast.reset();
+  e.refused = core::Error{core::Code::kMeaning, why.english(), {}, why};
+}
+
 /// Where the tolerances of run-out make a bound of it, everything that states it says so, and no
 /// path rests on the effective radius.
 void bound_runout(std::span<const record::Characteristic> characteristics, WheelResult& facts) {
@@ -207,11 +215,8 @@ void bound_runout(std::span<const record::Characteristic> characteristics, Wheel
   }
   fit::WheelEvaluation& e = facts.evaluation;
   if (runout->bound_because.empty() || !e.path || e.radius != fit::RadiusChoice::kEffective) return;
-  e.path.reset();
-  e.forecast.reset();
-  const core::Phrase why =
-      core::phrase("the effective radius is a lower bound only: {}", runout->bound_because);
-  e.refused = core::Error{core::Code::kMeaning, why.english(), {}, why};
+  refuse_path(core::phrase("the effective radius is a lower bound only: {}", runout->bound_because),
+              e);
 }
 
 }  // namespace
@@ -291,6 +296,10 @@ core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int in
   facts.evaluation = *std::move(evaluation);
   if (chain) facts.evaluation.wheel.runout_absent = *chain;
   bound_runout(result.feature.characteristics, facts);
+  if (const auto stale = age_fault(record, result.feature); stale && facts.evaluation.path) {
+    refuse_path(core::phrase("the radius of the wheel is out of date: {}", *stale),
+                facts.evaluation);
+  }
   facts.effective_radius = effective_radius_interval(facts, uncertainty_options(record));
   for (Gate& gate : gates_of(facts, result.feature.characteristics)) {
     result.gates.push_back(std::move(gate));

@@ -9,7 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/wheel.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -87,6 +90,35 @@ TEST(AgeGate, VoidsDataOfTheFutureAndOfNoTime) {
   const FeatureResult unknown = evaluated_wheel_of(timeless);
   EXPECT_EQ(unknown.characteristics.at(0).verdict, Verdict::kVoid);
   EXPECT_THAT(unknown.characteristics.at(0).reason.english(), HasSubstr("is not known"));
+}
+
+// "Path: R_used ... older than one dressing: no G-code" (section 5.3).
+TEST(AgeGate, LeavesNoPathOfAnOldWheel) {
+  record::WheelTask task;
+  task.nominal_radius_mm = 50.0;
+  task.surface.emplace();
+  task.surface->coefficients = {0.0, 0.0, 0.5 / 80.0};
+  task.surface->from_mm = -20.0;
+  task.surface->to_mm = 20.0;
+  task.surface->step_mm = 1.0;
+  const auto has_path = [&](const std::string& measured_utc) {
+    RunRecord run = wheel_of(measured_utc, 3.0);
+    std::vector<record::Setting> settings = record::settings_of_task(task);
+    settings.insert(settings.end(), run.features[0].settings.begin() + 2,
+                    run.features[0].settings.end());
+    run.features[0].settings = settings;
+    const FeatureResult wheel = evaluated_wheel_of(run);
+    EXPECT_TRUE(wheel.analysis);
+    if (!wheel.analysis) return false;
+    const auto& found = std::get<WheelResult>(wheel.analysis->found).evaluation;
+    EXPECT_NE(found.path.has_value(), found.refused.has_value());
+    if (found.refused) {
+      EXPECT_THAT(found.refused->what, HasSubstr("out of date"));
+    }
+    return found.path.has_value();
+  };
+  EXPECT_TRUE(has_path("2026-11-21T00:00:00Z"));
+  EXPECT_FALSE(has_path("2026-11-13T12:00:00Z"));
 }
 
 TEST(AgeGate, IsNoneWhereThePlanSaysNothing) {
