@@ -11,6 +11,7 @@
 #include "evaluation/internal/conformance.h"
 #include "evaluation/results/temperature_gates.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/age_gate.h"
 #include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
@@ -57,6 +58,8 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = core::phrase("the run did not finish");
   } else if (auto fault = temperature_fault(record, result)) {
     out.reason = *std::move(fault);
+  } else if (auto stale = age_fault(record, result.feature)) {
+    out.reason = *std::move(stale);
   } else {
     apply(rule, out);
     if (value->void_because && out.verdict != Verdict::kDoesNotConform) {
@@ -174,6 +177,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
     evaluate_series(record, index, earlier, result);
   }
   std::vector<Gate> gates = temperature_gates(record, result);
+  if (auto age = age_gate(record, result.feature)) gates.push_back(*std::move(age));
   result.gates.insert(result.gates.begin(), gates.begin(), gates.end());
   return result;
 }

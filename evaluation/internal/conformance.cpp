@@ -15,6 +15,7 @@
 #include "evaluation/part/find.h"
 #include "evaluation/part/internal/families.h"
 #include "evaluation/part/internal/layout.h"
+#include "evaluation/results/age_gate.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
@@ -185,6 +186,7 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
   if (result.feature.strategy != record::Strategy::kPointsFile) {
     if (auto fault = probe_fault(record, probe)) return fault;
   }
+  if (auto stale = age_fault(record, result.feature)) return stale;
   return temperature_fault(record, result);
 }
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/units.h"
@@ -148,6 +151,12 @@ core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, in
   if (!facts) return tl::unexpected(facts.error());
   facts->feature_id = feature.id;
   facts->influences = task->uncertainty;
+  if (task->probe_range_um) facts->probe_range_mm = *task->probe_range_um * kMicrometre;
+  for (const std::vector<double>& probe : readings.h_mm) {
+    for (const double h : probe) {
+      facts->greatest_reading_mm = std::max(facts->greatest_reading_mm, std::abs(h));
+    }
+  }
   facts->no_interval_because = obstacle_of(*task);
   const auto sources =
       probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(), arm, *layout);

@@ -22,6 +22,8 @@ constexpr std::size_t kSteadyRows = 8;
 /// seen.
 constexpr double kSurelySeen = 10.0;
 constexpr double kNormal999 = 3.0902;
+/// Share of the range of a probe that counts; beyond, it may be clipped or bent.
+constexpr double kUsableRange = 0.9;
 
 /// 0.999 quantile of chi square, by Wilson and Hilferty: within 1 % from two degrees of freedom on.
 double chi2_999(double freedom) {
@@ -322,6 +324,50 @@ Gate readings_gate(const SpindleResult& facts) {
   return out;
 }
 
+/// Readings near the end of the range of a probe.
+Gate range_gate(const SpindleResult& facts) {
+  const double half_um = 0.5 * core::micrometres(*facts.probe_range_mm);
+  Gate out{.code = "range",
+           .condition = phrase("greatest reading of a probe, limit 90 % of its range to one side"),
+           .found = core::micrometres(facts.greatest_reading_mm),
+           .limit = kUsableRange * half_um,
+           .unit = "um",
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (*out.found <= *out.limit) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "a probe reads {:.4g} um, beyond 90 % of its range of {:g} um to either side (limit {:.4g} "
+      "um): set the probes to the middle of their range, centre the part, and measure again",
+      *out.found, half_um, *out.limit);
+  return out;
+}
+
+/// An oval of the readings that the part does not have: the eccentricity on bent probes. Equal
+/// probes give it the phase of a true oval, which nothing in the readings contradicts.
+Gate quadratic_gate(const SpindleResult& facts,
+                    std::span<const record::Characteristic> characteristics) {
+  Gate out{.code = "quadratic",
+           .condition = phrase("false oval by the non-linearity of the probes, limit T/20"),
+           .found = core::micrometres(*false_oval_mm(facts)),
+           .limit = {},
+           .unit = "um",
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  for (const record::Characteristic& asked : characteristics) {
+    const auto limit_mm = limit_of_oval_mm(asked);
+    if (!limit_mm || core::micrometres(kOvalShare * *limit_mm) >= out.limit.value_or(HUGE_VAL)) {
+      continue;
+    }
+    out.limit = core::micrometres(kOvalShare * *limit_mm);
+    if (auto reason = oval_reason(facts, asked)) {
+      out.outcome = Outcome::kVoids;
+      out.reason = *std::move(reason);
+    }
+  }
+  return out;
+}
+
 Gate few_turns_gate(const SpindleResult& facts) {
   const int turns = facts.separation.revolutions;
   Gate out{.code = "few-turns",
@@ -348,6 +394,8 @@ std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings
                            turns_gate(result),          weak_gate(result, characteristics),
                            suppressed_gate(result),     disconnect_gate(readings),
                            readings_gate(result)};
+  if (result.probe_range_mm) out.push_back(range_gate(result));
+  if (false_oval_mm(result)) out.push_back(quadratic_gate(result, characteristics));
   const bool asynchronous = std::any_of(
       characteristics.begin(), characteristics.end(), [](const record::Characteristic& asked) {
         return asked.form == Form::kMotionAsynchronous && asked.toleranced();
@@ -358,7 +406,7 @@ std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings
 
 bool voids_all(const Gate& gate) {
   return gate.code == "first-harmonic" || gate.code == "k1-blind" || gate.code == "turns" ||
-         gate.code == "disconnect" || gate.code == "readings";
+         gate.code == "disconnect" || gate.code == "readings" || gate.code == "range";
 }
 
 }  // namespace rondure::evaluation

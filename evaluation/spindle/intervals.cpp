@@ -567,7 +567,8 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
     }
   }
   const auto declaration =
-      probe_declaration(*result.influences, result.arm, result.separation.noise_mm);
+      probe_declaration(*result.influences, result.arm, result.separation.noise_mm,
+                        result.probe_range_mm.has_value());
   std::vector<std::vector<UncertaintyStatement>> lines(characteristics.size());
   for (Asked& one : std::views::reverse(wanted)) {  // the lines before their mask
     one.terms.push_back({"probe-noise", deviation_of(one.noise_mm)});

@@ -158,10 +158,8 @@ core::Result<AnalysisValue> motion_value(const SpindleResult& facts,
   return out;
 }
 
-}  // namespace
-
-core::Result<AnalysisValue> value_of(const SpindleResult& facts,
-                                     const record::Characteristic& asked) {
+core::Result<AnalysisValue> measured_value(const SpindleResult& facts,
+                                           const record::Characteristic& asked) {
   switch (asked.form) {
     case Form::kRoundness:
     case Form::kRoundnessRms:
@@ -175,6 +173,48 @@ core::Result<AnalysisValue> value_of(const SpindleResult& facts,
     default:
       return core::fail(Code::kMeaning, fmt::format("a spindle has no {}", name_of(asked.form)));
   }
+}
+
+}  // namespace
+
+std::optional<double> false_oval_mm(const SpindleResult& facts) {
+  if (!facts.probe_range_mm || !facts.influences || !facts.influences->quadratic_1) {
+    return std::nullopt;
+  }
+  const double q_per_mm = 4.0 * facts.influences->quadratic_1->value / *facts.probe_range_mm;
+  const double c_mm = facts.separation.eccentricity_mm;
+  return 0.5 * q_per_mm * c_mm * c_mm;
+}
+
+std::optional<double> limit_of_oval_mm(const record::Characteristic& asked) {
+  if (asked.form == Form::kMotionAsynchronous) return std::nullopt;  // the same in every revolution
+  if (asked.form != Form::kHarmonicLimits) return asked.tolerance_mm;
+  std::optional<double> out;
+  for (const record::HarmonicLimit& line : asked.harmonic_limits) {
+    if (line.first > 2 || line.last < 2) continue;
+    out = std::min(out.value_or(line.amplitude_mm), line.amplitude_mm);
+  }
+  return out;
+}
+
+std::optional<core::Phrase> oval_reason(const SpindleResult& facts,
+                                        const record::Characteristic& asked) {
+  const auto oval_mm = false_oval_mm(facts);
+  const auto limit_mm = limit_of_oval_mm(asked);
+  if (!oval_mm || !limit_mm || *oval_mm <= kOvalShare * *limit_mm) return std::nullopt;
+  return core::phrase(
+      "by the eccentricity of {:.3g} um the declared non-linearity of the probes (quadratic_1) "
+      "makes an oval of {:.3g} um that the part may not have, more than a twentieth of the limit "
+      "of {:g} um: centre the part, or use probes with less non-linearity",
+      core::micrometres(facts.separation.eccentricity_mm), core::micrometres(*oval_mm),
+      core::micrometres(*limit_mm));
+}
+
+core::Result<AnalysisValue> value_of(const SpindleResult& facts,
+                                     const record::Characteristic& asked) {
+  auto out = measured_value(facts, asked);
+  if (out && !out->void_because) out->void_because = oval_reason(facts, asked);
+  return out;
 }
 
 core::Phrase filter_text(const SpindleResult& facts) {

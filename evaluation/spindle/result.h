@@ -31,6 +31,8 @@ struct SpindleResult {
   /// By the declared errors of the probes; without gain and angle by usual ones, and then only its
   /// blindness counts.
   std::optional<fit::FirstHarmonic> first_harmonic = {};
+  std::optional<double> probe_range_mm = {};  ///< Whole range of a probe, where the plan states it.
+  double greatest_reading_mm = 0.0;           ///< Largest distance of a reading from 0.
   /// Why the settings allow no interval: a regularised recovery, the printed formula.
   std::optional<core::Phrase> no_interval_because = {};
   std::optional<core::Phrase> void_because = {};  ///< The gate that voids every value.
@@ -40,6 +42,17 @@ struct SpindleResult {
     return influences && influences->gain_1 && influences->angle_deg;
   }
 };
+
+/// What the declared non-linearity of the probes makes of the eccentricity: an oval that is not the
+/// part's, c^2 q / 2 with q = 4 quadratic_1 / range [mm]. None: range or non-linearity not stated.
+[[nodiscard]] std::optional<double> false_oval_mm(const SpindleResult& result);
+/// The limit that the false oval must not exceed by a twentieth; none where no oval enters.
+[[nodiscard]] std::optional<double> limit_of_oval_mm(const record::Characteristic& asked);
+/// Share of a limit that the false oval may take.
+constexpr double kOvalShare = 1.0 / 20.0;
+/// Why a characteristic is void by the false oval; none where it is small enough.
+[[nodiscard]] std::optional<core::Phrase> oval_reason(const SpindleResult& result,
+                                                      const record::Characteristic& asked);
 
 /// Turns from which asynchronous motion is judged: it grows with their number.
 constexpr int kLeastAsynchronousTurns = 8;

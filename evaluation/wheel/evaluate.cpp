@@ -3,6 +3,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/age_gate.h"
 #include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
@@ -134,10 +135,15 @@ core::Result<AnalysisValue> departure(const WheelResult& facts,
   const std::optional<double>& nominal_mm = facts.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
   AnalysisValue out;
-  const double departure_mm = m.radius_mm - *nominal_mm;
+  const double departure_mm = facts.judged_radius_mm() - *nominal_mm;
   out.value_mm = has_signed_limits(asked) ? departure_mm : std::abs(departure_mm);
-  out.detail = core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
-  if (!m.radius_void_because.empty()) {
+  out.detail = facts.expansion_1_K
+                   ? core::phrase("R {:.6f} mm at 20 degC, nominal {:g} mm",
+                                  facts.judged_radius_mm(), *nominal_mm)
+                   : core::phrase("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
+  if (auto warm = not_at_20_degC(facts, asked)) {
+    out.void_because = *std::move(warm);
+  } else if (!m.radius_void_because.empty()) {
     out.void_because = m.radius_void_because;
   } else if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
     out.void_because = *std::move(reason);
@@ -191,6 +197,13 @@ std::optional<core::Phrase> take_axis(const std::string& id, const EarlierWheel&
   return std::nullopt;
 }
 
+/// Takes back a path that must not be ground.
+void refuse_path(core::Phrase why, fit::WheelEvaluation& e) {
+  e.path.reset();
+  e.forecast.reset();
+  e.refused = core::Error{core::Code::kMeaning, why.english(), {}, why};
+}
+
 /// Where the tolerances of run-out make a bound of it, everything that states it says so, and no
 /// path rests on the effective radius.
 void bound_runout(std::span<const record::Characteristic> characteristics, WheelResult& facts) {
@@ -202,11 +215,8 @@ void bound_runout(std::span<const record::Characteristic> characteristics, Wheel
   }
   fit::WheelEvaluation& e = facts.evaluation;
   if (runout->bound_because.empty() || !e.path || e.radius != fit::RadiusChoice::kEffective) return;
-  e.path.reset();
-  e.forecast.reset();
-  const core::Phrase why =
-      core::phrase("the effective radius is a lower bound only: {}", runout->bound_because);
-  e.refused = core::Error{core::Code::kMeaning, why.english(), {}, why};
+  refuse_path(core::phrase("the effective radius is a lower bound only: {}", runout->bound_because),
+              e);
 }
 
 }  // namespace
@@ -274,6 +284,8 @@ core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int in
   facts.points_mm = points_of(*record.data_of(index, "data"));
   facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
   facts.declared = asked->uncertainty;
+  facts.expansion_1_K = asked->expansion_per_K;
+  if (result.temperatures) facts.above_20_K = result.temperatures->mean_degC - 20.0;
   std::optional<core::Phrase> chain;
   if (asked->axis_from) {
     chain = take_axis(asked->axis_from->feature, earlier, facts);
@@ -284,6 +296,10 @@ core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int in
   facts.evaluation = *std::move(evaluation);
   if (chain) facts.evaluation.wheel.runout_absent = *chain;
   bound_runout(result.feature.characteristics, facts);
+  if (const auto stale = age_fault(record, result.feature); stale && facts.evaluation.path) {
+    refuse_path(core::phrase("the radius of the wheel is out of date: {}", *stale),
+                facts.evaluation);
+  }
   facts.effective_radius = effective_radius_interval(facts, uncertainty_options(record));
   for (Gate& gate : gates_of(facts, result.feature.characteristics)) {
     result.gates.push_back(std::move(gate));

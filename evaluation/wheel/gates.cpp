@@ -15,7 +15,9 @@ using core::kDegree;
 using core::um;
 
 constexpr double kLossShare = 0.1;   ///< Of the tolerance; more makes a bound.
-constexpr double kFormShare = 0.25;  ///< Of the tolerance; more voids the radius of an arc.
+/// Of the tolerance; what may move a radius by more voids it: form on an arc, temperature.
+constexpr double kFormShare = 0.25;
+constexpr double kUsualExpansion_1_K = 8e-6;  ///< Of a vitrified wheel, where none is stated.
 
 using Outcome = Gate::Outcome;
 
@@ -50,6 +52,13 @@ Gate loss_gate(const WheelResult& facts, const record::Characteristic& asked) {
     out.reason = *std::move(reason);
   }
   return out;
+}
+
+/// Size of the change of the radius from 20 degC to its temperature, by the stated expansion or a
+/// usual one.
+double growth_mm(const WheelResult& facts) {
+  return facts.evaluation.wheel.radius_mm * facts.expansion_1_K.value_or(kUsualExpansion_1_K) *
+         std::abs(facts.above_20_K.value_or(0.0));
 }
 
 /// Quadruples, as fit decides on them: the first that does not pass gives its reason.
@@ -94,6 +103,23 @@ Gate correlation_gate(const fit::WheelMeasurement& m,
       out.outcome = Outcome::kVoids;
       out.reason = *std::move(reason);
     }
+  }
+  return out;
+}
+
+/// The radius against what temperature makes of it: nominal radii hold at 20 degC.
+Gate length_gate(const WheelResult& facts, const record::Characteristic& asked) {
+  const bool corrected = facts.expansion_1_K.has_value();
+  Gate out = gate("length-scale",
+                  corrected ? core::phrase("correction of the radius to 20 degC")
+                            : core::phrase("change of the radius by its temperature, limit T/4"),
+                  std::nullopt, std::nullopt, "um");
+  if (facts.above_20_K) out.found = core::micrometres(growth_mm(facts));
+  const auto tolerance_mm = radius_tolerance_mm(asked);
+  if (!corrected && tolerance_mm) out.limit = core::micrometres(kFormShare * *tolerance_mm);
+  if (auto reason = not_at_20_degC(facts, asked)) {
+    out.outcome = Outcome::kVoids;
+    out.reason = *std::move(reason);
   }
   return out;
 }
@@ -178,6 +204,24 @@ std::optional<core::Phrase> form_moves_radius(const fit::WheelMeasurement& wheel
       wheel.correlation, um(form_mm), um(*tolerance_mm));
 }
 
+std::optional<core::Phrase> not_at_20_degC(const WheelResult& facts,
+                                           const record::Characteristic& asked) {
+  const auto tolerance_mm = radius_tolerance_mm(asked);
+  if (facts.expansion_1_K && !facts.above_20_K) {
+    return core::phrase(
+        "expansion_per_K is stated, but the temperature of the wheel was not recorded: give the "
+        "points a column temperature_degC, or declare environment.assumed_degC");
+  }
+  if (facts.expansion_1_K || !tolerance_mm || growth_mm(facts) <= kFormShare * *tolerance_mm) {
+    return std::nullopt;
+  }
+  return core::phrase(
+      "the wheel was measured at {:.2f} degC, which changes its radius by some {} um, more than a "
+      "quarter of the tolerance of {} um: state expansion_per_K of the wheel, or measure at 20 "
+      "degC",
+      20.0 + *facts.above_20_K, um(growth_mm(facts)), um(*tolerance_mm));
+}
+
 std::vector<Gate> gates_of(const WheelResult& result,
                            std::span<const record::Characteristic> characteristics) {
   const fit::WheelMeasurement& m = result.evaluation.wheel;
@@ -185,6 +229,12 @@ std::vector<Gate> gates_of(const WheelResult& result,
   for (const record::Characteristic& asked : characteristics) {
     const bool runout = asked.form == record::Form::kRunOut && m.runout;
     if (runout || asked.form == record::Form::kRoundness) out.push_back(loss_gate(result, asked));
+  }
+  for (const record::Characteristic& asked : characteristics) {
+    const bool judged = asked.form == record::Form::kRadius && asked.toleranced();
+    if (judged && (result.above_20_K || result.expansion_1_K)) {
+      out.push_back(length_gate(result, asked));
+    }
   }
   for (Gate& one : quadruple_gates(result)) out.push_back(std::move(one));
   // All round, form moves the radius little, whatever the residuals are.

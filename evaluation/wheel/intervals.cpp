@@ -425,7 +425,14 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
   const fit::WheelMeasurement& m = result.evaluation.wheel;
   const auto& nominal_mm = result.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return UncertaintyStatus::none(core::phrase("there is no nominal radius"));
-  const double departure_mm = m.radius_mm - *nominal_mm;
+  const double departure_mm = result.judged_radius_mm() - *nominal_mm;
+  // Of the correction to 20 degC, for one standard uncertainty of each.
+  const double expansion_mm =
+      result.expansion_1_K
+          ? m.radius_mm * result.above_20_K.value_or(0.0) * record::u_of(said.expansion_per_K)
+          : 0.0;
+  const double temperature_mm =
+      m.radius_mm * result.expansion_1_K.value_or(0.0) * record::u_of(said.temperature_K);
   const double point_mm = record::u_of(said.point_um) * kMicrometre * m.factors.radius;
   const double oval_mm = edge.oval_in_radius_mm();
   const auto shift = [&](double points, const Influences& drawn) {
@@ -438,18 +445,28 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
   trials.as_measured_mm = judged(departure_mm);
   for (int t = 0; t < options.least_trials; ++t) {
     const double points = normal_draw(options.seed, "wheel.radius", 0, t);
+    const double corrected =
+        expansion_mm * drawn(said.expansion_per_K, options.seed, "wheel.expansion", 0, t) +
+        temperature_mm * drawn(said.temperature_K, options.seed, "wheel.temperature", 0, t);
     trials.values_mm.push_back(
-        judged(departure_mm + shift(points, draw_of(result, options.seed, t))));
+        judged(departure_mm + corrected + shift(points, draw_of(result, options.seed, t))));
   }
   const Influences u = standard_of(said);
-  const std::vector<LinearTerm> terms = {{"edge-points", point_mm},
+  std::vector<LinearTerm> terms = {{"edge-points", point_mm},
                                          {"stage-scale", u.scale_1 * m.radius_mm},
                                          {"edge-threshold", u.threshold_mm},
                                          {"wheel-wear", u.wear_mm},
                                          {"stage-squareness", u.squareness_rad * oval_mm}};
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
+  std::vector<InfluenceStatement> declaration = declaration_of(result, depends);
+  if (result.expansion_1_K) {
+    terms.push_back({"wheel-expansion", expansion_mm});
+    terms.push_back({"wheel-temperature", temperature_mm});
+    declaration.push_back(statement_of("wheel-expansion", said.expansion_per_K, "1/K"));
+    declaration.push_back(statement_of("wheel-temperature", said.temperature_K, "K"));
+  }
   auto found =
-      statement_of_trials(std::move(trials), terms, declaration_of(result, depends), options);
+      statement_of_trials(std::move(trials), std::move(terms), std::move(declaration), options);
   const double least_mm = with_sign ? -HUGE_VAL : 0.0;
   if (const double form_mm = m.form_in_radius_mm(); found && form_mm > 0.0) {
     widen(form_mm, least_mm, *found);

@@ -38,6 +38,14 @@ struct WheelResult {
   std::optional<MeasuredAxis> measured_axis;  ///< Where the axis is that of another feature.
   /// Of the effective radius [mm]; none where it is not known.
   UncertaintyStatus effective_radius = UncertaintyStatus::none({});
+  std::optional<double> expansion_1_K;  ///< Of the wheel, as the plan states it.
+  std::optional<double> above_20_K;     ///< Its temperature less 20 degC; none: not known.
+
+  /// R that is judged: at 20 degC where temperature and expansion are known, else as measured.
+  [[nodiscard]] double judged_radius_mm() const {
+    return evaluation.wheel.radius_mm /
+           (1.0 + expansion_1_K.value_or(0.0) * above_20_K.value_or(0.0));
+  }
 };
 
 /// Finds the result of an earlier wheel by the id of its feature; or says why nothing can be taken

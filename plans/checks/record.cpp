@@ -135,6 +135,7 @@ SettingTable surface_table() {
   out.merge(table_of<record::MergedPosesSettings>());
   out.merge(table_of<record::ExpansionSettings>());
   out.merge(table_of<record::SurfaceSettings>());
+  out.merge(table_of<record::SourceSettings>("source/"));
   return out;
 }
 
@@ -237,7 +238,9 @@ Fault check_needed(std::span<const record::Setting> settings, bool strict,
 template <class Task>
 Fault check_task(const record::Feature& feature, bool strict) {
   if (auto fault = check_needed<Task>(feature.settings, strict)) return fault;
-  return check_settings(feature.settings, table_of<Task>(), strict);
+  SettingTable table = table_of<Task>();
+  table.merge(table_of<record::SourceSettings>("source/"));
+  return check_settings(feature.settings, table, strict);
 }
 
 Fault check_feature_settings(const record::Feature& feature, bool strict) {

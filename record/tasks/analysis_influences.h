@@ -81,6 +81,8 @@ struct WheelInfluencesTask {
   Influence threshold_um;  ///< Bias of the edge detection; moves the radius only.
   Influence axis_um;       ///< Of each coordinate of the axis.
   Influence wear_um;       ///< Since the measurement.
+  Influence expansion_per_K;  ///< Of the expansion coefficient of the wheel.
+  Influence temperature_K;    ///< Of its temperature.
 };
 
 /// The object that spells an influence with its distribution.
@@ -155,6 +157,11 @@ void describe(Visitor& v, WheelInfluencesTask& p) {
   v.influence("axis_um", p.axis_um, range(0.0, 1000.0, "Each coordinate of the spindle axis."));
   v.influence("wear_um", p.wear_um,
               range(0.0, 1000.0, "Wear of the radius since the measurement."));
+  v.influence("expansion_per_K", p.expansion_per_K,
+              range(0.0, 1e-4, "Expansion coefficient of the wheel: error of the stated one."));
+  v.influence("temperature_K", p.temperature_K,
+              range(0.0, 100.0, "Temperature of the wheel, where its radius is brought to 20 "
+                                "degC."));
 }
 
 }  // namespace rondure::record

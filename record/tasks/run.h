@@ -19,6 +19,12 @@ struct EnvironmentSettings {
   double max_drift_K = 0.5;             ///< Of an analysis: greatest change at one place.
 };
 
+/// The file that a feature takes its data from, at "source/".
+struct SourceSettings {
+  std::optional<std::string> measured_utc;  ///< When they were measured; none: not stated.
+  std::optional<double> valid_for_days;     ///< How long they stand for the part.
+};
+
 /// The fixture that carried the parts, at "fixture/".
 struct FixtureSettings {
   std::string id;
@@ -40,6 +46,12 @@ void describe(Visitor& v, EnvironmentSettings& p) {
   v.text("declared", p.declared, {.meaning = "What the plan states."});
   v.number("assumed_degC", p.assumed_degC, within(1000.0, "Of part and scales."));
   v.number("max_drift_K", p.max_drift_K, range(0.0, 1000.0, "Of an analysis."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SourceSettings& p) {
+  v.text("measured_utc", p.measured_utc, {.meaning = "When the data were measured."});
+  v.number("valid_for_days", p.valid_for_days, range(0.0, 36'500.0, "How long they stand."));
 }
 
 template <class Visitor>

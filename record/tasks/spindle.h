@@ -38,6 +38,7 @@ struct SpindleTask {
   Filter filter = Filter::kGaussian;  ///< Filter of the profile.
   double cutoff_upr = 50.0;
   std::optional<SpindleInfluencesTask> uncertainty;
+  std::optional<double> probe_range_um;  ///< Whole range of a probe; none: not stated.
 };
 
 constexpr auto words_of(SpindleTask::Layout) {
@@ -123,6 +124,11 @@ void describe_recovery(Visitor& v, SpindleTask& p) {
            range(0.0, 1000.0,
                  "Standard deviation of one reading; left out: estimated from the scatter "
                  "of the revolutions, of one from the harmonics beyond highest_order."));
+  v.number("probe_range_um", p.probe_range_um,
+           above(0.0, 100'000.0,
+                 "Whole measuring range of each probe, half of it to either side of reading 0. "
+                 "Readings in its outer tenth void the feature; uncertainty/quadratic_1 refers to "
+                 "it."));
 }
 
 template <class Visitor>

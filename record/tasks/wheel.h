@@ -69,6 +69,7 @@ struct WheelTask {
   ShortArc short_arc = ShortArc::kRefused;
   std::optional<GroundSurfaceTask> surface;
   std::optional<WheelInfluencesTask> uncertainty;
+  std::optional<double> expansion_per_K;  ///< Of the wheel; none: its radius stays as measured.
 };
 
 constexpr auto words_of(WheelTask::Mode) {
@@ -177,6 +178,10 @@ void describe(Visitor& v, WheelTask& p) {
   v.whole("count", p.count, range(6, 5000, "Quadruples of best and random."));
   v.number("kappa_limit", p.kappa_limit,
            range(1.0, 1e9, "Worst conditioning accepted; left out: 5, or twice the best."));
+  v.number("expansion_per_K", p.expansion_per_K,
+           range(0.0, 1e-4,
+                 "Expansion coefficient of the wheel: its radius is judged at 20 degC, by the "
+                 "temperature of its points. Left out: as measured."));
   v.text("robust", p.robust, {.meaning = "on: isolated points beyond 5 scales are dropped."});
   v.text("short_arc", p.short_arc, {.meaning = "Less than 20 deg of the circle."});
   v.object("surface", p.surface, {.meaning = "A surface to grind: gives the wheel-centre path."});

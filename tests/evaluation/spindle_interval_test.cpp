@@ -457,6 +457,65 @@ TEST(SpindleGates, VoidRevolutionsThatDiffer) {
   EXPECT_EQ(gate(bad, "turns").outcome, Gate::Outcome::kVoids);
 }
 
+record::RunRecord with_range(record::RunRecord run, double range_um) {
+  run.features[0].settings.push_back({"probe_range_um", range_um, ""});
+  return run;
+}
+
+// A reading above 90 % of the range voids. Eccentricity, form and zero of the worked case stay below
+// 30 um; one reading is brought to 46 um: 45 um is the limit of a range of 100 um, 54 of one of 120.
+TEST(SpindleGates, VoidAReadingNearTheEndOfTheRange) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const auto raised = [](fit::ProbeReadings& readings) {
+    // A whole probe, whose zero says nothing of part and motion.
+    auto& h = readings.h_mm[2];
+    const double up = 46.0 * kMicrometre - *std::max_element(h.begin(), h.end());
+    for (double& one : h) one += up;
+  };
+  const auto run = run_of(world, probes(0.002, 0.02), raised);
+  const FeatureResult near = result_of(with_range(run, 100.0));
+  EXPECT_EQ(gate(near, "range").outcome, Gate::Outcome::kVoids);
+  EXPECT_NEAR(*gate(near, "range").found, 46.0, 1e-6);
+  EXPECT_NEAR(*gate(near, "range").limit, 45.0, 1e-9);
+  for (const CharacteristicResult& one : near.characteristics) {
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+    EXPECT_THAT(one.reason.english(), HasSubstr("90 % of its range"));
+  }
+  const FeatureResult inside = result_of(with_range(run, 120.0));
+  EXPECT_EQ(gate(inside, "range").outcome, Gate::Outcome::kPassed);
+  for (const CharacteristicResult& one : inside.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kConforms) << one.reason;
+}
+
+// q = 4 e_fs / F^2 with e_fs = 0.5 % of F = 100 um is 2e-4 per um; c^2 q / 2 of c = 6 um, as the
+// worked case is mounted, 3.6 nm. It is beyond T / 20 of 0.07 um and within that of 0.1 um.
+TEST(SpindleGates, VoidALimitThatAFalseOvalOfBentProbesReaches) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  auto influences = probes(0.002, 0.02);
+  influences.quadratic_1 = declared_probe(0.005);
+  auto run = with_range(run_of(world, influences), 100.0);
+  const auto mask = [](double limit_um, int first, int last) {
+    record::Characteristic out = asked("mask", record::Form::kHarmonicLimits, std::nullopt);
+    out.harmonic_limits = {{first, last, limit_um * kMicrometre}};
+    return out;
+  };
+  run.features[0].characteristics = {mask(0.07, 2, 2), mask(0.07, 40, 40),
+                                     asked("RONt", record::Form::kRoundness, 100.0)};
+  const FeatureResult tight = result_of(run);
+  EXPECT_EQ(gate(tight, "quadratic").outcome, Gate::Outcome::kVoids);
+  EXPECT_NEAR(*gate(tight, "quadratic").found, 3.6e-3, 1e-4);
+  EXPECT_NEAR(*gate(tight, "quadratic").limit, 3.5e-3, 1e-9);
+  EXPECT_EQ(tight.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(tight.characteristics.at(0).reason.english(), HasSubstr("makes an oval of"));
+  EXPECT_THAT(tight.characteristics.at(1).reason.english(), ::testing::Not(HasSubstr("oval")));
+  EXPECT_EQ(tight.characteristics.at(2).verdict, Verdict::kConforms)
+      << tight.characteristics.at(2).reason;
+  run.features[0].characteristics = {mask(0.1, 2, 2)};
+  EXPECT_EQ(gate(result_of(run), "quadratic").outcome, Gate::Outcome::kPassed);
+}
+
 TEST(SpindleGates, DoNotJudgeAsynchronousMotionOfFewTurns) {
   World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};

@@ -229,6 +229,65 @@ TEST(WheelInterval, ADepartureIsHeldToBothSides) {
   EXPECT_EQ(verdict(2.5), Verdict::kConforms);
 }
 
+/// A run whose points carry a temperature.
+record::RunRecord at_degC(record::RunRecord run, double degC) {
+  record::Series& data = run.series.at(0);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    values.insert(values.end(), {data.values[2 * i], data.values[2 * i + 1], degC});
+  }
+  data.columns.push_back({"temperature_degC", "degC"});
+  data.values = std::move(values);
+  return run;
+}
+
+// R 49.983123 mm at 30 degC is 4.0 um less at 20 degC with 8e-6/K: R / (1 + 8e-5). A nominal radius
+// that it reads exactly is missed by that, and a tolerance of 3 um with it.
+TEST(WheelInterval, ARadiusIsJudgedAt20DegC) {
+  const auto wheel = test::specified_wheel(1, kAllRound);
+  WheelTask task = task_of(wheel);
+  task.nominal_radius_mm = 49.983123;
+  const auto judged = [&](double degC, double tolerance_um) {
+    return evaluated_wheel(at_degC(
+        run_of(wheel.points_mm, task, {asked(record::Form::kRadius, tolerance_um)}, kSimple),
+        degC));
+  };
+  const FeatureResult unknown = judged(30.0, 3.0);
+  const Gate* const gate = wheel_gate(unknown, "length-scale");
+  ASSERT_NE(gate, nullptr);
+  EXPECT_EQ(gate->outcome, Gate::Outcome::kVoids);
+  EXPECT_NEAR(*gate->found, 3.9986, 1e-3);
+  EXPECT_NEAR(*gate->limit, 0.75, 1e-9);
+  EXPECT_EQ(unknown.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(unknown.characteristics.at(0).reason.english(), HasSubstr("30.00 degC"));
+  EXPECT_EQ(judged(20.5, 3.0).characteristics.at(0).verdict, Verdict::kConforms);
+
+  task.expansion_per_K = 8e-6;
+  const CharacteristicResult corrected = judged(30.0, 3.0).characteristics.at(0);
+  EXPECT_EQ(corrected.verdict, Verdict::kDoesNotConform) << corrected.reason;
+  ASSERT_TRUE(corrected.value);
+  EXPECT_NEAR(corrected.value->value_mm() * 1e3, 49983.123 * (1.0 - 1.0 / 1.00008), 2e-3);
+  EXPECT_EQ(judged(30.0, 5.0).characteristics.at(0).verdict, Verdict::kConforms);
+  const FeatureResult without = evaluated_wheel(
+      run_of(wheel.points_mm, task, {asked(record::Form::kRadius, 3.0)}, kSimple));
+  EXPECT_EQ(without.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(without.characteristics.at(0).reason.english(), HasSubstr("was not recorded"));
+}
+
+// u: R dT u_alpha = 49.983 mm x 10 K x 1e-6/K = 0.50 um, R alpha u_T = 49.983 mm x 8e-6/K x 1 K =
+// 0.40 um, and 0.10 um of the points.
+TEST(WheelInterval, TheCorrectionTo20DegCHasAnUncertainty) {
+  const auto wheel = test::specified_wheel(1, kAllRound);
+  WheelTask task = task_of(wheel);
+  task.expansion_per_K = 8e-6;
+  task.uncertainty->expansion_per_K = DeclaredInfluence{1e-6};
+  task.uncertainty->temperature_K = DeclaredInfluence{1.0};
+  const FeatureResult feature = evaluated_wheel(
+      at_degC(run_of(wheel.points_mm, task, {asked(record::Form::kRadius, 60.0)}, kIso), 30.0));
+  EXPECT_NEAR(statement(feature.characteristics.at(0)).standard_uncertainty_mm * 1e3,
+              std::hypot(0.1, std::hypot(0.49983, 0.39986)), 0.03);
+}
+
 // W-2, the first false acceptance: 8 points on 60 deg read 5.65 um of 11.73.
 TEST(WheelInterval, W2AnArcNeverConforms) {
   const auto wheel = test::specified_wheel(2, kArc);

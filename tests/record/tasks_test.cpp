@@ -84,6 +84,7 @@ SpindleTask full_spindle() {
   out.samples = 720;
   out.recovery = SpindleTask::Recovery::kRegularised;
   out.probe_noise_um = kOdd / 3.0;
+  out.probe_range_um = kOdd / 5.0;
   out.resampling = Switch::kOff;
   out.second_order = SpindleTask::SecondOrder::kOff;
   out.motion = SpindleTask::Motion::kAsPublished;
@@ -105,6 +106,7 @@ WheelTask full_wheel() {
   out.quadruples = WheelTask::Quadruples::kRandom;
   out.count = 5000;
   out.kappa_limit = kOdd / 7.0;
+  out.expansion_per_K = kOdd * 1e-7;
   out.robust = Switch::kOn;
   out.short_arc = WheelTask::ShortArc::kAllowed;
   GroundSurfaceTask& surface = out.surface.emplace();

@@ -93,7 +93,8 @@ record::SpindleInfluencesTask usual_probes() {
 }
 
 std::vector<InfluenceStatement> probe_declaration(const record::SpindleInfluencesTask& declared,
-                                                  const fit::SwingArm& arm, double noise_mm) {
+                                                  const fit::SwingArm& arm, double noise_mm,
+                                                  bool states_range) {
   std::vector<InfluenceStatement> out;
   const core::Phrase undeclared = core::phrase("not declared");
   out.push_back({"probe-noise", true,
@@ -129,7 +130,11 @@ std::vector<InfluenceStatement> probe_declaration(const record::SpindleInfluence
   add("channel-skew", declared.skew_us, {},
       core::phrase("declared, but the readings have no time and the plan no speed of the work"));
   add("probe-quadratic", declared.quadratic_1, {},
-      core::phrase("declared, but the plan does not state the range of the probes"));
+      states_range
+          ? core::phrase("declared; not in the interval, but held against each limit (gate "
+                         "quadratic)")
+          : core::phrase("declared, but the plan does not state the range of the probes "
+                         "(probe_range_um)"));
   return out;
 }
 

@@ -36,8 +36,10 @@ struct ProbeSource {
 [[nodiscard]] record::SpindleInfluencesTask usual_probes();
 
 /// Which influences the interval covers.
-/// @param noise_mm  Of a reading, as used.
+/// @param noise_mm      Of a reading, as used.
+/// @param states_range  Whether the plan states the range of the probes.
 [[nodiscard]] std::vector<InfluenceStatement> probe_declaration(
-    const record::SpindleInfluencesTask& declared, const fit::SwingArm& arm, double noise_mm);
+    const record::SpindleInfluencesTask& declared, const fit::SwingArm& arm, double noise_mm,
+    bool states_range);
 
 }  // namespace rondure::evaluation

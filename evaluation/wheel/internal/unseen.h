@@ -40,4 +40,9 @@ struct BetweenPoints {
 [[nodiscard]] std::optional<core::Phrase> form_moves_radius(
     const fit::WheelMeasurement& wheel, const std::optional<double>& tolerance_mm);
 
+/// Why a radius is void by its temperature: the plan states no expansion and it may differ from
+/// that at 20 degC by more than a quarter of its tolerance, or an expansion and no temperature.
+[[nodiscard]] std::optional<core::Phrase> not_at_20_degC(
+    const WheelResult& facts, const record::Characteristic& asked);
+
 }  // namespace rondure::evaluation

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/utc.h"
 #include "plans/analyses/analysis.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/schema/json_text.h"
@@ -263,6 +264,22 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   }
 }
 
+/// Checks that the age of the data of a file can be told.
+void check_age(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+  if (!feature.source) return;
+  const std::string& measured = feature.source->measured_utc;
+  if (measured.empty() && feature.source->valid_for_days) {
+    findings.meaning(Code::kMissingKey, where + "/source/measured_utc",
+                     "this key is missing: valid_for_days counts from the time at which the data "
+                     "were measured");
+  }
+  if (!measured.empty() && !core::parse_utc(measured)) {
+    findings.meaning(Code::kMeaning, where + "/source/measured_utc",
+                     fmt::format("{} is no time in UTC such as \"2026-11-21T02:33:02Z\"",
+                                 in_quotes(measured)));
+  }
+}
+
 }  // namespace
 
 bool is_touched(const Plan& plan, std::size_t index, const Findings& findings) {
@@ -298,6 +315,7 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
                                  in_quotes(feature.id), *twin + 1));
   }
   check_without_effect(feature, where, findings);
+  check_age(feature, where, findings);
   check_drawing(plan, index, findings);
 }
 

@@ -444,6 +444,14 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("clamping", p.clamping,
          {.meaning = "Name of the clamping in which the points were measured, in one coordinate "
                      "system. A datum in another file needs the same name in both."});
+  v.text("measured_utc", p.measured_utc,
+         {.meaning = "When the data were measured, e.g. 2026-11-21T02:33:02Z. With valid_for_days: "
+                     "data that are older at the start of the run, or measured after it, are "
+                     "void."});
+  v.number("valid_for_days", p.valid_for_days,
+           above(0.0, 36'500.0,
+                 "How long the data stand for the part, from measured_utc on: until it is worked, "
+                 "the wheel is dressed, the machine is set up anew."));
 }
 
 template <class Visitor>
