@@ -209,7 +209,8 @@ TEST(ContourMask, JudgesNoHarmonicThatTheFilterTakesAway) {
   };
   const CharacteristicResult beyond = verdict({60, 100, 0.05 * kMicrometre});
   EXPECT_EQ(beyond.verdict, Verdict::kVoid) << beyond.reason;
-  EXPECT_THAT(beyond.reason.english(), ::testing::HasSubstr("reaches to harmonic 100, 50 is the highest"));
+  EXPECT_THAT(beyond.reason.english(),
+              ::testing::HasSubstr("reaches to harmonic 100, 50 is the highest"));
   EXPECT_EQ(verdict({2, 9000, 100.0 * kMicrometre}).verdict, Verdict::kVoid);
   EXPECT_EQ(verdict({2, 50, 100.0 * kMicrometre}).verdict, Verdict::kConforms);
   // What the filter leaves is above the limit: so is the amplitude.
