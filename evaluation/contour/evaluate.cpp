@@ -102,12 +102,28 @@ core::Result<AnalysisValue> deviation_value(const ContourResult& facts) {
   return out;
 }
 
+/// Why the spread is no spread of parts: the readings of one were given for another.
+std::optional<core::Phrase> same_readings(const ContourResult& facts) {
+  const auto& parts = facts.study.parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (parts[i].pin.contour.error_mm != parts[j].pin.contour.error_mm) continue;
+      return core::phrase(
+          "parts {} and {} have the same contour to the last digit: give each its "
+          "own readings",
+          facts.names[j], facts.names[i]);
+    }
+  }
+  return std::nullopt;
+}
+
 core::Result<AnalysisValue> spread_value(const ContourResult& facts) {
   if (!facts.study.total) {
     return core::fail(Code::kTooFewPoints, "one part shows no spread; at least 2 are needed");
   }
   AnalysisValue out;
   out.value_mm = facts.study.total->spread;
+  out.void_because = same_readings(facts);
   out.detail = core::phrase("stability index {:.4f}", facts.study.total->index.value_or(0.0));
   return out;
 }

@@ -194,6 +194,16 @@ TEST(ContourInterval, AContourOfItsCoefficientsIsTheContour) {
   for (std::size_t m = 0; m < kContourPoints; ++m) ASSERT_NEAR(again[m], f[m], 1e-9) << m;
 }
 
+TEST(ContourSpread, OfOnePartGivenTwiceProvesNothing) {
+  Pins pins;
+  pins.asked = {asked_for("repeats", Form::kContourSpread, 100.0 * kMicrometre)};
+  EXPECT_EQ(pins.judged().characteristics.at(0).verdict, Verdict::kConforms);
+  pins.pins[3] = pins.pins[1];
+  const CharacteristicResult twice = pins.judged().characteristics.at(0);
+  EXPECT_EQ(twice.verdict, Verdict::kVoid) << twice.reason;
+  EXPECT_THAT(twice.reason.english(), ::testing::HasSubstr("parts 2 and 4 have the same contour"));
+}
+
 // The 50 UPR of the gauge left 2^-(80/50)^2 = 0.17 of harmonic 80: 0.034 um of 0.2 um.
 TEST(ContourMask, JudgesNoHarmonicThatTheFilterTakesAway) {
   Pins pins;
