@@ -9,12 +9,12 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
-#include "evaluation/results/temperature_gates.h"
 #include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/age_gate.h"
 #include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/temperature_gates.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -45,8 +45,12 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = core::phrase("the computation gave no finite number");
     return;
   }
+  // No analysis has an interval of the whole surface: a rule that asks for one is not served with
+  // that of the points.
+  const bool asks = rule && rule->needs_interval();
   out.value.emplace(symbol_of(asked), value->value_mm,
-                    operator_of(*result.analysis, asked, temperature_words(result)), interval);
+                    operator_of(*result.analysis, asked, temperature_words(result)), interval,
+                    asks ? rule->measurand : Measurand::kSampledPoints);
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;

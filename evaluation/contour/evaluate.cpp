@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -101,14 +102,39 @@ core::Result<AnalysisValue> deviation_value(const ContourResult& facts) {
   return out;
 }
 
+/// Why the spread is no spread of parts: the readings of one were given for another.
+std::optional<core::Phrase> same_readings(const ContourResult& facts) {
+  const auto& parts = facts.study.parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (parts[i].pin.contour.error_mm != parts[j].pin.contour.error_mm) continue;
+      return core::phrase(
+          "parts {} and {} have the same contour to the last digit: give each its "
+          "own readings",
+          facts.names[j], facts.names[i]);
+    }
+  }
+  return std::nullopt;
+}
+
 core::Result<AnalysisValue> spread_value(const ContourResult& facts) {
   if (!facts.study.total) {
     return core::fail(Code::kTooFewPoints, "one part shows no spread; at least 2 are needed");
   }
   AnalysisValue out;
   out.value_mm = facts.study.total->spread;
+  out.void_because = same_readings(facts);
   out.detail = core::phrase("stability index {:.4f}", facts.study.total->index.value_or(0.0));
   return out;
+}
+
+/// The highest undulation that the filtered contours still hold by half: beyond the cut-off their
+/// amplitudes are those of the filter.
+int highest_judged(const ContourResult& facts) {
+  const auto of_points = static_cast<int>((facts.options.samples - 1) / 2);
+  const fit::FilterOptions& filter = facts.options.error.filter;
+  if (filter.filter == fit::ProfileFilter::kNone) return of_points;
+  return static_cast<int>(std::min<double>(of_points, std::floor(filter.cutoff_upr)));
 }
 
 /// The harmonic of any part that is nearest to its limit, or farthest beyond it.
@@ -116,6 +142,7 @@ core::Result<AnalysisValue> mask_value(const ContourResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;
   double worst = -1.0;
+  const int highest = highest_judged(facts);
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const auto& curve = facts.study.parts[i].pin.contour.error_mm;
     for (const record::HarmonicLimit& line : asked.harmonic_limits) {
@@ -131,6 +158,14 @@ core::Result<AnalysisValue> mask_value(const ContourResult& facts,
     }
   }
   if (worst < 0.0) return core::fail(Code::kMeaning, "the mask names no harmonic of the contours");
+  for (const record::HarmonicLimit& line : asked.harmonic_limits) {
+    if (line.last <= highest) continue;
+    out.void_because = core::phrase(
+        "the mask reaches to harmonic {}, {} is the highest that the filter and the points leave",
+        line.last, highest);
+    // What is left of an amplitude above its limit is above it all the more before the filter.
+    out.lower_bound = true;
+  }
   return out;
 }
 
@@ -197,7 +232,10 @@ core::Result<void> check_traces(const record::RunRecord& record, int index, std:
 core::Result<AnalysisValue> value_of(const ContourResult& facts,
                                      const record::Characteristic& asked) {
   auto out = measured_value(facts, asked);
-  if (out && facts.total_void) out->void_because = facts.total_void;
+  if (out && facts.total_void) {
+    out->void_because = facts.total_void;
+    out->lower_bound = false;
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -145,6 +146,34 @@ Gate turns_gate(const SpindleResult& facts) {
   return out;
 }
 
+/// Revolutions that agree better than the declared noise allows: it hides errors from the gates
+/// above.
+Gate small_scatter_gate(const SpindleResult& facts) {
+  const fit::ThreeProbeResult& s = facts.separation;
+  Gate out{.code = "u-too-large",
+           .condition = phrase("scatter of the revolutions over the declared noise, at least"),
+           .found = {},
+           .limit = {},
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  const std::vector<double>& scatter = s.scatter_mm;
+  if (s.noise_estimated || scatter.empty() || !(s.noise_mm > 0.0)) return out;
+  const double squares = std::inner_product(scatter.begin(), scatter.end(), scatter.begin(), 0.0);
+  const double freedom = 2.0 * (s.revolutions - 1) * static_cast<double>(scatter.size());
+  const double share = 2.0 / (9.0 * freedom);
+  out.found = std::sqrt(squares / static_cast<double>(scatter.size())) / s.noise_mm;
+  out.limit =
+      std::pow(std::max(0.0, 1.0 - share - kNormal999 * std::sqrt(share)), 1.5);  // 0.001 of chi2
+  if (*out.found >= *out.limit) return out;
+  out.outcome = Outcome::kWarns;
+  out.reason = phrase(
+      "the revolutions scatter by {:.2g} of the declared noise of {:.3g} um: it is too large, and "
+      "hides errors of gains and angles",
+      *out.found, micrometres(s.noise_mm));
+  return out;
+}
+
 /// Largest standard uncertainty of an amplitude in parts of the limits that are asked for.
 Gate weak_gate(const SpindleResult& facts,
                std::span<const record::Characteristic> characteristics) {
@@ -194,6 +223,24 @@ Gate suppressed_gate(const SpindleResult& facts) {
       "{} harmonics were not recovered, and no bound of their amplitudes is stated: part and "
       "synchronous motion may be greater; choose a layout with less gain there",
       lost);
+  return out;
+}
+
+/// The filter of the profile asks for more than is recovered.
+Gate band_gate(const SpindleResult& facts) {
+  Gate out{.code = "band",
+           .condition = phrase("highest harmonic recovered, at least the cut-off of the filter"),
+           .found = static_cast<double>(facts.separation.harmonics.back().order),
+           .limit = {},
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  const fit::FilterOptions& filter = facts.roundness.filter;
+  if (filter.filter != fit::ProfileFilter::kNone) out.limit = filter.cutoff_upr;
+  if (auto reason = beyond_the_band(facts)) {
+    out.outcome = Outcome::kVoids;
+    out.reason = *std::move(reason);
+  }
   return out;
 }
 
@@ -386,21 +433,70 @@ Gate few_turns_gate(const SpindleResult& facts) {
   return out;
 }
 
+Gate total_turns_gate(const SpindleResult& facts) {
+  Gate out{.code = "few-turns",
+           .condition = phrase("revolutions for total motion, at least"),
+           .found = static_cast<double>(facts.separation.revolutions),
+           .limit = 2.0,
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (auto reason = one_turn_of_total(facts)) {
+    out.outcome = Outcome::kVoids;
+    out.reason = *std::move(reason);
+  }
+  return out;
+}
+
+bool any_limit(std::span<const record::Characteristic> characteristics,
+               std::initializer_list<Form> forms) {
+  return std::any_of(characteristics.begin(), characteristics.end(),
+                     [&](const record::Characteristic& asked) {
+                       return asked.toleranced() &&
+                              std::find(forms.begin(), forms.end(), asked.form) != forms.end();
+                     });
+}
+
 }  // namespace
+
+std::optional<core::Phrase> beyond_the_band(const SpindleResult& result) {
+  const fit::FilterOptions& filter = result.roundness.filter;
+  const int highest = result.separation.harmonics.back().order;
+  if (filter.filter == fit::ProfileFilter::kNone || filter.cutoff_upr <= highest) {
+    return std::nullopt;
+  }
+  return phrase(
+      "the filter of the profile passes up to {:g} UPR, harmonics are recovered up to {} only: "
+      "roundness may be greater; raise highest_order, or lower cutoff_upr",
+      filter.cutoff_upr, highest);
+}
+
+std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result) {
+  if (result.separation.revolutions > 1) return std::nullopt;
+  return phrase(
+      "one revolution shows no asynchronous motion, which total motion holds: record more, or ask "
+      "for motion-synchronous");
+}
 
 std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings& readings,
                            std::span<const record::Characteristic> characteristics) {
-  std::vector<Gate> out = {first_harmonic_gate(result), blind_gate(result),
-                           turns_gate(result),          weak_gate(result, characteristics),
-                           suppressed_gate(result),     disconnect_gate(readings),
+  std::vector<Gate> out = {first_harmonic_gate(result),
+                           blind_gate(result),
+                           turns_gate(result),
+                           small_scatter_gate(result),
+                           weak_gate(result, characteristics),
+                           suppressed_gate(result),
+                           disconnect_gate(readings),
                            readings_gate(result)};
   if (result.probe_range_mm) out.push_back(range_gate(result));
   if (false_oval_mm(result)) out.push_back(quadratic_gate(result, characteristics));
-  const bool asynchronous = std::any_of(
-      characteristics.begin(), characteristics.end(), [](const record::Characteristic& asked) {
-        return asked.form == Form::kMotionAsynchronous && asked.toleranced();
-      });
-  if (asynchronous) out.push_back(few_turns_gate(result));
+  if (any_limit(characteristics, {Form::kRoundness, Form::kRoundnessRms})) {
+    out.push_back(band_gate(result));
+  }
+  if (any_limit(characteristics, {Form::kMotionAsynchronous})) {
+    out.push_back(few_turns_gate(result));
+  }
+  if (any_limit(characteristics, {Form::kMotionTotal})) out.push_back(total_turns_gate(result));
   return out;
 }
 

@@ -76,6 +76,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   AnalysisValue out;
   out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
   out.void_because = loss_of(facts);
+  if (!out.void_because && asked.tolerance_mm) out.void_because = beyond_the_band(facts);
   if (!out.void_because && asked.tolerance_mm) {
     for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
       if (!out.void_because && weak(h, *asked.tolerance_mm)) {
@@ -155,6 +156,9 @@ core::Result<AnalysisValue> motion_value(const SpindleResult& facts,
     return out;
   }
   out.void_because = loss_of(facts);
+  if (form == Form::kMotionTotal && !out.void_because && asked.toleranced()) {
+    out.void_because = one_turn_of_total(facts);
+  }
   return out;
 }
 

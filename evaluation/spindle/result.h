@@ -59,6 +59,10 @@ constexpr int kLeastAsynchronousTurns = 8;
 /// Standard uncertainty of an amplitude up to which its limit is judged, in parts of the limit.
 constexpr double kWeakShare = 0.25;
 
+/// Why the filter of the profile asks for harmonics that are not recovered, or nothing.
+[[nodiscard]] std::optional<core::Phrase> beyond_the_band(const SpindleResult& result);
+/// Why the readings do not show total motion, or nothing.
+[[nodiscard]] std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result);
 /// All gates of a spindle, passed or not.
 [[nodiscard]] std::vector<Gate> gates_of(const SpindleResult& result,
                                          const fit::ProbeReadings& readings,

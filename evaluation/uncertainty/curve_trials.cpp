@@ -303,13 +303,18 @@ core::Result<void> check_trials(const TrialValues& trials) {
 
 /// Takes off what noise adds to a convex value: the measurement added it once, the trials once
 /// more. 0 where the value is linear in its draws.
-void turn(TrialValues& trials) {
+/// @return  Whether at least half of the trials would be below 0 by it.
+bool turn(TrialValues& trials) {
   const double inflation_mm =
       trials.core_mm.empty() ? 0.0 : core::mean(trials.core_mm) - trials.core_center_mm;
+  std::size_t below = 0;
   for (double& value_mm : trials.values_mm) {
     value_mm -= 2.0 * std::max(0.0, inflation_mm);
-    if (!trials.signed_value) value_mm = std::max(0.0, value_mm);
+    if (trials.signed_value) continue;
+    below += value_mm < 0.0 ? 1 : 0;
+    value_mm = std::max(0.0, value_mm);
   }
+  return 2 * below >= trials.values_mm.size() && below > 0;
 }
 
 /// The trials as chains, in their order.
@@ -349,7 +354,9 @@ core::Result<UncertaintyResult> statement_of_trials(TrialValues values,
                                                     const UncertaintyOptions& options) {
   if (auto good = check_options(options); !good) return core::fail(good.error());
   if (auto good = check_trials(values); !good) return core::fail(good.error());
-  turn(values);
+  // The trials as drawn hold the noise twice: their upper end is a bound under any circumstances.
+  const double as_drawn_mm = statement_of(values.values_mm, options.coverage).high_mm;
+  const bool nothing_left = turn(values);
   UncertaintyResult out;
   out.uncorrected_mm = values.as_measured_mm;
   out.trials = static_cast<int>(values.values_mm.size());
@@ -361,6 +368,8 @@ core::Result<UncertaintyResult> statement_of_trials(TrialValues values,
   // A signed value crosses 0: a share of it means nothing.
   out.sampled.at_most =
       !values.signed_value && out.noise_inflation_mm > kDominates * out.uncorrected_mm;
+  // Influences so large that they take all of the value away leave no bound that rests on it.
+  if (out.sampled.at_most && nothing_left) out.sampled.high_mm = as_drawn_mm;
   if (out.sampled.at_most) {
     out.notes.push_back(core::phrase(
         "noise-dominates: noise and influences make up {:.3f} um of {:.3f} um as measured, more "

@@ -21,7 +21,10 @@ core::Result<CenterOfPoints> center_of_points(const fit::WheelMeasurement& wheel
                                               const std::string& id) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d sheared = Eigen::Vector3d::Zero();
-  for (const double angle : wheel.order.angles_rad) {
+  const std::vector<double>& angles_rad = wheel.order.angles_rad;
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+    const double angle = angles_rad[i];
+    if (i > 0 && angle == angles_rad[i - 1]) continue;  // a row given twice says nothing new
     const Eigen::Vector3d row(std::cos(angle), std::sin(angle), 1.0);
     normal += row * row.transpose();
     sheared += row * (wheel.radius_mm * row.x() * row.y());  // R / 2 sin 2 theta

@@ -44,7 +44,9 @@ AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_
 
 CircleFactors circle_factors(std::span<const double> angles_rad) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  for (const double angle : angles_rad) {
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+    const double angle = angles_rad[i];
+    if (i > 0 && angle == angles_rad[i - 1]) continue;  // a row given twice says nothing new
     const Eigen::Vector3d row(std::cos(angle), std::sin(angle), 1.0);
     normal += row * row.transpose();
   }

@@ -30,7 +30,8 @@ struct CircleFactors {
   double radius = 0.0;  ///< a_R
 };
 /// Computes the factors from the normal equations with rows (cos, sin, 1); both are infinite if
-/// these are singular.
+/// these are singular. Neighbours at the same angle count once: a row of a file given twice.
+/// @param angles_rad  In angular order.
 [[nodiscard]] CircleFactors circle_factors(std::span<const double> angles_rad);
 
 /// Number of neighbouring residuals that count as one: tau = max(1, 1 + 2 (rho_1 + rho_2 + ...)),

@@ -81,6 +81,23 @@ void expect_void(const FeatureResult& result, const std::string& code) {
   }
 }
 
+// ---- A rule about the whole surface -------------------------------------------------------------
+
+TEST(WholeSurface, IsNotJudgedByTheIntervalOfThePoints) {
+  record::WheelTask task;
+  auto& influences = task.uncertainty.emplace();
+  influences.point_um = declared(0.4);
+  influences.axis_um = declared(0.5);
+  Normals draws(1);
+  RunRecord run = wheel_run(worked_wheel(whole_turn()), task, draws);
+  EXPECT_EQ(judged_one(run, kIso, Form::kRunOut, 20.0).verdict, Verdict::kConforms);
+  run.settings.push_back({"decision_rule/measurand", std::nullopt, "whole-surface"});
+  const CharacteristicResult whole = judged_one(run, kIso, Form::kRunOut, 20.0);
+  EXPECT_EQ(whole.verdict, Verdict::kVoid);
+  EXPECT_THAT(whole.reason.english(), HasSubstr("needs the interval of the whole surface"));
+  EXPECT_EQ(judged_one(run, kSimple, Form::kRunOut, 20.0).verdict, Verdict::kConforms);
+}
+
 // ---- Run-out from a short arc -------------------------------------------------------------------
 
 record::WheelTask declared_wheel() {

@@ -194,6 +194,39 @@ TEST(ContourInterval, AContourOfItsCoefficientsIsTheContour) {
   for (std::size_t m = 0; m < kContourPoints; ++m) ASSERT_NEAR(again[m], f[m], 1e-9) << m;
 }
 
+TEST(ContourSpread, OfOnePartGivenTwiceProvesNothing) {
+  Pins pins;
+  pins.asked = {asked_for("repeats", Form::kContourSpread, 100.0 * kMicrometre)};
+  EXPECT_EQ(pins.judged().characteristics.at(0).verdict, Verdict::kConforms);
+  pins.pins[3] = pins.pins[1];
+  const CharacteristicResult twice = pins.judged().characteristics.at(0);
+  EXPECT_EQ(twice.verdict, Verdict::kVoid) << twice.reason;
+  EXPECT_THAT(twice.reason.english(), ::testing::HasSubstr("parts 2 and 4 have the same contour"));
+}
+
+// The 50 UPR of the gauge left 2^-(80/50)^2 = 0.17 of harmonic 80: 0.034 um of 0.2 um.
+TEST(ContourMask, JudgesNoHarmonicThatTheFilterTakesAway) {
+  Pins pins;
+  for (auto& pin : pins.pins) {
+    for (std::size_t m = 0; m < pin.size(); ++m) {
+      pin[m] += 0.034 * kMicrometre * std::cos(80.0 * test::turn_angle(m, pin.size()));
+    }
+  }
+  pins.asked = {asked_for("mask", Form::kHarmonicLimits)};
+  const auto verdict = [&](record::HarmonicLimit line) {
+    pins.asked.back().harmonic_limits = {line};
+    return pins.judged().characteristics.at(0);
+  };
+  const CharacteristicResult beyond = verdict({60, 100, 0.05 * kMicrometre});
+  EXPECT_EQ(beyond.verdict, Verdict::kVoid) << beyond.reason;
+  EXPECT_THAT(beyond.reason.english(),
+              ::testing::HasSubstr("reaches to harmonic 100, 50 is the highest"));
+  EXPECT_EQ(verdict({2, 9000, 100.0 * kMicrometre}).verdict, Verdict::kVoid);
+  EXPECT_EQ(verdict({2, 50, 100.0 * kMicrometre}).verdict, Verdict::kConforms);
+  // What the filter leaves is above the limit: so is the amplitude.
+  EXPECT_EQ(verdict({60, 100, 0.01 * kMicrometre}).verdict, Verdict::kDoesNotConform);
+}
+
 TEST(ContourInterval, HasNoIntervalWithoutADeclaration) {
   Pins pins;
   pins.task.uncertainty.reset();

@@ -328,6 +328,33 @@ TEST(CurveTrials, LeavesAnUpperBoundWhereMoreThanAQuarterIsNoise) {
   EXPECT_FALSE(statement_of_trials(trials, {}, {}, {})->sampled.at_most);
 }
 
+// Influences that would make 100 um where 3 um were read: what is taken off leaves 0 of every
+// trial, and 0 is no upper bound.
+TEST(CurveTrials, InfluencesThatTakeAllOfTheValueAwayLeaveNoBoundOfZero) {
+  TrialValues trials;
+  trials.as_measured_mm = 3.0 * kMicron;
+  trials.core_center_mm = 3.0 * kMicron;
+  for (int t = 0; t < 200; ++t) {
+    trials.values_mm.push_back((100.0 + 0.1 * t) * kMicron);
+    trials.core_mm.push_back(110.0 * kMicron);
+  }
+  const auto found = statement_of_trials(trials, {}, {}, {});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->sampled.at_most);
+  EXPECT_GT(found->sampled.high_mm, 119.0 * kMicron);
+  EXPECT_LE(found->sampled.high_mm, 119.9 * kMicron);
+  KnownValue value;
+  value.measured_mm = trials.as_measured_mm;
+  value.statement = found->sampled;
+  Limits limits;
+  limits.upper_mm = 8.0 * kMicron;
+  for (const Kind kind : {Kind::kIso14253, Kind::kJcgm106}) {
+    DecisionRule rule;
+    rule.kind = kind;
+    EXPECT_FALSE(apply_rule(rule, value, limits)) << name_of(kind);
+  }
+}
+
 // ISO 14253-1 of a mask: each amplitude with its own interval at 1 - 0.05/m.
 TEST(CurveTrials, LinesOfAMaskHoldTogether) {
   EXPECT_NEAR(options_of_line({}, 5).coverage, 0.99, 1e-12);

@@ -530,6 +530,57 @@ TEST(SpindleGates, DoNotJudgeAsynchronousMotionOfFewTurns) {
   EXPECT_TRUE(result.characteristics.at(1).value_mm());
 }
 
+// Of the part orders above 8 are missing: RONt reads 10.8 um, the truth of 50 UPR is 12.3 um.
+TEST(SpindleGates, DoNotJudgeRoundnessOfFewerHarmonicsThanItsFilterPasses) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  for (const double cutoff_upr : {50.0, 8.0}) {
+    auto run = run_of(world, probes(0.002, 0.02));
+    auto task = record::task_of<record::SpindleTask>(run.features[0].settings);
+    ASSERT_TRUE(task);
+    task->highest_order = 8;
+    task->cutoff_upr = cutoff_upr;
+    run.features[0].settings = record::settings_of_task(*task);
+    const bool within = cutoff_upr == 8.0;
+    const FeatureResult result = result_of(run);
+    EXPECT_EQ(gate(result, "band").outcome,
+              within ? Gate::Outcome::kPassed : Gate::Outcome::kVoids);
+    for (std::size_t c = 0; c < 2; ++c) {
+      EXPECT_EQ(result.characteristics.at(c).verdict, within ? Verdict::kConforms : Verdict::kVoid)
+          << result.characteristics.at(c).reason;
+    }
+    EXPECT_NE(result.characteristics.at(2).verdict, Verdict::kVoid);
+  }
+}
+
+TEST(SpindleGates, DoNotJudgeTotalMotionOfOneRevolution) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  for (const int turns : {1, 2}) {
+    world.turns = turns;
+    auto run = run_of(world, probes(0.002, 0.02));
+    run.features[0].characteristics = {asked("total", record::Form::kMotionTotal, 100.0)};
+    const FeatureResult result = result_of(run);
+    EXPECT_EQ(result.characteristics.at(0).verdict,
+              turns == 1 ? Verdict::kVoid : Verdict::kConforms)
+        << result.characteristics.at(0).reason;
+    EXPECT_EQ(gate(result, "few-turns").outcome,
+              turns == 1 ? Gate::Outcome::kVoids : Gate::Outcome::kPassed);
+  }
+}
+
+TEST(SpindleGates, WarnOfADeclaredNoiseThatTheRevolutionsDoNotShow) {
+  World world = readings_of_a_wrong_gain();
+  record::SpindleInfluencesTask said = probes(0.002, 0.02);
+  for (const double noise_um : {0.02, 0.03, 50.0}) {
+    said.noise_um = declared_probe(noise_um);
+    const FeatureResult result = result_of(run_of(world, said));
+    EXPECT_EQ(gate(result, "u-too-large").outcome,
+              noise_um == 0.02 ? Gate::Outcome::kPassed : Gate::Outcome::kWarns)
+        << noise_um;
+  }
+}
+
 TEST(SpindleGates, VoidAHarmonicWhoseNoiseHidesItsLimit) {
   World world = readings_of_a_wrong_gain();
   world.layout = fit::published_layout_a();

@@ -353,6 +353,15 @@ Scatter scatter_of(double arc_deg, WheelOptions options, int runs) {
   return {std::sqrt(center / runs) * 1e3, std::sqrt(radius / runs) * 1e3};
 }
 
+// n even angles: sigma_S = 2 / sqrt(n), a_R = 1 / sqrt(n), however often a row is given.
+TEST(CircleFactors, CountARowThatIsGivenTwiceOnce) {
+  std::vector<double> angles_rad;
+  for (int i = 0; i < 16; ++i) angles_rad.insert(angles_rad.end(), 4, i * core::kTwoPi / 16.0);
+  const CircleFactors factors = circle_factors(angles_rad);
+  EXPECT_NEAR(factors.center, 0.5, 1e-12);
+  EXPECT_NEAR(factors.radius, 0.25, 1e-12);
+}
+
 TEST(Wheel, ScattersAsTheTableOfTheMethodSays) {
   struct Row {
     double arc_deg;
