@@ -352,6 +352,7 @@ class ContourTrials {
     if (said_.c_encoder_urad) encoders_.push_back(encoder(false));
     if (said_.x_encoder_um) encoders_.push_back(encoder(true));
     skew_ = skew_effects();
+    radius_ = radius_effects();
   }
 
   [[nodiscard]] const Basis& basis() const { return basis_; }
@@ -365,6 +366,9 @@ class ContourTrials {
     return core::phrase("gauge_um is not declared: the noise of the gauge is not known");
   }
   [[nodiscard]] std::optional<core::Phrase> no_axes() const {
+    if (facts_.wheel_radius && !facts_.wheel_radius->errors) {
+      return no_radius_uncertainty(*facts_.wheel_radius);
+    }
     if (said_.c_trace_mdeg || said_.x_trace_um || said_.c_encoder_urad || said_.x_encoder_um) {
       return std::nullopt;
     }
@@ -404,6 +408,21 @@ class ContourTrials {
                              },
                              at});
     }
+    if (!radius_.empty()) {
+      const auto moved = [effects = radius_](double mm, Curves& curves) {
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+          for (std::size_t j = 0; j < curves[i].size(); ++j) curves[i][j] += mm * effects[i][j];
+        }
+      };
+      out.effects.push_back(
+          {kWheelRadius,
+           [moved, errors = *facts_.wheel_radius->errors, seed](int trial, Curves& curves) {
+             moved(drawn_mm(errors, seed, trial), curves);
+           },
+           [moved, u_mm = facts_.wheel_radius->u_mm()](double z, Curves& curves) {
+             moved(z * u_mm, curves);
+           }});
+    }
     for (const CommonCurves& encoder : encoders_) {
       out.effects.push_back(
           {std::string(encoder.declared.id == kCEncoder ? "c-encoder" : "x-encoder"),
@@ -416,6 +435,7 @@ class ContourTrials {
             ? core::phrase("f as control and encoders show it; their own errors are not declared")
             : core::phrase("f as the axes moved, with the errors of the encoders"));
     say(out, {"c_trace_mdeg", "x_trace_um", "skew_ms", "c_encoder_urad", "x_encoder_um"});
+    say_radius(out);
     return out;
   }
 
@@ -468,6 +488,7 @@ class ContourTrials {
         "often than it says"));
     say(out, {"gauge_um", "gauge_form_um", "gauge_gain_1", "gauge_phase_deg", "c_trace_mdeg",
               "x_trace_um", "skew_ms", "c_encoder_urad", "x_encoder_um"});
+    say_radius(out);
     return out;
   }
 
@@ -503,6 +524,7 @@ class ContourTrials {
  private:
   static constexpr std::string_view kCEncoder = "control.c-encoder";
   static constexpr std::string_view kXEncoder = "control.x-encoder";
+  static constexpr const char* kWheelRadius = "wheel-radius";
 
   [[nodiscard]] std::string id(std::string_view what) const {
     return fmt::format("{}.{}", facts_.feature_id, what);
@@ -547,7 +569,11 @@ class ContourTrials {
   /// Coefficients of f that errors of the axes give, to first order.
   [[nodiscard]] std::vector<double> effect(const std::function<double(double)>& x_mm,
                                            const std::function<double(double)>& c_rad) const {
-    const fit::CrankGeometry& crank = facts_.options.geometry;
+    return effect(x_mm, c_rad, facts_.options.geometry);
+  }
+  [[nodiscard]] std::vector<double> effect(const std::function<double(double)>& x_mm,
+                                           const std::function<double(double)>& c_rad,
+                                           const fit::CrankGeometry& crank) const {
     std::vector<double> curve(facts_.options.samples);
     for (std::size_t m = 0; m < curve.size(); ++m) {
       const double beta = core::kTwoPi * static_cast<double>(m) / static_cast<double>(curve.size());
@@ -587,20 +613,55 @@ class ContourTrials {
                           part.axes.samples_per_turn;
       const auto after = fit::turned_curve(part.axes.errors.x_mm, late);
       const auto before = fit::turned_curve(part.axes.errors.x_mm, -late);
-      std::vector<double> alpha(after.size());
       std::vector<double> change(after.size());
-      for (std::size_t i = 0; i < alpha.size(); ++i) {
-        alpha[i] = core::kTwoPi * static_cast<double>(i) / static_cast<double>(alpha.size());
-        change[i] = 0.5 * (after[i] - before[i]);
-      }
-      const fit::PeriodicSpline spline(std::move(alpha), std::move(change));
-      out.push_back(effect(
-          [&](double at) {
-            return spline(
-                std::clamp(at - core::kTwoPi * std::floor(at / core::kTwoPi), 0.0, core::kTwoPi));
-          },
-          [](double) { return 0.0; }));
+      for (std::size_t i = 0; i < change.size(); ++i) change[i] = 0.5 * (after[i] - before[i]);
+      out.push_back(effect(over_turn(std::move(change)), [](double) { return 0.0; }));
     }
+    return out;
+  }
+
+  /// A curve over alpha from its values at equal steps of a turn.
+  static std::function<double(double)> over_turn(std::vector<double> values) {
+    std::vector<double> alpha(values.size());
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+      alpha[i] = core::kTwoPi * static_cast<double>(i) / static_cast<double>(alpha.size());
+    }
+    return [spline = fit::PeriodicSpline(std::move(alpha), std::move(values))](double at) {
+      return spline(
+          std::clamp(at - core::kTwoPi * std::floor(at / core::kTwoPi), 0.0, core::kTwoPi));
+    };
+  }
+
+  /// Change of f of each part for a wheel radius greater by 1 mm; empty where the radius is a
+  /// number of the plan.
+  [[nodiscard]] Curves radius_effects() const {
+    if (!facts_.wheel_radius || !facts_.wheel_radius->errors) return {};
+    constexpr double kStep_mm = 0.1;  // f is linear in the radius to parts of 1e-3 over it
+    fit::CrankGeometry greater = facts_.options.geometry;
+    fit::CrankGeometry smaller = greater;
+    greater.wheel_radius_mm += kStep_mm;
+    smaller.wheel_radius_mm -= kStep_mm;
+    Curves out;
+    for (const fit::ContourPartResult& part : facts_.study.parts) {
+      const auto x_mm = over_turn(part.axes.errors.x_mm);
+      const auto c_rad = over_turn(part.axes.errors.c_rad);
+      out.push_back(effect(x_mm, c_rad, greater));
+      const std::vector<double> less = effect(x_mm, c_rad, smaller);
+      for (std::size_t j = 0; j < less.size(); ++j) {
+        out.back()[j] = (out.back()[j] - less[j]) / (2.0 * kStep_mm);
+      }
+    }
+    return out;
+  }
+
+  void say_radius(CurveModel& out) const {
+    if (facts_.wheel_radius) out.declaration.push_back(statement_of(*facts_.wheel_radius));
+  }
+
+  /// What all parts share of the error of n by the wheel radius, for one standard uncertainty.
+  [[nodiscard]] std::vector<double> radius_in_rest() const {
+    std::vector<double> out = mean_of(radius_);
+    for (double& c : out) c *= -facts_.wheel_radius->u_mm();
     return out;
   }
 
@@ -653,6 +714,16 @@ class ContourTrials {
     return out;
   }
 
+  [[nodiscard]] std::vector<double> mean_of(const Curves& curves) const {
+    std::vector<double> out(basis_.size(), 0.0);
+    for (const auto& curve : curves) {
+      for (std::size_t j = 0; j < out.size(); ++j) {
+        out[j] += curve[j] / static_cast<double>(curves.size());
+      }
+    }
+    return out;
+  }
+
   /// One column times one declared number.
   static CommonCurves scaled(std::vector<double> column, const DrawnInfluence& declared) {
     for (double& c : column) c *= declared.u();
@@ -672,14 +743,8 @@ class ContourTrials {
                        scaled(mean_total(true), {&said_.gauge_phase_deg, kDegree, "gauge.phase"}));
     }
     if (!skew_.empty()) {
-      std::vector<double> mean(basis_.size(), 0.0);
-      for (const auto& curve : skew_) {
-        for (std::size_t j = 0; j < mean.size(); ++j) {
-          mean[j] += curve[j] / static_cast<double>(skew_.size());
-        }
-      }
       out.emplace_back("trace-skew",
-                       CommonCurves{{std::move(mean)}, {&said_.skew_ms, 1.0, "control.skew"}});
+                       CommonCurves{{mean_of(skew_)}, {&said_.skew_ms, 1.0, "control.skew"}});
     }
     for (const CommonCurves& encoder : encoders_) {
       out.emplace_back(encoder.declared.id == kCEncoder ? "c-encoder" : "x-encoder", encoder);
@@ -690,6 +755,10 @@ class ContourTrials {
   [[nodiscard]] std::vector<double> common_squares() const {
     std::vector<double> out(basis_.size(), 0.0);
     for (const auto& [name, error] : common_errors()) error.add_squares(out);
+    if (!radius_.empty()) {
+      const std::vector<double> radius = radius_in_rest();
+      for (std::size_t j = 0; j < out.size(); ++j) out[j] += radius[j] * radius[j];
+    }
     return out;
   }
 
@@ -711,6 +780,23 @@ class ContourTrials {
            {},
            false,
            true});
+    }
+    if (!radius_.empty()) {
+      out.effects.push_back({kWheelRadius,
+                             [column = radius_in_rest(), u_mm = facts_.wheel_radius->u_mm(),
+                              errors = *facts_.wheel_radius->errors,
+                              seed](int trial, Curves& curves) {
+                               if (u_mm == 0.0) return;
+                               const double z = drawn_mm(errors, seed, trial) / u_mm;
+                               for (auto& curve : curves) {
+                                 for (std::size_t j = 0; j < curve.size(); ++j) {
+                                   curve[j] += z * column[j];
+                                 }
+                               }
+                             },
+                             {},
+                             false,
+                             true});
     }
     for (auto& [name, error] : common_errors()) {
       out.effects.push_back(
@@ -777,6 +863,7 @@ class ContourTrials {
   Curves rest_;
   std::vector<CommonCurves> encoders_;
   Curves skew_;
+  Curves radius_;  ///< As radius_effects().
 };
 
 core::Phrase nothing_declared() {
