@@ -29,8 +29,8 @@ double MeasuredRadius::u_mm() const {
 core::Result<MeasuredRadius> take_radius(const std::string& id, const RadiusOf& earlier,
                                          std::vector<Gate>& gates) {
   auto out = earlier(id);
-  gates.push_back(chain_gate(
-      id, out ? std::nullopt : std::optional<core::Phrase>(out.error().said())));
+  gates.push_back(
+      chain_gate(id, out ? std::nullopt : std::optional<core::Phrase>(out.error().said())));
   return out;
 }
 

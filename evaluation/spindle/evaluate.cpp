@@ -179,9 +179,8 @@ core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, in
   facts->influences = task->uncertainty;
   facts->no_interval_because = obstacle_of(*task);
   facts->wheel_radius = std::move(head->wheel_radius);
-  const auto sources =
-      probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(), facts->arm,
-                    head->layout, facts->wheel_radius);
+  const auto sources = probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(),
+                                     facts->arm, head->layout, facts->wheel_radius);
   facts->first_harmonic = fit::observe_first_harmonic(facts->separation, covariance_of(sources));
   for (Gate& gate : gates_of(*facts, readings, feature.characteristics)) {
     if (gate.outcome == Gate::Outcome::kVoids && voids_all(gate) && !facts->void_because) {

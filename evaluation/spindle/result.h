@@ -27,7 +27,7 @@ struct SpindleResult {
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
   std::optional<MeasuredRadius> wheel_radius = {};  ///< Where it is that of another feature.
-  std::string feature_id = {};  ///< Makes draws of noise its own.
+  std::string feature_id = {};                      ///< Makes draws of noise its own.
   /// The influences that the plan declares; none: it declares none.
   std::optional<record::SpindleInfluencesTask> influences = {};
   /// By the declared errors of the probes; without gain and angle by usual ones, and then only its

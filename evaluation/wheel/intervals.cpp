@@ -453,9 +453,8 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
   std::vector<LinearTerm> terms;
   for (const RadiusError& error : errors) terms.push_back({std::string(error.name), error.u_mm});
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
-  auto found =
-      statement_of_trials(std::move(trials), std::move(terms), declaration_of(result, depends),
-                          options);
+  auto found = statement_of_trials(std::move(trials), std::move(terms),
+                                   declaration_of(result, depends), options);
   const double least_mm = with_sign ? -HUGE_VAL : 0.0;
   if (const double form_mm = m.form_in_radius_mm(); found && form_mm > 0.0) {
     widen(form_mm, least_mm, *found);

@@ -133,8 +133,7 @@ core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
                                             std::uint64_t seed) {
   const ContourTask& asked = *plan.features[index].contour;
   const SimulatedContourPlan& hidden = *plan.simulation->contour;
-  fit::CrankGeometry geometry = {asked.crank_radius_mm, asked.wheel_radius_mm,
-                                 asked.pin_radius_mm};
+  fit::CrankGeometry geometry = {asked.crank_radius_mm, asked.wheel_radius_mm, asked.pin_radius_mm};
   if (asked.wheel_radius_from) {
     geometry.wheel_radius_mm = named_wheel(plan, *asked.wheel_radius_from).true_mm;
   }

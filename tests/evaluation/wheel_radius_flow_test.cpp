@@ -184,7 +184,8 @@ double roundness_at_wear_um(double wear_mm) {
 
 TEST(WheelRadiusFlow, TheUncertaintyOfTheRadiusEntersRoundness) {
   // Probes that are turned in the readings, by a length that the plan states without error.
-  const double expected_um = 0.5 * std::abs(roundness_at_wear_um(0.02) - roundness_at_wear_um(-0.02));
+  const double expected_um =
+      0.5 * std::abs(roundness_at_wear_um(0.02) - roundness_at_wear_um(-0.02));
   ASSERT_GT(expected_um, 0.1);
   std::vector<BudgetLine> budget;
   const auto exact = roundness_of(0.0, std::nullopt);
@@ -287,8 +288,7 @@ TEST(WheelRadiusFlow, TheUncertaintyOfTheRadiusEntersWhatFollows) {
   const auto measured = stated(100.0);
   ASSERT_TRUE(exact && measured);
   // By the formula, 0.1 mm to either side.
-  const double per_u_um =
-      0.5 * (GroundPins(96.1).following_um() - GroundPins(95.9).following_um());
+  const double per_u_um = 0.5 * (GroundPins(96.1).following_um() - GroundPins(95.9).following_um());
   ASSERT_GT(per_u_um, 0.0004);
   const auto line = std::ranges::find(measured->budget, "wheel-radius", &BudgetLine::name);
   ASSERT_NE(line, measured->budget.end());
@@ -304,8 +304,8 @@ TEST(WheelRadiusFlow, AVoidWheelVoidsArmAndPins) {
   failed.points = 5;
   WornArm arm;
   arm.take_radius();
-  for (const record::RunRecord& run : {after_wheel(failed, arm.record()),
-                                       after_wheel(failed, GroundPins(299.88).record())}) {
+  for (const record::RunRecord& run :
+       {after_wheel(failed, arm.record()), after_wheel(failed, GroundPins(299.88).record())}) {
     const FeatureResult result = second_of(run);
     ASSERT_NE(chain_gate_of(result), nullptr);
     EXPECT_EQ(chain_gate_of(result)->outcome, Gate::Outcome::kVoids);

@@ -130,9 +130,9 @@ TEST(FeatureReferences, ARadiusGivenTwiceOrWithoutEffectIsRefused) {
 
 // The first harmonic would void an arm on which probes are turned by 0.2 deg without a word.
 TEST(FeatureReferences, ASimulatedArmStandsOnTheSimulatedWheel) {
-  const auto plan = parse_plan(
-      ground_plan(std::string(kSwept) + "," + arm_on("axis") + "," + pins_of("axis")), {},
-      "plan.json");
+  const auto plan =
+      parse_plan(ground_plan(std::string(kSwept) + "," + arm_on("axis") + "," + pins_of("axis")),
+                 {}, "plan.json");
   ASSERT_TRUE(plan) << testing::lines_of(plan);
   const record::Scratch scratch;
   const auto run = run_plan(*plan, testing::options_for(scratch / "run"));

@@ -782,21 +782,21 @@ class ContourTrials {
            true});
     }
     if (!radius_.empty()) {
-      out.effects.push_back({kWheelRadius,
-                             [column = radius_in_rest(), u_mm = facts_.wheel_radius->u_mm(),
-                              errors = *facts_.wheel_radius->errors,
-                              seed](int trial, Curves& curves) {
-                               if (u_mm == 0.0) return;
-                               const double z = drawn_mm(errors, seed, trial) / u_mm;
-                               for (auto& curve : curves) {
-                                 for (std::size_t j = 0; j < curve.size(); ++j) {
-                                   curve[j] += z * column[j];
-                                 }
-                               }
-                             },
-                             {},
-                             false,
-                             true});
+      out.effects.push_back(
+          {kWheelRadius,
+           [column = radius_in_rest(), u_mm = facts_.wheel_radius->u_mm(),
+            errors = *facts_.wheel_radius->errors, seed](int trial, Curves& curves) {
+             if (u_mm == 0.0) return;
+             const double z = drawn_mm(errors, seed, trial) / u_mm;
+             for (auto& curve : curves) {
+               for (std::size_t j = 0; j < curve.size(); ++j) {
+                 curve[j] += z * column[j];
+               }
+             }
+           },
+           {},
+           false,
+           true});
     }
     for (auto& [name, error] : common_errors()) {
       out.effects.push_back(
