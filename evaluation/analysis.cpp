@@ -133,6 +133,15 @@ EarlierWheel wheel_among(std::span<const FeatureResult> earlier) {
   };
 }
 
+/// The radii of these wheels.
+RadiusOf radius_among(std::span<const FeatureResult> earlier) {
+  return [wheels = wheel_among(earlier)](const std::string& id) -> core::Result<MeasuredRadius> {
+    const auto wheel = wheels(id);
+    if (!wheel) return core::fail(wheel.error());
+    return measured_radius(**wheel, id);
+  };
+}
+
 /// Evaluates the series of a feature, or says why they cannot be.
 void evaluate_series(const record::RunRecord& record, int index,
                      std::span<const FeatureResult> earlier, FeatureResult& result) {
@@ -150,13 +159,13 @@ void evaluate_series(const record::RunRecord& record, int index,
   }
   switch (result.feature.shape) {
     case record::Shape::kSpindle:
-      keep(evaluate_spindle(record, index, result), result);
+      keep(evaluate_spindle(record, index, radius_among(earlier), result), result);
       break;
     case record::Shape::kWheel:
       keep(evaluate_wheel(record, index, wheel_among(earlier), result), result);
       break;
     case record::Shape::kContour:
-      keep(evaluate_contour(record, index, result), result);
+      keep(evaluate_contour(record, index, radius_among(earlier), result), result);
       break;
     default:
       result.failure = core::Error{

@@ -272,11 +272,17 @@ ValueOperator operator_of(const ContourResult& facts, const record::Characterist
 }
 
 core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, int index,
-                                             FeatureResult& result) {
+                                             const RadiusOf& earlier, FeatureResult& result) {
   const auto task = record::task_of<ContourTask>(result.feature.settings);
   if (!task) return tl::unexpected(task.error());
   ContourResult facts;
   facts.options = contour_options(*task);
+  if (task->wheel_radius_from) {
+    auto radius = take_radius(task->wheel_radius_from->feature, earlier, result.gates);
+    if (!radius) return tl::unexpected(radius.error());
+    facts.options.geometry.wheel_radius_mm = radius->radius_mm;
+    facts.wheel_radius = *std::move(radius);
+  }
   facts.feature_id = result.feature.id;
   facts.influences = task->uncertainty;
   facts.sampling_ms = task->sampling_ms.value_or(0.0);

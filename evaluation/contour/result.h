@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluation/results/analysis_value.h"
+#include "evaluation/results/measured_radius.h"
 #include "fit/contour/study.h"
 #include "record/tasks/analysis_influences.h"
 
@@ -37,6 +38,7 @@ struct ContourResult {
   std::vector<std::string> names;  ///< One name per part.
   std::string feature_id;          ///< Draws of its own gauge noise carry this name.
   std::optional<record::ContourInfluencesTask> influences;
+  std::optional<MeasuredRadius> wheel_radius;  ///< Where it is that of another feature.
   double sampling_ms = 0.0;  ///< From sample to sample of the control; 0: not known.
   /// Why a curve proves nothing: a gate that did not pass. A void t voids n as well, a void f too.
   std::optional<core::Phrase> total_void;
@@ -47,10 +49,12 @@ struct ContourResult {
 };
 
 /// Evaluates feature `index` of a record.
+/// @param earlier  Asked where another feature gives the wheel radius.
 /// @param result  Holds the feature; receives the warnings and the gates.
 /// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<ContourResult> evaluate_contour(const record::RunRecord& record,
-                                                           int index, FeatureResult& result);
+                                                           int index, const RadiusOf& earlier,
+                                                           FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const ContourResult& result,
                                                    const record::Characteristic& characteristic);

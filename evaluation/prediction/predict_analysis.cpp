@@ -72,7 +72,12 @@ core::Result<std::vector<AnalysisPrediction>> predict_analysis(const record::Run
     return core::fail(core::Code::kBadOption,
                       fmt::format("feature {} is no analysis of series", feature));
   }
-  const FeatureResult result = evaluate_analysis(simulated, feature, std::nullopt);
+  std::vector<FeatureResult> wheels;  // no other feature gives a value to a later one
+  for (int i = 0; i < feature; ++i) {
+    if (simulated.features[static_cast<std::size_t>(i)].shape != record::Shape::kWheel) continue;
+    wheels.push_back(evaluate_analysis(simulated, i, std::nullopt, wheels));
+  }
+  const FeatureResult result = evaluate_analysis(simulated, feature, std::nullopt, wheels);
   if (!result.analysis) {
     const std::string why =
         result.failure ? result.failure->what : std::string("there is no result");

@@ -89,6 +89,36 @@ std::optional<core::Phrase> obstacle_of(const SpindleTask& task) {
   return std::nullopt;
 }
 
+/// The arm and the places of the probes about the pin.
+struct ProbeHead {
+  fit::SwingArm arm;
+  fit::ProbeLayout layout;
+  std::optional<MeasuredRadius> wheel_radius;
+};
+
+core::Result<ProbeHead> head_of(const SpindleTask& task, const RadiusOf& earlier,
+                                std::vector<Gate>& gates) {
+  const auto stated = layout_of(task);
+  if (!stated) return tl::unexpected(stated.error());
+  ProbeHead out{
+      {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm}, *stated, std::nullopt};
+  if (!task.wheel_radius_from) return out;
+  auto radius = take_radius(task.wheel_radius_from->feature, earlier, gates);
+  if (!radius) return tl::unexpected(radius.error());
+  if (!radius->nominal_mm) {
+    return core::fail(core::Code::kMissingKey,
+                      core::phrase("feature {} states no nominal radius, on which the probes were "
+                                   "set",
+                                   radius->feature));
+  }
+  out.arm.wheel_radius_mm = radius->radius_mm;
+  auto turned = fit::turned_by_arm(*stated, out.arm, *radius->nominal_mm);
+  if (!turned) return tl::unexpected(turned.error());
+  out.layout = *turned;
+  out.wheel_radius = *std::move(radius);
+  return out;
+}
+
 std::vector<std::vector<double>> turns_of(const fit::ThreeProbeResult& result,
                                           std::vector<double> fit::CentreMotion::*direction) {
   std::vector<std::vector<double>> out;
@@ -137,16 +167,15 @@ core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
 }
 
 core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, int index,
-                                             FeatureResult& result) {
+                                             const RadiusOf& earlier, FeatureResult& result) {
   const record::Feature& feature = result.feature;
   const auto task = record::task_of<SpindleTask>(feature.settings);
   if (!task) return tl::unexpected(task.error());
-  const auto layout = layout_of(*task);
-  if (!layout) return tl::unexpected(layout.error());
+  auto head = head_of(*task, earlier, result.gates);
+  if (!head) return tl::unexpected(head.error());
   const double cutoff = task->filter == SpindleTask::Filter::kNone ? 0.0 : task->cutoff_upr;
-  const fit::SwingArm arm{task->crank_radius_mm, task->wheel_radius_mm, task->pin_radius_mm};
   const fit::ProbeReadings readings = probe_readings(*record.data_of(index, "data"));
-  auto facts = spindle_facts(readings, arm, *layout, separation_options(*task), cutoff,
+  auto facts = spindle_facts(readings, head->arm, head->layout, separation_options(*task), cutoff,
                              feature.side == record::Side::kInside);
   if (!facts) return tl::unexpected(facts.error());
   facts->feature_id = feature.id;
@@ -158,14 +187,15 @@ core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, in
     }
   }
   facts->no_interval_because = obstacle_of(*task);
-  const auto sources =
-      probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(), arm, *layout);
+  facts->wheel_radius = std::move(head->wheel_radius);
+  const auto sources = probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(),
+                                     facts->arm, head->layout, facts->wheel_radius);
   facts->first_harmonic = fit::observe_first_harmonic(facts->separation, covariance_of(sources));
-  result.gates = gates_of(*facts, readings, feature.characteristics);
-  for (const Gate& gate : result.gates) {
+  for (Gate& gate : gates_of(*facts, readings, feature.characteristics)) {
     if (gate.outcome == Gate::Outcome::kVoids && voids_all(gate) && !facts->void_because) {
       facts->void_because = gate.reason;
     }
+    result.gates.push_back(std::move(gate));
   }
   result.warnings = facts->separation.warnings;
   result.warnings.insert(result.warnings.end(), facts->roundness.warnings.begin(),

@@ -317,7 +317,8 @@ class SpindleTrials {
         model_(std::move(model)),
         seed_(seed),
         first_id_("probe.noise.first-harmonic/" + facts.feature_id),
-        sources_(probe_sources(*facts.influences, facts.arm, facts.separation.layout)),
+        sources_(probe_sources(*facts.influences, facts.arm, facts.separation.layout,
+                               facts.wheel_radius)),
         base_(model_.at(first_.mean)),
         directions_(model_, facts.separation, seed),
         part_(part_curve(), seed, "probe.noise.part/" + facts.feature_id),
@@ -397,9 +398,7 @@ class SpindleTrials {
   [[nodiscard]] fit::ProbeErrors errors(int trial) const {
     fit::ProbeErrors free = fit::ProbeErrors::Zero();
     for (const ProbeSource& source : sources_) {
-      const double z = source.rectangular ? uniform_draw(seed_, source.id, source.instance, trial)
-                                          : normal_draw(seed_, source.id, source.instance, trial);
-      free += z * source.per_u;
+      free += source.draw(seed_, trial) * source.per_u;
     }
     const Eigen::Vector2d noise(normal_draw(seed_, first_id_, 0, trial),
                                 normal_draw(seed_, first_id_, 1, trial));
@@ -495,6 +494,9 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
                "`uncertainty` of the feature"));
   }
   if (result.no_interval_because) return none(*result.no_interval_because);
+  if (result.wheel_radius && !result.wheel_radius->errors) {
+    return none(no_radius_uncertainty(*result.wheel_radius));
+  }
   auto model = fit::SeparationModel::of(result.separation);
   if (!model) return none(model.error().said());
   const int highest_motion = model->highest_motion();
@@ -567,8 +569,8 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
     }
   }
   const auto declaration =
-      probe_declaration(*result.influences, result.arm, result.separation.noise_mm,
-                        result.probe_range_mm.has_value());
+      probe_declaration(*result.influences, result.arm, result.wheel_radius,
+                        result.separation.noise_mm, result.probe_range_mm.has_value());
   std::vector<std::vector<UncertaintyStatement>> lines(characteristics.size());
   for (Asked& one : std::views::reverse(wanted)) {  // the lines before their mask
     one.terms.push_back({"probe-noise", deviation_of(one.noise_mm)});

@@ -8,6 +8,7 @@
 #include "core/phrase.h"
 #include "evaluation/results/analysis_value.h"
 #include "evaluation/results/gate.h"
+#include "evaluation/results/measured_radius.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
 #include "fit/spindle/first_harmonic.h"
@@ -25,7 +26,8 @@ struct SpindleResult {
   fit::RoundnessEvaluation roundness;  ///< Roundness of the recovered profile.
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
-  std::string feature_id = {};  ///< Makes draws of noise its own.
+  std::optional<MeasuredRadius> wheel_radius = {};  ///< Where it is that of another feature.
+  std::string feature_id = {};                      ///< Makes draws of noise its own.
   /// The influences that the plan declares; none: it declares none.
   std::optional<record::SpindleInfluencesTask> influences = {};
   /// By the declared errors of the probes; without gain and angle by usual ones, and then only its
@@ -71,10 +73,12 @@ constexpr double kWeakShare = 0.25;
 [[nodiscard]] bool voids_all(const Gate& gate);
 
 /// Evaluates feature `index` of a record.
-/// @param result  Holds the feature; receives the warnings.
+/// @param earlier  Asked where another feature gives the wheel radius.
+/// @param result  Holds the feature; receives the warnings and the gates.
 /// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record,
-                                                           int index, FeatureResult& result);
+                                                           int index, const RadiusOf& earlier,
+                                                           FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const SpindleResult& result,
                                                    const record::Characteristic& characteristic);

@@ -400,6 +400,23 @@ UncertaintyStatus interval_of(const WheelResult& result, const Edge& edge, Quant
                 options);
 }
 
+/// The independent errors of the radius; where the feature declares its influences.
+std::vector<RadiusError> errors_of_radius(const WheelResult& result, const Edge& edge) {
+  const WheelInfluencesTask& said = *result.declared;
+  const fit::WheelMeasurement& m = result.evaluation.wheel;
+  const Influences u = standard_of(said);
+  const auto flat = [](const Influence& influence) {
+    return influence && influence->distribution == DeclaredInfluence::Distribution::kRectangular;
+  };
+  return {{"edge-points", "wheel.radius",
+           record::u_of(said.point_um) * kMicrometre * m.factors.radius, false},
+          {"stage-scale", "stage.scale", u.scale_1 * m.radius_mm, flat(said.scale_ppm)},
+          {"edge-threshold", "wheel.threshold", u.threshold_mm, flat(said.threshold_um)},
+          {"wheel-wear", "wheel.wear", u.wear_mm, flat(said.wear_um)},
+          {"stage-squareness", "stage.squareness", u.squareness_rad * edge.oval_in_radius_mm(),
+           flat(said.squareness_urad)}};
+}
+
 /// Widens a statement by as much on either side: what form may move the value by has no
 /// distribution.
 /// @param least_mm  What the value is never below: 0 of an amount.
@@ -421,11 +438,11 @@ void widen(double by_mm, double least_mm, UncertaintyResult& result) {
 /// lie within +-T.
 UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, bool with_sign,
                                   const UncertaintyOptions& options) {
-  const WheelInfluencesTask& said = *result.declared;
   const fit::WheelMeasurement& m = result.evaluation.wheel;
   const auto& nominal_mm = result.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return UncertaintyStatus::none(core::phrase("there is no nominal radius"));
   const double departure_mm = result.judged_radius_mm() - *nominal_mm;
+  const std::vector<RadiusError> errors = errors_of_radius(result, edge);
   // Of the correction to 20 degC, for one standard uncertainty of each.
   const double expansion_mm =
       result.expansion_1_K
@@ -433,30 +450,19 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
           : 0.0;
   const double temperature_mm =
       m.radius_mm * result.expansion_1_K.value_or(0.0) * record::u_of(said.temperature_K);
-  const double point_mm = record::u_of(said.point_um) * kMicrometre * m.factors.radius;
-  const double oval_mm = edge.oval_in_radius_mm();
-  const auto shift = [&](double points, const Influences& drawn) {
-    return points * point_mm + drawn.scale_1 * m.radius_mm + drawn.threshold_mm + drawn.wear_mm +
-           drawn.squareness_rad * oval_mm;
-  };
   const auto judged = [&](double value_mm) { return with_sign ? value_mm : std::abs(value_mm); };
   TrialValues trials;
   trials.signed_value = with_sign;
   trials.as_measured_mm = judged(departure_mm);
   for (int t = 0; t < options.least_trials; ++t) {
-    const double points = normal_draw(options.seed, "wheel.radius", 0, t);
     const double corrected =
         expansion_mm * drawn(said.expansion_per_K, options.seed, "wheel.expansion", 0, t) +
         temperature_mm * drawn(said.temperature_K, options.seed, "wheel.temperature", 0, t);
     trials.values_mm.push_back(
-        judged(departure_mm + corrected + shift(points, draw_of(result, options.seed, t))));
+        judged(departure_mm + corrected + drawn_mm(errors, options.seed, t)));
   }
-  const Influences u = standard_of(said);
-  std::vector<LinearTerm> terms = {{"edge-points", point_mm},
-                                         {"stage-scale", u.scale_1 * m.radius_mm},
-                                         {"edge-threshold", u.threshold_mm},
-                                         {"wheel-wear", u.wear_mm},
-                                         {"stage-squareness", u.squareness_rad * oval_mm}};
+  std::vector<LinearTerm> terms;
+  for (const RadiusError& error : errors) terms.push_back({std::string(error.name), error.u_mm});
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
   std::vector<InfluenceStatement> declaration = declaration_of(result, depends);
   if (result.expansion_1_K) {
@@ -524,6 +530,35 @@ std::vector<UncertaintyStatus> intervals_of(const WheelResult& result,
                                   : Quantity::kMzRoundness;
     out.push_back(interval_of(result, *edge, quantity, value->value_mm, options));
   }
+  return out;
+}
+
+core::Result<MeasuredRadius> measured_radius(const WheelResult& swept, const std::string& id) {
+  const fit::WheelMeasurement& wheel = swept.evaluation.wheel;
+  if (wheel.mode != fit::WheelMode::kEnvelope) {
+    return core::fail(core::Code::kMeaning,
+                      core::phrase("feature {} is no wheel of mode envelope, so it gives no radius "
+                                   "with which the wheel grinds",
+                                   id));
+  }
+  if (!wheel.radius_void_because.empty()) {
+    return core::fail(core::Code::kMeaning, core::phrase("the radius of feature {} is void: {}", id,
+                                                         wheel.radius_void_because));
+  }
+  if (wheel.form_in_radius_mm() > 0.0) {
+    // Its errors count noise. Neighbouring residuals that are alike move the radius by more.
+    return core::fail(
+        core::Code::kMeaning,
+        core::phrase(
+            "the points of feature {} see an arc, and neighbouring residuals are alike (tau "
+            "{:.2f}): form moves its radius by an unknown amount; measure more of the circle",
+            id, wheel.correlation));
+  }
+  MeasuredRadius out{id, wheel.radius_mm, swept.task.wheel.nominal_radius_mm, std::nullopt};
+  if (!swept.declared || !swept.declared->point_um) return out;
+  const auto edge = edge_of(swept);
+  if (!edge) return core::fail(edge.error());
+  out.errors = errors_of_radius(swept, *edge);
   return out;
 }
 

@@ -10,6 +10,7 @@
 
 #include "evaluation/results/analysis_value.h"
 #include "evaluation/results/gate.h"
+#include "evaluation/results/measured_radius.h"
 #include "fit/wheel/evaluation.h"
 #include "record/tasks/analysis_influences.h"
 
@@ -47,6 +48,13 @@ struct WheelResult {
            (1.0 + expansion_1_K.value_or(0.0) * above_20_K.value_or(0.0));
   }
 };
+
+/// The radius that a wheel at speed shows, for a feature that takes it.
+/// @param id  Of its feature.
+/// @return  The radius with its errors; or why the feature gives none: points of its body, or a
+///          radius that is void or that form moves by an unknown amount.
+[[nodiscard]] core::Result<MeasuredRadius> measured_radius(const WheelResult& swept,
+                                                           const std::string& id);
 
 /// Finds the result of an earlier wheel by the id of its feature; or says why nothing can be taken
 /// from it: there is none, it is void, it is no wheel.

@@ -58,6 +58,19 @@ double ProbeLayout::gain(int order) const {
   return size > 0.0 ? weight_norm() / size : std::numeric_limits<double>::infinity();
 }
 
+core::Result<ProbeLayout> turned_by_arm(const ProbeLayout& layout, const SwingArm& arm,
+                                        double set_on_mm) {
+  if (!arm.swings()) return layout;
+  if (!(arm.pin_radius_mm > 0.0)) {
+    return core::fail(core::Code::kOutOfRange, "an arm that swings needs the radius of the pin");
+  }
+  const auto places = layout.angles_rad();
+  const double per_sine = (set_on_mm - arm.wheel_radius_mm) / arm.pin_radius_mm;
+  const double second = places[1] + per_sine * std::sin(places[1]);
+  const double third = places[2] + per_sine * std::sin(places[2]);
+  return ProbeLayout::of(second, third - second);  // P1 stands on the arm: its sine is 0
+}
+
 ProbeLayout published_layout_a() { return *ProbeLayout::of(of_1024(256), of_1024(515)); }
 ProbeLayout published_layout_b() { return *ProbeLayout::of(of_1024(173), of_1024(683)); }
 ProbeLayout reference_layout() { return *ProbeLayout::of(of_1024(149), of_1024(708)); }

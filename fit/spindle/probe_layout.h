@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "fit/geometry/swing_arm.h"
 
 namespace rondure::fit {
 
@@ -46,6 +47,16 @@ class ProbeLayout {
   double phi3_;
   std::array<double, 3> weights_;
 };
+
+/// The layout as it stands about the pin when the swing arm is not as long as when the probes were
+/// set. The arm swings about the wheel centre with P1 on it, on the side of the wheel: on a wheel
+/// smaller by D every line misses the pin by D sin(Phi) sideways, which acts exactly as an angle,
+/// Phi + D sin(Phi)/Rw. Source: methods, analyses_uncertainty 2.1, 2.2.
+/// @param arm  With the wheel as it is; one that does not swing turns nothing.
+/// @param set_on_mm  Radius of the wheel on which the probes were set.
+/// @return As ProbeLayout::of(); kOutOfRange for a swinging arm without radius of the pin.
+[[nodiscard]] core::Result<ProbeLayout> turned_by_arm(const ProbeLayout& layout,
+                                                      const SwingArm& arm, double set_on_mm);
 
 /// The two layouts of the source and the best one of methods A.5. The angles are whole samples of
 /// 1024 per turn, of which the source prints rounded values: 90 and 181.0546875 deg; 60.8203125 and

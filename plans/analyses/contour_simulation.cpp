@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "fit/contour/ground_contour.h"
 #include "plans/analyses/internal/contour_kind.h"
+#include "plans/analyses/internal/simulated_wheel.h"
 
 namespace rondure::plans {
 namespace {
@@ -132,8 +133,10 @@ core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
                                             std::uint64_t seed) {
   const ContourTask& asked = *plan.features[index].contour;
   const SimulatedContourPlan& hidden = *plan.simulation->contour;
-  const fit::CrankGeometry geometry = {asked.crank_radius_mm, asked.wheel_radius_mm,
-                                       asked.pin_radius_mm};
+  fit::CrankGeometry geometry = {asked.crank_radius_mm, asked.wheel_radius_mm, asked.pin_radius_mm};
+  if (asked.wheel_radius_from) {
+    geometry.wheel_radius_mm = named_wheel(plan, *asked.wheel_radius_from).true_mm;
+  }
   const auto points = static_cast<std::size_t>(hidden.gauge_points);
   const double sense = asked.gauge == ContourTask::Gauge::kClockwise ? -1.0 : 1.0;
   const auto feature = static_cast<int>(index);

@@ -40,8 +40,35 @@ std::string why_no_axis(const FeaturePlan& producer) {
   return {};
 }
 
+std::string why_no_radius(const FeaturePlan& producer) {
+  if (producer.type != record::Shape::kWheel) {
+    return fmt::format("feature {} is a {}", in_quotes(producer.id), name_of(producer.type));
+  }
+  if (!producer.wheel || producer.wheel->mode != WheelTask::Mode::kEnvelope) {
+    return fmt::format(
+        "feature {} is measured indexed: its radius is without the run-out with "
+        "which the wheel grinds",
+        in_quotes(producer.id));
+  }
+  return producer.wheel->nominal_radius_mm
+             ? std::string()
+             : fmt::format("feature {} has no nominal_radius_mm", in_quotes(producer.id));
+}
+
 std::vector<TakenValue> references_of(const FeaturePlan& feature) {
   std::vector<TakenValue> out;
+  if (feature.spindle && feature.spindle->wheel_radius_from) {
+    out.push_back({"/spindle/wheel_radius_from/feature",
+                   feature.spindle->wheel_radius_from->feature,
+                   "the radius is that of a wheel of mode envelope with a nominal radius, on "
+                   "which the probes were set",
+                   why_no_radius});
+  }
+  if (feature.contour && feature.contour->wheel_radius_from) {
+    out.push_back(
+        {"/contour/wheel_radius_from/feature", feature.contour->wheel_radius_from->feature,
+         "the radius is that of a wheel of mode envelope with a nominal radius", why_no_radius});
+  }
   if (feature.wheel && feature.wheel->axis_from) {
     out.push_back({"/wheel/axis_from/feature", feature.wheel->axis_from->feature,
                    "the axis is that of a wheel of mode envelope with center least-squares",

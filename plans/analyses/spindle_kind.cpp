@@ -9,6 +9,7 @@
 #include "fit/geometry/swing_arm.h"
 #include "fit/spindle/probe_layout.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/simulated_wheel.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/spindle_table.h"
 
@@ -83,6 +84,22 @@ bool check_angles(const SpindleTask& plan, const std::string& where, Findings& f
   return true;
 }
 
+/// The keys beside a wheel radius of an earlier feature (check_references()).
+void check_source_of_arm(const SpindleTask& plan, const std::string& where, Findings& findings) {
+  if (findings.is_given(where + "/wheel_radius_mm")) {
+    findings.meaning(Code::kMeaning, where + "/wheel_radius_mm",
+                     "the wheel radius is that of an earlier feature (wheel_radius_from); remove "
+                     "one");
+  }
+  if (!arm_of(plan).swings()) {
+    findings.meaning(Code::kMeaning, where + "/wheel_radius_from",
+                     "has no effect: the probes stand still; remove it, or give crank_radius_mm");
+  } else if (!(plan.pin_radius_mm > 0.0)) {
+    findings.meaning(Code::kMissingKey, where + "/pin_radius_mm",
+                     "this key is missing: an arm that swings needs the radius of the pin");
+  }
+}
+
 void check_spindle(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const SpindleTask& plan = *feature.spindle;
   if (check_angles(plan, where, findings)) {
@@ -90,7 +107,9 @@ void check_spindle(const FeaturePlan& feature, const std::string& where, Finding
       findings.meaning(layout.error().code, where, layout.error().what);
     }
   }
-  if (const auto arm = fit::check_swing_arm(arm_of(plan)); !arm) {
+  if (plan.wheel_radius_from) {  // the arm is checked with the radius, once that is measured
+    check_source_of_arm(plan, where, findings);
+  } else if (const auto arm = fit::check_swing_arm(arm_of(plan)); !arm) {
     findings.meaning(arm.error().code, where, arm.error().what);
   }
   if (plan.samples < 2 * plan.highest_order + 2) {
@@ -196,6 +215,14 @@ core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
   const auto layout = layout_of(asked);
   if (!layout) return core::fail(layout.error());
   ProbedWorld world{hidden, arm_of(asked), layout->angles_rad()};
+  if (asked.wheel_radius_from) {
+    // The head was set on the nominal wheel: on another one its lines miss the pin.
+    const NamedWheel wheel = named_wheel(plan, *asked.wheel_radius_from);
+    world.arm.wheel_radius_mm = wheel.true_mm;
+    const auto turned = fit::turned_by_arm(*layout, world.arm, wheel.nominal_mm);
+    if (!turned) return core::fail(turned.error());
+    world.places_rad = turned->angles_rad();
+  }
   world.places_rad[1] += hidden.p2_error_deg * kDegree;
   world.places_rad[2] += hidden.p3_error_deg * kDegree;
   const auto feature = static_cast<int>(index);

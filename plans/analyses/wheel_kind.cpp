@@ -8,6 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/simulated_wheel.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/wheel_table.h"
 
@@ -232,6 +233,17 @@ core::Result<AnalysisData> simulate_wheel(const Plan& plan, std::size_t index, s
 }
 
 }  // namespace
+
+NamedWheel named_wheel(const Plan& plan, const record::FeatureReference& from) {
+  const auto found = std::ranges::find(plan.features, from.feature, &FeaturePlan::id);
+  if (found == plan.features.end() || !found->wheel) return {};
+  const double nominal_mm = found->wheel->nominal_radius_mm.value_or(0.0);
+  NamedWheel out{nominal_mm, nominal_mm};
+  if (!found->source && plan.simulation && plan.simulation->wheel) {
+    out.true_mm = reach_of(SimulatedWheel{*plan.simulation->wheel}).greatest_mm;
+  }
+  return out;
+}
 
 const AnalysisKind& wheel_kind() {
   static constexpr AnalysisKind kKind = {

@@ -8,6 +8,7 @@
 
 #include "record/key_spec.h"
 #include "record/tasks/analysis_influences.h"
+#include "record/tasks/feature_reference.h"
 
 namespace rondure::record {
 
@@ -32,6 +33,7 @@ struct ContourTask {
 
   double crank_radius_mm = 49.0;
   double wheel_radius_mm = 299.88;
+  std::optional<FeatureReference> wheel_radius_from;  ///< In place of the number.
   double pin_radius_mm = 24.56;
   double main_radius_mm = 30.0;
   Method method = Method::kCorrected;
@@ -121,6 +123,9 @@ void describe_crank(Visitor& v, ContourTask& p) {
   };
   v.number("crank_radius_mm", p.crank_radius_mm, radius("Distance of the pin from the axis, R."));
   v.number("wheel_radius_mm", p.wheel_radius_mm, radius("Radius of the grinding wheel, Rgw."));
+  v.object("wheel_radius_from", p.wheel_radius_from,
+           {.meaning = "In place of wheel_radius_mm: the radius of an earlier wheel of mode "
+                       "envelope, with its uncertainty."});
   v.number("pin_radius_mm", p.pin_radius_mm, radius("Radius of the pin, r."));
   v.number("main_radius_mm", p.main_radius_mm, radius("Radius of the main journals."));
 }

@@ -6,6 +6,7 @@
 
 #include "record/key_spec.h"
 #include "record/tasks/analysis_influences.h"
+#include "record/tasks/feature_reference.h"
 #include "record/tasks/switch.h"
 
 namespace rondure::record {
@@ -25,6 +26,7 @@ struct SpindleTask {
   std::optional<double> p1_to_p3_deg;
   double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; otherwise the arm follows a crank pin.
   double wheel_radius_mm = 0.0;
+  std::optional<FeatureReference> wheel_radius_from;  ///< In place of the number.
   double pin_radius_mm = 0.0;
   int samples = 1024;
   int highest_order = 50;
@@ -100,6 +102,10 @@ void describe_swing_arm(Visitor& v, SpindleTask& p) {
              "a swing arm (tracking); 0: an ordinary shaft (static)."));
   v.number("wheel_radius_mm", p.wheel_radius_mm,
            radius("Radius of the wheel whose centre is the pivot of the arm."));
+  v.object("wheel_radius_from", p.wheel_radius_from,
+           {.meaning = "In place of wheel_radius_mm: the radius of an earlier wheel of mode "
+                       "envelope, with its uncertainty. The angles of the probes are those on an "
+                       "arm of its nominal radius."});
   v.number("pin_radius_mm", p.pin_radius_mm,
            radius("Radius of the measured pin or shaft; the second-order correction needs it."));
 }

@@ -89,6 +89,7 @@ SpindleTask full_spindle() {
   out.second_order = SpindleTask::SecondOrder::kOff;
   out.motion = SpindleTask::Motion::kAsPublished;
   out.filter = SpindleTask::Filter::kNone;
+  out.wheel_radius_from.emplace().feature = "ground with";
   SpindleInfluencesTask& declared = out.uncertainty.emplace();
   declared.gain_1 = DeclaredInfluence{kOdd / 100.0};
   declared.line_um = DeclaredInfluence{kOdd, DeclaredInfluence::Distribution::kRectangular};
@@ -135,6 +136,7 @@ ContourTask full_contour() {
   out.filter = ContourTask::Filter::kDoneByGauge;
   out.base_circle = ContourTask::BaseCircle::kGeometric;
   out.main_journal = ContourTask::MainJournal::kMapped;
+  out.wheel_radius_from.emplace().feature = "ground with";
   out.parts = {{"", "a1.csv", "p1.csv", ""}, {"second", "a2.csv", "p2.csv", "m2.csv"}};
   ContourInfluencesTask& declared = out.uncertainty.emplace();
   declared.gauge_um = DeclaredInfluence{kOdd};
@@ -289,10 +291,28 @@ TEST(Tasks, HaveTheirDefaultsWhereAJournalSaysNothing) {
   EXPECT_EQ(lines_of(settings_of_task(*wheel)), lines_of(settings_of_task(WheelTask())));
 }
 
+TEST(Tasks, TakeTheRadiusOfAWheelOnlyWhereTheJournalNamesIt) {
+  const auto names_of = [](const std::vector<Setting>& settings) {
+    std::string out;
+    for (const Setting& one : settings) out += one.name + " = " + one.text + "\n";
+    return out;
+  };
+  EXPECT_THAT(names_of(settings_of_task(full_contour())),
+              ::testing::HasSubstr("wheel_radius_from/feature = ground with"));
+  // A journal from before the key: its settings are those of a radius given as a number.
+  const std::vector<Setting> before = settings_of_task(ContourTask());
+  EXPECT_THAT(names_of(before), ::testing::Not(::testing::HasSubstr("wheel_radius_from")));
+  const auto read = task_of<ContourTask>(before);
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_FALSE(read->wheel_radius_from);
+  EXPECT_EQ(read->wheel_radius_mm, ContourTask().wheel_radius_mm);
+}
+
 TEST(Tasks, RefuseAnUnknownWordByTheNameOfItsSetting) {
-  refuses_other_words(full_spindle());
+  refuses_other_words(full_spindle(), {"wheel_radius_from/feature"});
   refuses_other_words(full_wheel());
-  refuses_other_words(full_contour(), {"parts/name", "parts/axes", "parts/pin", "parts/main"});
+  refuses_other_words(full_contour(), {"parts/name", "parts/axes", "parts/pin", "parts/main",
+                                       "wheel_radius_from/feature"});
   refuses_other_words(full_rotary_axes(), {"balls/id"});
   refuses_other_words(full_rule(), {"zones", "outcomes", "repeats", "outliers"});
   refuses_other_words(full_characteristic(), {"id", "drawing_zone", "datum", "decision_rule/zones",

@@ -26,6 +26,18 @@ constexpr int kEncoderTo = 10;
 constexpr int kMainTo = 10;
 constexpr std::size_t kPartsForMains = 4;
 
+/// A curve over alpha from its values at equal steps of a turn.
+std::function<double(double)> over_turn(std::vector<double> values) {
+  std::vector<double> alpha(values.size());
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    alpha[i] = core::kTwoPi * static_cast<double>(i) / static_cast<double>(alpha.size());
+  }
+  return [spline = fit::PeriodicSpline(std::move(alpha), std::move(values))](double at) {
+    return spline(
+        std::clamp(at - core::kTwoPi * std::floor(at / core::kTwoPi), 0.0, core::kTwoPi));
+  };
+}
+
 }  // namespace
 
 ContourTrials::ContourTrials(const ContourResult& facts, const UncertaintyOptions& options)
@@ -38,6 +50,7 @@ ContourTrials::ContourTrials(const ContourResult& facts, const UncertaintyOption
   if (said_.c_encoder_urad) encoders_.push_back(encoder(false));
   if (said_.x_encoder_um) encoders_.push_back(encoder(true));
   skew_ = skew_effects();
+  radius_ = radius_effects();
 }
 
 std::optional<core::Phrase> ContourTrials::no_gauge() const {
@@ -46,6 +59,9 @@ std::optional<core::Phrase> ContourTrials::no_gauge() const {
 }
 
 std::optional<core::Phrase> ContourTrials::no_axes() const {
+  if (facts_.wheel_radius && !facts_.wheel_radius->errors) {
+    return no_radius_uncertainty(*facts_.wheel_radius);
+  }
   if (said_.c_trace_mdeg || said_.x_trace_um || said_.c_encoder_urad || said_.x_encoder_um) {
     return std::nullopt;
   }
@@ -84,6 +100,21 @@ CurveModel ContourTrials::following_model() const {
                            },
                            at});
   }
+  if (!radius_.empty()) {
+    const auto moved = [effects = radius_](double mm, Curves& curves) {
+      for (std::size_t i = 0; i < curves.size(); ++i) {
+        for (std::size_t j = 0; j < curves[i].size(); ++j) curves[i][j] += mm * effects[i][j];
+      }
+    };
+    out.effects.push_back(
+        {kWheelRadius,
+         [moved, errors = *facts_.wheel_radius->errors, seed](int trial, Curves& curves) {
+           moved(drawn_mm(errors, seed, trial), curves);
+         },
+         [moved, u_mm = facts_.wheel_radius->u_mm()](double z, Curves& curves) {
+           moved(z * u_mm, curves);
+         }});
+  }
   for (const CommonCurves& encoder : encoders_) {
     out.effects.push_back(
         {std::string(encoder.declared.id == kCEncoder ? "c-encoder" : "x-encoder"),
@@ -96,6 +127,7 @@ CurveModel ContourTrials::following_model() const {
           ? core::phrase("f as control and encoders show it; their own errors are not declared")
           : core::phrase("f as the axes moved, with the errors of the encoders"));
   say(out, {"c_trace_mdeg", "x_trace_um", "skew_ms", "c_encoder_urad", "x_encoder_um"});
+  say_radius(out);
   return out;
 }
 
@@ -146,6 +178,7 @@ CurveModel ContourTrials::rest_model() const {
       "often than it says"));
   say(out, {"gauge_um", "gauge_form_um", "gauge_gain_1", "gauge_phase_deg", "c_trace_mdeg",
             "x_trace_um", "skew_ms", "c_encoder_urad", "x_encoder_um"});
+  say_radius(out);
   return out;
 }
 
@@ -213,7 +246,12 @@ double ContourTrials::trace_u(std::size_t part) const {
 
 std::vector<double> ContourTrials::effect(const std::function<double(double)>& x_mm,
                                           const std::function<double(double)>& c_rad) const {
-  const fit::CrankGeometry& crank = facts_.options.geometry;
+  return effect(x_mm, c_rad, facts_.options.geometry);
+}
+
+std::vector<double> ContourTrials::effect(const std::function<double(double)>& x_mm,
+                                          const std::function<double(double)>& c_rad,
+                                          const fit::CrankGeometry& crank) const {
   std::vector<double> curve(facts_.options.samples);
   for (std::size_t m = 0; m < curve.size(); ++m) {
     const double beta = core::kTwoPi * static_cast<double>(m) / static_cast<double>(curve.size());
@@ -249,20 +287,40 @@ Curves ContourTrials::skew_effects() const {
                         part.axes.samples_per_turn;
     const auto after = fit::turned_curve(part.axes.errors.x_mm, late);
     const auto before = fit::turned_curve(part.axes.errors.x_mm, -late);
-    std::vector<double> alpha(after.size());
     std::vector<double> change(after.size());
-    for (std::size_t i = 0; i < alpha.size(); ++i) {
-      alpha[i] = core::kTwoPi * static_cast<double>(i) / static_cast<double>(alpha.size());
-      change[i] = 0.5 * (after[i] - before[i]);
-    }
-    const fit::PeriodicSpline spline(std::move(alpha), std::move(change));
-    out.push_back(effect(
-        [&](double at) {
-          return spline(
-              std::clamp(at - core::kTwoPi * std::floor(at / core::kTwoPi), 0.0, core::kTwoPi));
-        },
-        [](double) { return 0.0; }));
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] = 0.5 * (after[i] - before[i]);
+    out.push_back(effect(over_turn(std::move(change)), [](double) { return 0.0; }));
   }
+  return out;
+}
+
+Curves ContourTrials::radius_effects() const {
+  if (!facts_.wheel_radius || !facts_.wheel_radius->errors) return {};
+  constexpr double kStep_mm = 0.1;  // f is linear in the radius to parts of 1e-3 over it
+  fit::CrankGeometry greater = facts_.options.geometry;
+  fit::CrankGeometry smaller = greater;
+  greater.wheel_radius_mm += kStep_mm;
+  smaller.wheel_radius_mm -= kStep_mm;
+  Curves out;
+  for (const fit::ContourPartResult& part : facts_.study.parts) {
+    const auto x_mm = over_turn(part.axes.errors.x_mm);
+    const auto c_rad = over_turn(part.axes.errors.c_rad);
+    out.push_back(effect(x_mm, c_rad, greater));
+    const std::vector<double> less = effect(x_mm, c_rad, smaller);
+    for (std::size_t j = 0; j < less.size(); ++j) {
+      out.back()[j] = (out.back()[j] - less[j]) / (2.0 * kStep_mm);
+    }
+  }
+  return out;
+}
+
+void ContourTrials::say_radius(CurveModel& out) const {
+  if (facts_.wheel_radius) out.declaration.push_back(statement_of(*facts_.wheel_radius));
+}
+
+std::vector<double> ContourTrials::radius_in_rest() const {
+  std::vector<double> out = mean_of(radius_);
+  for (double& c : out) c *= -facts_.wheel_radius->u_mm();
   return out;
 }
 
@@ -313,6 +371,16 @@ std::vector<double> ContourTrials::mean_total(bool derivative) const {
   return out;
 }
 
+std::vector<double> ContourTrials::mean_of(const Curves& curves) const {
+  std::vector<double> out(basis_.size(), 0.0);
+  for (const auto& curve : curves) {
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      out[j] += curve[j] / static_cast<double>(curves.size());
+    }
+  }
+  return out;
+}
+
 CommonCurves ContourTrials::scaled(std::vector<double> column, const DrawnInfluence& declared) {
   for (double& c : column) c *= declared.u();
   return {{std::move(column)}, declared};
@@ -330,14 +398,8 @@ std::vector<std::pair<std::string, CommonCurves>> ContourTrials::common_errors()
                      scaled(mean_total(true), {&said_.gauge_phase_deg, kDegree, "gauge.phase"}));
   }
   if (!skew_.empty()) {
-    std::vector<double> mean(basis_.size(), 0.0);
-    for (const auto& curve : skew_) {
-      for (std::size_t j = 0; j < mean.size(); ++j) {
-        mean[j] += curve[j] / static_cast<double>(skew_.size());
-      }
-    }
     out.emplace_back("trace-skew",
-                     CommonCurves{{std::move(mean)}, {&said_.skew_ms, 1.0, "control.skew"}});
+                     CommonCurves{{mean_of(skew_)}, {&said_.skew_ms, 1.0, "control.skew"}});
   }
   for (const CommonCurves& encoder : encoders_) {
     out.emplace_back(encoder.declared.id == kCEncoder ? "c-encoder" : "x-encoder", encoder);
@@ -348,6 +410,10 @@ std::vector<std::pair<std::string, CommonCurves>> ContourTrials::common_errors()
 std::vector<double> ContourTrials::common_squares() const {
   std::vector<double> out(basis_.size(), 0.0);
   for (const auto& [name, error] : common_errors()) error.add_squares(out);
+  if (!radius_.empty()) {
+    const std::vector<double> radius = radius_in_rest();
+    for (std::size_t j = 0; j < out.size(); ++j) out[j] += radius[j] * radius[j];
+  }
   return out;
 }
 
@@ -368,6 +434,21 @@ void ContourTrials::add_rest_budget(CurveModel& out) const {
                            {},
                            false,
                            true});
+  }
+  if (!radius_.empty()) {
+    out.effects.push_back(
+        {kWheelRadius,
+         [column = radius_in_rest(), u_mm = facts_.wheel_radius->u_mm(),
+          errors = *facts_.wheel_radius->errors, seed](int trial, Curves& curves) {
+           if (u_mm == 0.0) return;
+           const double z = drawn_mm(errors, seed, trial) / u_mm;
+           for (auto& curve : curves) {
+             for (std::size_t j = 0; j < curve.size(); ++j) curve[j] += z * column[j];
+           }
+         },
+         {},
+         false,
+         true});
   }
   for (auto& [name, error] : common_errors()) {
     out.effects.push_back(

@@ -49,6 +49,7 @@ class ContourTrials {
  private:
   static constexpr std::string_view kCEncoder = "control.c-encoder";
   static constexpr std::string_view kXEncoder = "control.x-encoder";
+  static constexpr const char* kWheelRadius = "wheel-radius";
 
   [[nodiscard]] std::string id(std::string_view what) const;
 
@@ -66,6 +67,9 @@ class ContourTrials {
   /// Coefficients of f that errors of the axes give, to first order.
   [[nodiscard]] std::vector<double> effect(const std::function<double(double)>& x_mm,
                                            const std::function<double(double)>& c_rad) const;
+  [[nodiscard]] std::vector<double> effect(const std::function<double(double)>& x_mm,
+                                           const std::function<double(double)>& c_rad,
+                                           const fit::CrankGeometry& crank) const;
 
   /// Errors of an encoder repeat from part to part. Their standard uncertainty at each position is
   /// spread evenly over the orders 1 to 10 of alpha.
@@ -75,6 +79,15 @@ class ContourTrials {
   /// skew is not declared or its unit cannot be converted.
   [[nodiscard]] Curves skew_effects() const;
 
+  /// Change of f of each part for a wheel radius greater by 1 mm; empty where the radius is a
+  /// number of the plan.
+  [[nodiscard]] Curves radius_effects() const;
+
+  void say_radius(CurveModel& out) const;
+
+  /// What all parts share of the error of n by the wheel radius, for one standard uncertainty.
+  [[nodiscard]] std::vector<double> radius_in_rest() const;
+
   /// The gauge's spindle over its orders, the same in all parts.
   [[nodiscard]] CommonCurves gauge_form() const;
 
@@ -82,6 +95,8 @@ class ContourTrials {
 
   /// Coefficients of the mean of t, and of its derivative by the angle.
   [[nodiscard]] std::vector<double> mean_total(bool derivative) const;
+
+  [[nodiscard]] std::vector<double> mean_of(const Curves& curves) const;
 
   /// One column times one declared number.
   static CommonCurves scaled(std::vector<double> column, const DrawnInfluence& declared);
@@ -107,6 +122,7 @@ class ContourTrials {
   Curves rest_;
   std::vector<CommonCurves> encoders_;
   Curves skew_;
+  Curves radius_;  ///< As radius_effects().
 };
 
 /// The reason for no interval where the plan has no influences of the feature.

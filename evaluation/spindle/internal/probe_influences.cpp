@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/uncertainty/curve_trials.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -32,6 +33,17 @@ void add_of_each(std::string_view what, const Influence& influence, double unit,
   }
 }
 
+/// The angles by which an arm of another length turns the probes: their lines miss the pin.
+/// @param mm  By which the stated arm is too long.
+void turn_by_arm(double mm, const fit::SwingArm& arm, const fit::ProbeLayout& layout,
+                 ProbeSource& out) {
+  const auto angles = layout.angles_rad();
+  for (int i = 0; i < 3; ++i) {
+    out.per_u[fit::kFirstAngle + i] =
+        mm * std::sin(angles[static_cast<std::size_t>(i)]) / arm.pin_radius_mm;
+  }
+}
+
 InfluenceStatement covered(std::string name, const Influence& influence, core::Phrase what) {
   return {std::move(name), true,
           is_rectangular(influence)
@@ -45,8 +57,15 @@ InfluenceStatement not_covered(std::string name, core::Phrase why) {
 
 }  // namespace
 
+double ProbeSource::draw(std::uint64_t seed, int trial) const {
+  if (shared) return shared(seed, trial);
+  return rectangular ? uniform_draw(seed, id, instance, trial)
+                     : normal_draw(seed, id, instance, trial);
+}
+
 std::vector<ProbeSource> probe_sources(const record::SpindleInfluencesTask& declared,
-                                       const fit::SwingArm& arm, const fit::ProbeLayout& layout) {
+                                       const fit::SwingArm& arm, const fit::ProbeLayout& layout,
+                                       const std::optional<MeasuredRadius>& radius) {
   std::vector<ProbeSource> out;
   add_of_each("gain", declared.gain_1, 1.0, fit::kFirstGain, out);
   add_of_each("angle", declared.angle_deg, core::kDegree, fit::kFirstAngle, out);
@@ -56,13 +75,17 @@ std::vector<ProbeSource> probe_sources(const record::SpindleInfluencesTask& decl
   }
   if (declared.arm_mm && arm.swings() && arm.pin_radius_mm > 0.0) {
     ProbeSource source{"arm", "probe.arm"};
-    const auto angles = layout.angles_rad();
-    for (int i = 0; i < 3; ++i) {
-      source.per_u[fit::kFirstAngle + i] = declared.arm_mm->standard_uncertainty() *
-                                           std::sin(angles[static_cast<std::size_t>(i)]) /
-                                           arm.pin_radius_mm;
-    }
+    turn_by_arm(declared.arm_mm->standard_uncertainty(), arm, layout, source);
     source.rectangular = is_rectangular(declared.arm_mm);
+    out.push_back(std::move(source));
+  }
+  if (radius && radius->errors && arm.swings() && arm.pin_radius_mm > 0.0) {
+    ProbeSource source{"wheel-radius", "wheel.radius"};
+    const double u_mm = radius->u_mm();
+    turn_by_arm(-u_mm, arm, layout, source);  // a greater radius: the stated one is too short
+    source.shared = [errors = *radius->errors, u_mm](std::uint64_t seed, int trial) {
+      return u_mm > 0.0 ? drawn_mm(errors, seed, trial) / u_mm : 0.0;
+    };
     out.push_back(std::move(source));
   }
   add_of_each("drift", declared.drift_um_per_turn, core::kMicrometre, fit::kFirstDrift, out);
@@ -93,8 +116,9 @@ record::SpindleInfluencesTask usual_probes() {
 }
 
 std::vector<InfluenceStatement> probe_declaration(const record::SpindleInfluencesTask& declared,
-                                                  const fit::SwingArm& arm, double noise_mm,
-                                                  bool states_range) {
+                                                  const fit::SwingArm& arm,
+                                                  const std::optional<MeasuredRadius>& radius,
+                                                  double noise_mm, bool states_range) {
   std::vector<InfluenceStatement> out;
   const core::Phrase undeclared = core::phrase("not declared");
   out.push_back({"probe-noise", true,
@@ -124,6 +148,8 @@ std::vector<InfluenceStatement> probe_declaration(const record::SpindleInfluence
   add("probe-line", declared.line_um,
       core::phrase("sideways distance of each measuring line [um]; acts as an angle"), no_radius);
   add("arm", declared.arm_mm, core::phrase("length of the swing arm [mm]; acts as angles"), no_arm);
+  // Of a measured radius the arm is what its length did since: another influence.
+  if (radius) out.push_back(statement_of(*radius));
   add("probe-drift", declared.drift_um_per_turn, core::phrase("drift of each probe [um/turn]"));
   add("encoder", declared.encoder_urad,
       core::phrase("encoder of the work [urad], as one cycle a turn of any phase"));

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluation/results/measured_radius.h"
 #include "evaluation/uncertainty/influences.h"
 #include "fit/geometry/swing_arm.h"
 #include "fit/spindle/first_harmonic.h"
@@ -19,14 +22,19 @@ struct ProbeSource {
   std::uint64_t instance = 0;                         ///< Which of several with this id.
   fit::ProbeErrors per_u = fit::ProbeErrors::Zero();  ///< Errors for +1 standard uncertainty.
   bool rectangular = false;
+  /// In place of an own draw: of an influence that another feature draws as well.
+  std::function<double(std::uint64_t seed, int trial)> shared = {};
+
+  [[nodiscard]] double draw(std::uint64_t seed, int trial) const;  ///< In standard uncertainties.
 };
 
 /// The declared influences of three probes, each by what it does to gains and angles. A line that
 /// misses the centre, and an arm of another length, act exactly as angles.
 /// Source: methods, analyses_uncertainty 2.1, 2.2.
-[[nodiscard]] std::vector<ProbeSource> probe_sources(const record::SpindleInfluencesTask& declared,
-                                                     const fit::SwingArm& arm,
-                                                     const fit::ProbeLayout& layout);
+/// @param radius  Of the wheel, where another feature gives it: its errors are one more source.
+[[nodiscard]] std::vector<ProbeSource> probe_sources(
+    const record::SpindleInfluencesTask& declared, const fit::SwingArm& arm,
+    const fit::ProbeLayout& layout, const std::optional<MeasuredRadius>& radius = std::nullopt);
 
 /// Covariance of the errors from independent sources.
 [[nodiscard]] fit::ProbeErrorCovariance covariance_of(const std::vector<ProbeSource>& sources);
@@ -39,7 +47,7 @@ struct ProbeSource {
 /// @param noise_mm      Of a reading, as used.
 /// @param states_range  Whether the plan states the range of the probes.
 [[nodiscard]] std::vector<InfluenceStatement> probe_declaration(
-    const record::SpindleInfluencesTask& declared, const fit::SwingArm& arm, double noise_mm,
-    bool states_range);
+    const record::SpindleInfluencesTask& declared, const fit::SwingArm& arm,
+    const std::optional<MeasuredRadius>& radius, double noise_mm, bool states_range);
 
 }  // namespace rondure::evaluation

@@ -51,9 +51,15 @@ void check_contour(const FeaturePlan& feature, const std::string& where, Finding
     findings.meaning(Code::kMeaning, where.substr(0, where.rfind('/')) + "/source",
                      "has no effect: the files of a contour stand in contour/parts; remove it");
   }
+  if (plan.wheel_radius_from && findings.is_given(where + "/wheel_radius_mm")) {
+    findings.meaning(Code::kMeaning, where + "/wheel_radius_mm",
+                     "the wheel radius is that of an earlier feature (wheel_radius_from); remove "
+                     "one");
+  }
   const fit::CrankGeometry geometry = {plan.crank_radius_mm, plan.wheel_radius_mm,
                                        plan.pin_radius_mm};
-  if (const auto checked = fit::check_geometry(geometry); !checked) {
+  // A measured radius is checked with the geometry once it is there.
+  if (const auto checked = fit::check_geometry(geometry); !checked && !plan.wheel_radius_from) {
     findings.meaning(checked.error().code, where + "/crank_radius_mm", checked.error().what);
   }
   if (plan.filter != record::ContourTask::Filter::kNone) {
