@@ -15,6 +15,7 @@
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -183,18 +184,6 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   return html + "</dl>";
 }
 
-/// "8.93 [8.71, 9.14]"; "<= 9.14" where only that is known; the value alone without an interval.
-std::string with_interval(const evaluation::ContourNumber& number) {
-  const bool length = number.kind != evaluation::ContourNumber::Kind::kIndex;
-  const auto in_digits = [&](double value) { return length ? um(value) : fixed(value, 4); };
-  const auto& found = number.uncertainty.result();
-  if (!found) return in_digits(number.as_measured);
-  const evaluation::UncertaintyStatement& s = found->sampled;
-  if (s.at_most) return "&le; " + in_digits(s.high_mm);
-  return fmt::format("{} [{}, {}]", in_digits(s.estimate_mm), in_digits(s.low_mm),
-                     in_digits(s.high_mm));
-}
-
 /// Peak to valley, rms and index of every curve with their intervals, and why some have none.
 std::string interval_table(const evaluation::ContourResult& facts) {
   using Number = evaluation::ContourNumber;
@@ -217,7 +206,7 @@ std::string interval_table(const evaluation::ContourResult& facts) {
   std::vector<std::string> reasons;
   for (const Number& number : facts.numbers) {
     const std::string curve = symbol(number.curve);
-    const std::string value = with_interval(number);
+    const std::string value = with_interval(number, "&le;");
     if (!number.part) {
       rows.push_back({curve, "–", "–", "–", value});
     } else if (number.kind == Number::Kind::kPeakToValley) {
@@ -282,7 +271,7 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
                           int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return first_separation(facts, record, feature) + key_numbers(facts) + words_of_contour() +
+  return first_separation(facts, record, feature) + as_read_note() + key_numbers(facts) + words_of_contour() +
          verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          other_separations(facts, record, feature) + harmonic_plot(facts, asked);
 }
