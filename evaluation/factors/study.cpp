@@ -164,7 +164,7 @@ std::string_view why_no_factors(record::Form form) {
       return "RONq is about the least-squares circle by definition; what changes the profile is "
              "compared for RONt, where the plan asks for it";
     case Form::kHarmonicLimits:
-      return "amplitudes have no reference to exchange, and are those before any filter";
+      return "amplitudes of harmonics have no reference to exchange";
     case Form::kMotionTotal:
     case Form::kMotionSynchronous:
     case Form::kMotionAsynchronous:

@@ -161,20 +161,25 @@ std::string harmonic_plot(const evaluation::ContourResult& facts,
 std::string key_numbers(const evaluation::ContourResult& facts) {
   const fit::ContourStudy& study = facts.study;
   std::string html = R"(<dl class="keys">)";
-  const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found) {
+  using Curve = evaluation::ContourNumber::Curve;
+  const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found,
+                       Curve curve) {
     if (!found) return;
     const auto word = found->word(facts.options.limits);
-    html += entry(name,
-                  with_note(found->index ? fixed(*found->index, 4) : "–",
-                            trf("{}mean curve {} µm rms, spread {} µm",
-                                word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
-                                um(found->mean_rms), um(found->spread))),
-                  "lead");
+    std::string words = trf("{}mean curve {} µm rms, spread {} µm",
+                            word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
+                            um(found->mean_rms), um(found->spread));
+    const auto stated = std::ranges::find_if(facts.numbers, [&](const auto& number) {
+      return number.curve == curve && !number.part && number.uncertainty.result();
+    });
+    if (stated != facts.numbers.end())
+      words += tr("; ") + trf("corrected {}", with_interval(*stated, "&le;"));
+    html += entry(name, with_note(found->index ? fixed(*found->index, 4) : "–", words), "lead");
   };
-  add(tr("Stability index of t"), study.total);
-  add(tr("Stability index of f"), study.following);
-  add(tr("Stability index of n"), study.rest);
-  add(tr("Stability index of the mains"), study.main);
+  add(tr("Stability index of t"), study.total, Curve::kTotal);
+  add(tr("Stability index of f"), study.following, Curve::kFollowing);
+  add(tr("Stability index of n"), study.rest, Curve::kRest);
+  add(tr("Stability index of the mains"), study.main, Curve::kMain);
   if (study.amplitude_ratio > 0.0)
     html += entry("rms(f) / rms(n)", fixed(study.amplitude_ratio, 4));
   html += entry(tr("Correlation would turn f by"),

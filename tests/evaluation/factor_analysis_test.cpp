@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 
 constexpr double kSame_um = 1e-4;
 
-RunComparison compared(const record::RunRecord& run) {
+RunComparison comparison_of(const record::RunRecord& run) {
   const auto out = compare_run(evaluated(run));
   EXPECT_TRUE(out) << out.error().what;
   return out.value_or(RunComparison{});
@@ -68,7 +68,7 @@ record::RunRecord quiet_wheel(std::optional<std::size_t> proud_point) {
 
 TEST(FactorsOfAnalyses, RoundnessOfAWheelIsThatOfCirclesFittedByHand) {
   const record::RunRecord run = quiet_wheel({});
-  const RunComparison comparison = compared(run);
+  const RunComparison comparison = comparison_of(run);
   ASSERT_EQ(comparison.studies.size(), 1U);
   const FactorStudy& study = comparison.studies.front();
   EXPECT_EQ(study.symbol, "RONt");
@@ -90,7 +90,7 @@ TEST(FactorsOfAnalyses, RoundnessOfAWheelIsThatOfCirclesFittedByHand) {
 
 TEST(FactorsOfAnalyses, AProudPointOfAWheelIsFoundByTheRuleOfMedians) {
   const record::RunRecord run = quiet_wheel(4);
-  const RunComparison comparison = compared(run);
+  const RunComparison comparison = comparison_of(run);
   ASSERT_EQ(comparison.studies.size(), 1U);
   const FactorStudy& study = comparison.studies.front();
   auto points = edge_of_run(run);
@@ -123,7 +123,7 @@ double kept_of_three_lobes(double cutoff_upr) {
 
 TEST(FactorsOfAnalyses, TheProfileOnASpindleIsFilteredAsAnotherProgramWould) {
   constexpr double kSampled_um = 3e-3;  // 512 samples miss the tops of the lobes by 0.7 nm each
-  const RunComparison comparison = compared(three_lobes(50.0));
+  const RunComparison comparison = comparison_of(three_lobes(50.0));
   ASSERT_EQ(comparison.studies.size(), 1U);
   const FactorStudy& study = comparison.studies.front();
   EXPECT_EQ(study.levels[at(Factor::kFilter)][study.reported[at(Factor::kFilter)]],
@@ -140,7 +140,7 @@ TEST(FactorsOfAnalyses, TheProfileOnASpindleIsFilteredAsAnotherProgramWould) {
 }
 
 TEST(FactorsOfAnalyses, ACutOffOfThePlanIsALevelOfItsOwn) {
-  const RunComparison comparison = compared(three_lobes(30.0));
+  const RunComparison comparison = comparison_of(three_lobes(30.0));
   ASSERT_EQ(comparison.studies.size(), 1U);
   const FactorStudy& study = comparison.studies.front();
   const auto& names = study.levels[at(Factor::kFilter)];
@@ -159,10 +159,10 @@ std::string why_not(const RunComparison& comparison, const std::string& id) {
 }
 
 TEST(FactorsOfAnalyses, WhatHasNoReferenceCircleSaysSoByItsName) {
-  const RunComparison wheel = compared(quiet_wheel({}));
+  const RunComparison wheel = comparison_of(quiet_wheel({}));
   EXPECT_THAT(why_not(wheel, "run-out"), HasSubstr("about the axis of the spindle"));
   EXPECT_THAT(why_not(wheel, "radius"), HasSubstr("a mean distance"));
-  const RunComparison spindle = compared(three_lobes(50.0));
+  const RunComparison spindle = comparison_of(three_lobes(50.0));
   EXPECT_THAT(why_not(spindle, "roundness-rms"), HasSubstr("least-squares circle by definition"));
   EXPECT_THAT(why_not(spindle, "motion-synchronous"), HasSubstr("ISO 230-7"));
 }
