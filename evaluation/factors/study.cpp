@@ -94,8 +94,8 @@ void name_levels(const FactorPoints& points, record::Shape shape, FactorStudy& s
     study.levels[at(Factor::kFilter)].push_back(
         cutoff > 0.0 ? fmt::format("Gaussian {:g} UPR", cutoff) : "unfiltered");
   }
-  study.reported[at(Factor::kFilter)] = static_cast<std::size_t>(
-      std::ranges::find(cutoffs, points.reported_upr) - cutoffs.begin());
+  study.reported[at(Factor::kFilter)] =
+      static_cast<std::size_t>(std::ranges::find(cutoffs, points.reported_upr) - cutoffs.begin());
   for (const OutlierRule rule : kOutlierRules)
     study.levels[at(Factor::kOutliers)].emplace_back(name_of(rule));
   for (const PointSubset subset : subsets_of(points))

@@ -276,8 +276,8 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
                           int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return first_separation(facts, record, feature) + as_read_note() + key_numbers(facts) + words_of_contour() +
-         verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
+  return first_separation(facts, record, feature) + as_read_note() + key_numbers(facts) +
+         words_of_contour() + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          other_separations(facts, record, feature) + harmonic_plot(facts, asked);
 }
 

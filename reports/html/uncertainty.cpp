@@ -166,7 +166,8 @@ std::string absent_notes(const evaluation::FeatureResult& feature) {
   std::string html;
   for (const AbsentInterval& absent : absent_intervals(feature)) {
     std::string names;
-    for (const std::string& id : absent.ids) names += (names.empty() ? "" : tr(", ")) + isolated(id);
+    for (const std::string& id : absent.ids)
+      names += (names.empty() ? "" : tr(", ")) + isolated(id);
     html += note(trf("No interval of {}: {}.", names, in_sentence(absent.why)));
   }
   return html;

@@ -436,8 +436,8 @@ std::string analysis_part(const evaluation::WheelResult& facts, const record::Ru
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return fmt::format(R"(<h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +
          wheel_edge_plot(m, facts.points_mm) + "</div>" + as_read_note() + R"(<dl class="keys">)" +
-         radius_entries(facts) + runout_entry(m) + effective_radius_entry(facts) + center_entries(m) + "</dl>" + words_of_wheel() +
-         path_part(facts);
+         radius_entries(facts) + runout_entry(m) + effective_radius_entry(facts) +
+         center_entries(m) + "</dl>" + words_of_wheel() + path_part(facts);
 }
 
 }  // namespace rondure::reports

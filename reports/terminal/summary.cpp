@@ -108,13 +108,11 @@ std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
     const fit::ContourPartResult& part = facts.study.parts[i];
     out.push_back(
         {"part",
-         core::phrase("{}: contour {} um PV; following {} um, not following {} um", facts.names[i],
-                      peak_to_valley_of(facts, Curve::kTotal, i,
-                                        part.pin.contour.peak_to_valley_mm),
-                      peak_to_valley_of(facts, Curve::kFollowing, i,
-                                        part.following.peak_to_valley_mm),
-                      peak_to_valley_of(facts, Curve::kRest, i,
-                                        fit::peak_to_valley(part.direct.rest_mm)))});
+         core::phrase(
+             "{}: contour {} um PV; following {} um, not following {} um", facts.names[i],
+             peak_to_valley_of(facts, Curve::kTotal, i, part.pin.contour.peak_to_valley_mm),
+             peak_to_valley_of(facts, Curve::kFollowing, i, part.following.peak_to_valley_mm),
+             peak_to_valley_of(facts, Curve::kRest, i, fit::peak_to_valley(part.direct.rest_mm)))});
   }
   for (const core::Phrase& verdict : contour_verdicts(facts.study, facts.options.limits)) {
     out.push_back({out.size() == facts.study.parts.size() ? "stability" : "", verdict});

@@ -1,5 +1,5 @@
-// Why two programs differ, of analyses: the roundness of wheels and of the part on a spindle against
-// circles fitted by hand and against waves whose value is known; all else with its reason.
+// Why two programs differ, of analyses: the roundness of wheels and of the part on a spindle
+// against circles fitted by hand and against waves whose value is known; all else with its reason.
 #include "evaluation/factors/study.h"
 
 #include <algorithm>

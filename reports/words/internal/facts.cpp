@@ -188,8 +188,8 @@ core::Phrase effective_radius_in_words(const evaluation::WheelResult& facts) {
     return core::phrase("at least {} mm, the lower end of its {:g} % interval", mm(s.low_mm),
                         percent);
   }
-  return core::phrase("{} mm, {:g} % within [{}, {}] mm", mm(s.estimate_mm), percent,
-                      mm(s.low_mm), mm(s.high_mm));
+  return core::phrase("{} mm, {:g} % within [{}, {}] mm", mm(s.estimate_mm), percent, mm(s.low_mm),
+                      mm(s.high_mm));
 }
 
 std::string rule_in_words(const record::Header& header) {
