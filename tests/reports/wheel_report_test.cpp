@@ -269,7 +269,7 @@ TEST(WheelReport, StatesTheEffectiveRadiusWithItsIntervalOnPageAndTerminal) {
   EXPECT_FALSE(stated["at_least"].get<bool>());
   const std::string page = write_html(run, *evaluation);
   EXPECT_EQ(testing::first_unbalanced_tag(page), "");
-  EXPECT_THAT(page, HasSubstr("<dt>Effective radius</dt><dd>50.005"));
+  EXPECT_THAT(page, HasSubstr("50.00500 mm, 95 % within [50.00"));
   const std::string summary = testing::one_line(write_summary(run, *evaluation));
   EXPECT_THAT(summary, HasSubstr("eff. radius 50.005"));
   EXPECT_THAT(summary, HasSubstr(" mm, 95 % within [50.00"));
@@ -283,8 +283,7 @@ TEST(WheelReport, AnEffectiveRadiusBesideAGapIsOnlyItsLowerEnd) {
   ASSERT_TRUE(evaluation);
   const auto written = nlohmann::json::parse(write_json(run, *evaluation));
   EXPECT_TRUE(written["features"][0]["wheel"]["effective_radius_interval"]["at_least"]);
-  EXPECT_THAT(write_html(run, *evaluation),
-              HasSubstr("<dt>Effective radius</dt><dd>at least 50.00"));
+  EXPECT_THAT(write_html(run, *evaluation), HasSubstr(" mm, the lower end of its 95 % interval"));
 }
 
 // The budget of an analysis is linear propagation, which knows a sign, but no shift.
