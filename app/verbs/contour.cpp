@@ -95,6 +95,7 @@ nlohmann::ordered_json contour_json(const fit::ContourStudy& study,
                                     std::span<const std::string> names) {
   nlohmann::ordered_json out = {{"shape", "contour"}};
   out.update(reports::contour_document(study, options, names));
+  add_no_interval(out, "contour");
   return out;
 }
 
@@ -110,7 +111,7 @@ std::string contour_table(const fit::ContourStudy& study, const fit::ContourStud
     out += fmt::format("  warning: {}{}{} [{}]\n", w.where, w.where.empty() ? "" : ": ", w.what,
                        core::code_name(w.code));
   }
-  return out;
+  return out + no_interval_text("contour");
 }
 
 fit::ContourStudyOptions options_of(const ContourArguments& arguments) {

@@ -290,6 +290,8 @@ void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
   verb->footer(
       "\nExample: rondure fit spindle tests/data/spindle_dynamic/readings.csv --layout reference "
       "--crank-radius 49 --wheel-radius 299.88 --pin-radius 24.56\n"
+      "No interval is stated here: a plan with spindle.uncertainty gives it "
+      "(plans/examples/16_four_analyses.json).\n"
       "Columns, keys and formulas: docs/spindle.md");
 }
 
@@ -317,6 +319,8 @@ void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
       "  rondure fit contour --axes a1.csv,a2.csv,a3.csv,a4.csv --pin p1.csv,p2.csv,p3.csv,p4.csv\n"
       "      --column c_error=C_FOLLOW:mdeg:-1 --column x_error=X_FOLLOW:um:-1 "
       "--phase-offset-deg 12.5\n"
+      "No interval is stated here: a plan with contour.uncertainty gives it\n"
+      "(plans/examples/16_four_analyses.json).\n"
       "Method, columns, keys of the JSON: docs/contour.md");
 }
 
@@ -334,6 +338,8 @@ void add_wheel(CLI::App& fit_verb, WheelArguments& arguments) {
       "           --nominal-radius-mm 50 --surface asphere:R=120,K=-1,A4=2e-8 --range-mm -40,40 "
       "\\\n"
       "           --cusp-um 0.1 --path path.csv --gcode path.nc\n"
+      "No interval is stated here: a plan with wheel.uncertainty gives it "
+      "(plans/examples/16_four_analyses.json).\n"
       "Method, columns and JSON: docs/wheel.md");
 }
 
@@ -364,6 +370,8 @@ void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& a) {
       "Rows of the reference pose have the word reference for their station; measure it at start,\n"
       "middle and end. direction: + or - where each station is approached from both sides.\n"
       "\nExample: rondure fit rotary-axes tests/data/spec_rotary/c_axis.csv\n"
+      "No interval is stated here: a plan with rotary_axes.uncertainty gives it "
+      "(docs/fixture-calibration.md).\n"
       "How to set up balls, formulas, keys of the JSON: docs/rotary-axes.md");
 }
 

@@ -241,6 +241,7 @@ nlohmann::ordered_json rotary_axes_json(std::span<const RotaryAxisResult> axes) 
   Json out;
   out["axes"] = Json::array();
   for (const RotaryAxisResult& result : axes) out["axes"].push_back(axis_json(result));
+  add_no_interval(out, "rotary-axes");
   return out;
 }
 
@@ -250,7 +251,7 @@ std::string rotary_axes_table(std::span<const RotaryAxisResult> axes) {
     if (!out.empty()) out += '\n';
     out += axis_table(result);
   }
-  return out;
+  return out + no_interval_text("rotary-axes");
 }
 
 /// One axis of the files.

@@ -95,6 +95,7 @@ nlohmann::ordered_json spindle_json(const evaluation::SpindleResult& result) {
   Json out = reports::separation_json(result);
   out["warnings"] = warnings_json(result.separation.warnings);
   for (Json& w : warnings_json(result.roundness.warnings)) out["warnings"].push_back(std::move(w));
+  add_no_interval(out, "spindle");
   return out;
 }
 
@@ -129,7 +130,7 @@ std::string spindle_table(const evaluation::SpindleResult& result) {
   for (const auto* warnings : {&s.warnings, &result.roundness.warnings}) {
     for (const core::Error& w : *warnings) out += fmt::format("  warning   {}\n", core::to_line(w));
   }
-  return out + harmonic_lines(s);
+  return out + no_interval_text("spindle") + harmonic_lines(s);
 }
 
 nlohmann::ordered_json layouts_json(std::span<const fit::DesignedLayout> layouts,

@@ -147,7 +147,7 @@ std::string wheel_table(const fit::WheelEvaluation& evaluation, const fit::Wheel
   if (evaluation.forecast) out += forecast_lines(*evaluation.forecast);
   out += warnings_text(m.warnings);
   if (evaluation.path) out += warnings_text(evaluation.path->warnings);
-  return out;
+  return out + no_interval_text("wheel");
 }
 
 constexpr std::size_t kMostEvenTerms = 10;
@@ -384,7 +384,8 @@ int wheel(const WheelArguments& arguments) {
   if (!points) return refuse_file(points.error(), arguments.file);
   const auto evaluation = fit::evaluate_wheel(*points, *task);
   if (!evaluation) return refuse_file(evaluation.error(), arguments.file);
-  const auto found = reports::wheel_json(*evaluation, *task);
+  auto found = reports::wheel_json(*evaluation, *task);
+  add_no_interval(found, "wheel");
   if (const auto finite = check_finite(found); !finite) {
     return refuse_file(finite.error(), arguments.file);
   }

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "core/units.h"
+#include "evaluation/analysis_result.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/profiles/roundness_evaluation.h"
@@ -128,6 +131,49 @@ void sort_by_angle(std::vector<PlacedPoint>& layer) {
   });
 }
 
+/// One section of points in a plane, sorted by angle about a centre.
+FactorPoints section_of(std::span<const Eigen::Vector2d> points_mm,
+                        const Eigen::Vector2d& center_mm) {
+  std::vector<PlacedPoint> placed;
+  for (const Eigen::Vector2d& p : points_mm) {
+    const Eigen::Vector2d v = p - center_mm;
+    placed.push_back({std::atan2(v.y(), v.x()), {v.x(), v.y(), 0.0}});
+  }
+  sort_by_angle(placed);
+  FactorPoints out{Form::kRoundness, true, {{}}};
+  for (const PlacedPoint& one : placed) out.layers_mm.front().push_back(one.place_mm);
+  return out;
+}
+
+core::Result<FactorPoints> analysis_points(const WheelResult& found) {
+  return section_of(found.points_mm, found.evaluation.wheel.center_mm);
+}
+
+core::Result<FactorPoints> analysis_points(const SpindleResult& found) {
+  // A shift e of the centre changes the deviations by e^2 / 2R: below 1e-6 um for e = 1 um.
+  constexpr double kRadius_mm = 1000.0;
+  const fit::UniformProfile& profile = found.separation.profile;
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(profile.r_mm.size());
+  for (std::size_t i = 0; i < profile.r_mm.size(); ++i) {
+    const double angle = profile.angle_rad(i);
+    points.emplace_back((kRadius_mm + profile.r_mm[i]) *
+                        Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  FactorPoints out = section_of(points, Eigen::Vector2d::Zero());
+  const fit::FilterOptions& filter = found.roundness.filter;
+  if (filter.filter != fit::ProfileFilter::kNone) out.reported_upr = filter.cutoff_upr;
+  return out;
+}
+
+core::Result<FactorPoints> analysis_points(const ContourResult&) {
+  return core::fail(core::Code::kNoPoints, "a contour is no section of points");
+}
+
+core::Result<FactorPoints> analysis_points(const RotaryResult&) {
+  return core::fail(core::Code::kNoPoints, "balls of a fixture are no section of points");
+}
+
 bool keeps(PointSubset subset, std::size_t layer, std::size_t layers, std::size_t point) {
   switch (subset) {
     case PointSubset::kAll:
@@ -179,6 +225,10 @@ std::string_view name_of(PointSubset subset) {
 
 core::Result<FactorPoints> factor_points(const FeatureResult& result, Form form) {
   if (result.failure) return core::fail(*result.failure);
+  if (result.analysis) {
+    return std::visit([](const auto& found) { return analysis_points(found); },
+                      result.analysis->found);
+  }
   FactorPoints out;
   out.form = form;
   out.layers_known = !result.layers.empty();
@@ -209,6 +259,15 @@ std::vector<PointSubset> subsets_of(const FactorPoints& points) {
   if (points.layers_mm.size() < 2) return out;
   out.insert(out.end(), {PointSubset::kEvenLayers, PointSubset::kOddLayers,
                          PointSubset::kWithoutFirstLayer, PointSubset::kWithoutLastLayer});
+  return out;
+}
+
+std::vector<double> cutoffs_of(const FactorPoints& points) {
+  std::vector<double> out = {0.0, 15.0, 50.0, 150.0};
+  if (std::ranges::find(out, points.reported_upr) == out.end()) {
+    out.push_back(points.reported_upr);
+    std::ranges::sort(out);
+  }
   return out;
 }
 

@@ -22,6 +22,8 @@ struct FactorPoints {
   /// The layers in order; points of each by angle from its first point. The reported axis of the
   /// feature is z.
   std::vector<Points3> layers_mm;
+  /// Cut-off of the Gaussian low pass of the reported value; 0: unfiltered.
+  double reported_upr = 0.0;
 
   [[nodiscard]] std::size_t count() const;
   /// All points, layer by layer.
@@ -45,15 +47,21 @@ enum class PointSubset {
 /// "all points", "points 1, 3, 5, ...", "first layer left out".
 [[nodiscard]] std::string_view name_of(PointSubset subset);
 
-/// The points of an evaluated feature.
+/// The points of an evaluated feature. Of a wheel all points as given, with those that a robust
+/// centre leaves out; of a spindle the recovered profile of the part before the filter, its samples
+/// on a circle so large that fitted circles are those of the limacon model.
 /// @return The failure of the feature; kNoPoints where RONt is asked for and the layers are not
-///         known.
+///         known, and for an analysis that has no section.
 [[nodiscard]] core::Result<FactorPoints> factor_points(const FeatureResult& result,
                                                        record::Form form);
 
 /// The subsets that make sense for these points: leaving out layers needs at least two.
 [[nodiscard]] std::vector<PointSubset> subsets_of(const FactorPoints& points);
 [[nodiscard]] FactorPoints chosen(const FactorPoints& points, PointSubset subset);
+
+/// The low passes that make sense for these points [UPR], 0: unfiltered; that of the reported value
+/// is among them.
+[[nodiscard]] std::vector<double> cutoffs_of(const FactorPoints& points);
 
 /// Filters every layer with a Gaussian low pass about its least-squares circle, as
 /// fit::evaluate_section() does; heights follow the plane of the layer.

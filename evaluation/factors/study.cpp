@@ -21,7 +21,6 @@ using record::Reference;
 constexpr std::array kStudiedReferences = {Reference::kLeastSquares, Reference::kMinimumZone,
                                            Reference::kMinimumCircumscribed,
                                            Reference::kMaximumInscribed};
-constexpr std::array kCutoffsUpr = {0.0, 15.0, 50.0, 150.0};  ///< 0: unfiltered.
 
 constexpr double kRoundOffMm = 1e-9;  ///< Smaller changes count as none.
 
@@ -30,10 +29,13 @@ constexpr double kRoundOffMm = 1e-9;  ///< Smaller changes count as none.
 class Cells {
  public:
   Cells(const FactorPoints& points, FactorStudy& study)
-      : points_(points), subsets_(subsets_of(points)), study_(study) {}
+      : points_(points),
+        subsets_(subsets_of(points)),
+        cutoffs_upr_(cutoffs_of(points)),
+        study_(study) {}
 
   void fill() {
-    study_.cells.resize(kStudiedReferences.size() * kCutoffsUpr.size() * kOutlierRules.size() *
+    study_.cells.resize(kStudiedReferences.size() * cutoffs_upr_.size() * kOutlierRules.size() *
                         subsets_.size());
     for (std::size_t s = 0; s < subsets_.size(); ++s) {
       const FactorPoints subset = chosen(points_, subsets_[s]);
@@ -47,7 +49,7 @@ class Cells {
   }
   FactorCell& cell(std::size_t reference, std::size_t filter, std::size_t rule,
                    std::size_t subset) {
-    return study_.cells[((reference * kCutoffsUpr.size() + filter) * kOutlierRules.size() + rule) *
+    return study_.cells[((reference * cutoffs_upr_.size() + filter) * kOutlierRules.size() + rule) *
                             subsets_.size() +
                         subset];
   }
@@ -55,15 +57,15 @@ class Cells {
   void fill_rule(const FactorPoints& subset, std::size_t o, std::size_t s) {
     const auto kept = without_outliers(subset, kOutlierRules[o]);
     const bool same = kept && o > 0 && kept->left_out == 0;
-    for (std::size_t f = 0; f < kCutoffsUpr.size(); ++f) {
+    for (std::size_t f = 0; f < cutoffs_upr_.size(); ++f) {
       if (same) {  // nothing was left out: same values as without a rule
         for (std::size_t r = 0; r < kStudiedReferences.size(); ++r)
           cell(r, f, o, s) = cell(r, f, 0, s);
         continue;
       }
       const auto points = !kept ? core::Result<FactorPoints>(core::fail(kept.error()))
-                          : kCutoffsUpr[f] > 0.0 ? filtered(kept->points, kCutoffsUpr[f])
-                                                 : kept->points;
+                          : cutoffs_upr_[f] > 0.0 ? filtered(kept->points, cutoffs_upr_[f])
+                                                  : kept->points;
       for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
         FactorCell& out = cell(r, f, o, s);
         const auto value = points ? deviation_mm(*points, kStudiedReferences[r])
@@ -80,16 +82,20 @@ class Cells {
 
   const FactorPoints& points_;
   std::vector<PointSubset> subsets_;
+  std::vector<double> cutoffs_upr_;
   FactorStudy& study_;
 };
 
 void name_levels(const FactorPoints& points, record::Shape shape, FactorStudy& study) {
   for (const Reference reference : kStudiedReferences)
     study.levels[at(Factor::kReference)].push_back(reference_of(reference, shape));
-  for (const double cutoff : kCutoffsUpr) {
+  const auto cutoffs = cutoffs_of(points);
+  for (const double cutoff : cutoffs) {
     study.levels[at(Factor::kFilter)].push_back(
         cutoff > 0.0 ? fmt::format("Gaussian {:g} UPR", cutoff) : "unfiltered");
   }
+  study.reported[at(Factor::kFilter)] =
+      static_cast<std::size_t>(std::ranges::find(cutoffs, points.reported_upr) - cutoffs.begin());
   for (const OutlierRule rule : kOutlierRules)
     study.levels[at(Factor::kOutliers)].emplace_back(name_of(rule));
   for (const PointSubset subset : subsets_of(points))
@@ -150,6 +156,40 @@ std::string factor_words(const FactorStudy& study, Factor factor) {
   return fmt::format("{} changes it by up to {}", name, change_words(study, factor));
 }
 
+/// Why the factors do not apply to a characteristic of an analysis; empty where they do.
+std::string_view why_no_factors(record::Form form) {
+  using record::Form;
+  switch (form) {
+    case Form::kRoundnessRms:
+      return "RONq is about the least-squares circle by definition; what changes the profile is "
+             "compared for RONt, where the plan asks for it";
+    case Form::kHarmonicLimits:
+      return "amplitudes of harmonics have no reference to exchange";
+    case Form::kMotionTotal:
+    case Form::kMotionSynchronous:
+    case Form::kMotionAsynchronous:
+      return "ISO 230-7 fixes the centre of a motion (the least-squares centre of its mean "
+             "revolution), and it takes neither filter nor outlier rule";
+    case Form::kRadius:
+      return "the radius is a mean distance, not the width of a zone; report.json has it by least "
+             "squares and by quadruples";
+    case Form::kRunOut:
+      return "run-out is about the axis of the spindle, which is no choice of the evaluation; it "
+             "is unfiltered, and a proud point is part of it";
+    case Form::kContourDeviation:
+    case Form::kContourSpread:
+      return "the contour is held against the ground contour about the base circle that the plan "
+             "fixes; a reference circle of its own would be another quantity";
+    case Form::kFixtureResidual:
+    case Form::kFixtureResidualRms:
+    case Form::kAxisError:
+      return "the balls are held against the places that the calibration predicts, not against a "
+             "reference that is fitted to them";
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(Factor factor) {
@@ -174,6 +214,9 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                         const CharacteristicResult& characteristic) {
   const record::Characteristic& asked = characteristic.characteristic;
   const auto& about = record::facts_of(asked.form).about;
+  if (record::is_analysis(feature.feature.shape) && !about) {
+    return core::fail(core::Code::kMeaning, std::string(why_no_factors(asked.form)));
+  }
   if (!about) {
     return core::fail(core::Code::kMeaning,
                       fmt::format("{} has no reference to exchange", record::name_of(asked.form)));
@@ -208,13 +251,6 @@ core::Result<RunComparison> compare_run(const Evaluation& evaluation) {
   RunComparison out;
   for (const FeatureResult& feature : evaluation.features) {
     const std::string& id = feature.feature.id;
-    if (record::is_analysis(feature.feature.shape)) {
-      out.without.push_back({core::Code::kNoPoints,
-                             fmt::format("a {} has no reference surface to exchange",
-                                         record::name_of(feature.feature.shape)),
-                             id});
-      continue;
-    }
     for (const CharacteristicResult& characteristic : feature.characteristics) {
       const std::string place = fmt::format("{} / {}", id, characteristic.characteristic.id);
       auto study = study_factors(feature, characteristic);
@@ -223,7 +259,7 @@ core::Result<RunComparison> compare_run(const Evaluation& evaluation) {
     }
   }
   if (!out.studies.empty()) return out;
-  std::string what = "no cylinder or circle of this run has a value to compare";
+  std::string what = "this run has no cylindricity and no roundness with a value to compare";
   for (const core::Error& error : out.without)
     what += fmt::format("; {}: {}", error.where, error.what);
   return core::fail(core::Code::kNoPoints, what);

@@ -67,13 +67,15 @@ struct FactorStudy {
 };
 
 /// Evaluates a characteristic under every combination of reference (LS, MZ, MC, MI), filter
-/// (unfiltered, Gaussian 15, 50, 150 UPR section by section), outlier rule and sampling subset.
+/// (unfiltered, Gaussian 15, 50, 150 UPR section by section, and that of the report), outlier rule
+/// and sampling subset. Takes cylindricity and roundness of surfaces, and the roundness of a wheel
+/// and of the part on a spindle.
 ///
 /// The steps follow each other as in points.h and internal/outliers.h. The reported combination
 /// carries the reported value, which is certified; the other values are proven locally. A
 /// combination that cannot be evaluated states the reason.
 ///
-/// @return The failure of the feature; kMeaning for a form other than cylindricity and roundness;
+/// @return The failure of the feature; kMeaning with the reason for any other form;
 ///         kReferenceAbsent where the characteristic has no value.
 /// Cost: docs/compare.md.
 [[nodiscard]] core::Result<FactorStudy> study_factors(const FeatureResult& feature,
@@ -85,7 +87,7 @@ struct RunComparison {
   std::vector<core::Error> without;  ///< `where`: "feature / characteristic".
 };
 
-/// Studies every characteristic of every cylinder and circle of a run, in its order.
+/// Studies every characteristic of a run, in its order.
 /// @return kNoPoints when no characteristic has a value.
 [[nodiscard]] core::Result<RunComparison> compare_run(const Evaluation& evaluation);
 

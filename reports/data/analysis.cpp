@@ -59,6 +59,9 @@ Json found_json(const evaluation::WheelResult& found) {
     out["effective_radius_interval"] = {{"estimate_mm", radius->estimate_mm},
                                         {"low_mm", radius->low_mm},
                                         {"high_mm", radius->high_mm}};
+    // Where points may be missing, the edge may reach farther out than the interval says.
+    const auto& runout = found.evaluation.wheel.runout;
+    out["effective_radius_interval"]["at_least"] = runout && !runout->bound_because.empty();
   } else if (!found.effective_radius.why().empty()) {
     out["effective_radius_no_interval"] = found.effective_radius.why();
   }

@@ -12,6 +12,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "core/utf8.h"
+#include "evaluation/decision/decision.h"
 #include "evaluation/part/find.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
@@ -68,6 +69,22 @@ std::string size_fields(const record::Characteristic& asked) {
          limit_field(core::LengthUnit::kMm, asked.tolerance_mm);
 }
 
+bool any_has_own_rule(const evaluation::Evaluation& evaluation) {
+  return std::ranges::any_of(evaluation.features, [](const evaluation::FeatureResult& feature) {
+    return std::ranges::any_of(feature.characteristics, [](const auto& result) {
+      return result.characteristic.indication.decision_rule.has_value();
+    });
+  });
+}
+
+/// The rule that a characteristic was judged by, as a plan spells it.
+std::string_view rule_field(const evaluation::Evaluation& evaluation,
+                            const record::Characteristic& asked) {
+  const auto& own = asked.indication.decision_rule;
+  if (own) return name_of(evaluation::rule_of(*own).kind);
+  return evaluation.rule ? name_of(evaluation.rule->kind) : std::string_view();
+}
+
 /// "layer,height_mm,angle_deg,radius_mm" of a local value; the three that it has not are empty.
 std::string place_fields(const evaluation::LocalValue& local) {
   using Place = evaluation::LocalValue::Place;
@@ -96,7 +113,9 @@ std::string write_results_csv(const record::RunRecord& record,
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um";
   const bool sizes = any_has_two_limits(evaluation);
-  text += sizes ? ",lower_limit_mm,upper_limit_mm\n" : "\n";
+  const bool rules = any_has_own_rule(evaluation);
+  if (sizes) text += ",lower_limit_mm,upper_limit_mm";
+  text += rules ? ",decision_rule\n" : "\n";
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
@@ -113,7 +132,9 @@ std::string write_results_csv(const record::RunRecord& record,
           um_field(result.value_mm()), tolerance_field(feature.feature, asked),
           name_of(result.verdict), text_field(result.reason.english()),
           text_field(result.value ? result.value->operator_text().english() : ""), interval);
-      text += sizes ? size_fields(asked) + "\n" : "\n";
+      if (sizes) text += size_fields(asked);
+      if (rules) text += fmt::format(",{}", rule_field(evaluation, asked));
+      text += "\n";
     }
   }
   return text;

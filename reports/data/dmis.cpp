@@ -153,6 +153,20 @@ core::Result<ToleranceBlock> tolerance_block(const evaluation::CharacteristicRes
   return block;
 }
 
+/// Empty where the rule of the run holds.
+std::string own_rule_remark(const std::string& label, const record::Characteristic& asked) {
+  const std::string own = own_rule_in_words(asked);
+  return own.empty() ? own : comment(label, "decision rule of this line: " + own);
+}
+
+/// Why a value of an analysis has no interval; empty with one.
+std::string no_interval_remark(const std::string& label,
+                               const evaluation::CharacteristicResult& result) {
+  if (!result.value || result.value->uncertainty().result()) return {};
+  const core::Phrase& why = result.value->uncertainty().why();
+  return why.empty() ? std::string() : comment(label, "no interval: " + why.english());
+}
+
 /// The block of one characteristic: its tolerance, and its result or the reason why there is none.
 std::string characteristic_block(const evaluation::CharacteristicResult& result,
                                  double nominal_diameter_mm, const std::string& feature,
@@ -161,6 +175,7 @@ std::string characteristic_block(const evaluation::CharacteristicResult& result,
   std::string text =
       comment(label, fmt::format("{}; {} {}; {}", asked.id, evaluation::symbol_of(asked),
                                  evaluation::reference_of(asked), name_of(result.verdict)));
+  text += own_rule_remark(label, asked);
   const auto block = tolerance_block(result, nominal_diameter_mm);
   if (!block) {
     if (result.value) text += comment(label, result.value->sentence().english());
@@ -226,7 +241,9 @@ void add_feature(const evaluation::FeatureResult& feature, std::size_t number, s
     text += comment(tolerance, fmt::format("{}; {}; {}; {}", result.characteristic.id,
                                            evaluation::symbol_of(result.characteristic),
                                            name_of(result.verdict), result.reason.english()));
+    text += own_rule_remark(tolerance, result.characteristic);
     if (result.value) text += comment(tolerance, result.value->sentence().english());
+    if (record::is_analysis(feature.feature.shape)) text += no_interval_remark(tolerance, result);
   }
   for (const evaluation::Gate& gate : feature.gates) text += comment(label, gate_remark(gate));
 }

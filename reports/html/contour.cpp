@@ -15,6 +15,7 @@
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -160,20 +161,25 @@ std::string harmonic_plot(const evaluation::ContourResult& facts,
 std::string key_numbers(const evaluation::ContourResult& facts) {
   const fit::ContourStudy& study = facts.study;
   std::string html = R"(<dl class="keys">)";
-  const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found) {
+  using Curve = evaluation::ContourNumber::Curve;
+  const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found,
+                       Curve curve) {
     if (!found) return;
     const auto word = found->word(facts.options.limits);
-    html += entry(name,
-                  with_note(found->index ? fixed(*found->index, 4) : "–",
-                            trf("{}mean curve {} µm rms, spread {} µm",
-                                word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
-                                um(found->mean_rms), um(found->spread))),
-                  "lead");
+    std::string words = trf("{}mean curve {} µm rms, spread {} µm",
+                            word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
+                            um(found->mean_rms), um(found->spread));
+    const auto stated = std::ranges::find_if(facts.numbers, [&](const auto& number) {
+      return number.curve == curve && !number.part && number.uncertainty.result();
+    });
+    if (stated != facts.numbers.end())
+      words += tr("; ") + trf("corrected {}", with_interval(*stated, "&le;"));
+    html += entry(name, with_note(found->index ? fixed(*found->index, 4) : "–", words), "lead");
   };
-  add(tr("Stability index of t"), study.total);
-  add(tr("Stability index of f"), study.following);
-  add(tr("Stability index of n"), study.rest);
-  add(tr("Stability index of the mains"), study.main);
+  add(tr("Stability index of t"), study.total, Curve::kTotal);
+  add(tr("Stability index of f"), study.following, Curve::kFollowing);
+  add(tr("Stability index of n"), study.rest, Curve::kRest);
+  add(tr("Stability index of the mains"), study.main, Curve::kMain);
   if (study.amplitude_ratio > 0.0)
     html += entry("rms(f) / rms(n)", fixed(study.amplitude_ratio, 4));
   html += entry(tr("Correlation would turn f by"),
@@ -181,18 +187,6 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
                           tr("a diagnosis; nothing was turned unless the method is as-published")));
   html += entry(tr("Method"), tr(fit::name_of(facts.options.method)), "wide-key");
   return html + "</dl>";
-}
-
-/// "8.93 [8.71, 9.14]"; "<= 9.14" where only that is known; the value alone without an interval.
-std::string with_interval(const evaluation::ContourNumber& number) {
-  const bool length = number.kind != evaluation::ContourNumber::Kind::kIndex;
-  const auto in_digits = [&](double value) { return length ? um(value) : fixed(value, 4); };
-  const auto& found = number.uncertainty.result();
-  if (!found) return in_digits(number.as_measured);
-  const evaluation::UncertaintyStatement& s = found->sampled;
-  if (s.at_most) return "&le; " + in_digits(s.high_mm);
-  return fmt::format("{} [{}, {}]", in_digits(s.estimate_mm), in_digits(s.low_mm),
-                     in_digits(s.high_mm));
 }
 
 /// Peak to valley, rms and index of every curve with their intervals, and why some have none.
@@ -217,7 +211,7 @@ std::string interval_table(const evaluation::ContourResult& facts) {
   std::vector<std::string> reasons;
   for (const Number& number : facts.numbers) {
     const std::string curve = symbol(number.curve);
-    const std::string value = with_interval(number);
+    const std::string value = with_interval(number, "&le;");
     if (!number.part) {
       rows.push_back({curve, "–", "–", "–", value});
     } else if (number.kind == Number::Kind::kPeakToValley) {
@@ -282,8 +276,8 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
                           int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return first_separation(facts, record, feature) + key_numbers(facts) + words_of_contour() +
-         verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
+  return first_separation(facts, record, feature) + as_read_note() + key_numbers(facts) +
+         words_of_contour() + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          other_separations(facts, record, feature) + harmonic_plot(facts, asked);
 }
 

@@ -316,6 +316,12 @@ std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
 }
 
+std::string as_read_note() {
+  return note(
+      tr("Numbers without an interval beside them are as read. Those that the plan asks for stand "
+         "above, with their interval where influences are declared."));
+}
+
 std::string messages(const evaluation::FeatureResult& feature) {
   std::string html;
   if (feature.failure) {

@@ -195,7 +195,8 @@ std::string key_numbers(const evaluation::RotaryResult& facts) {
 
 std::string analysis_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
                           int feature) {
-  std::string html = residual_chart(facts) + key_numbers(facts) + words_of_rotary();
+  std::string html =
+      residual_chart(facts) + as_read_note() + key_numbers(facts) + words_of_rotary();
   html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
                       location_table(facts));

@@ -35,6 +35,8 @@ namespace rondure::reports {
                                         const record::RunRecord& record, int feature);
 [[nodiscard]] std::string analysis_part(const evaluation::RotaryResult& facts,
                                         const record::RunRecord& record, int feature);
+/// Stands above the key numbers of an analysis: which of them are as read.
+[[nodiscard]] std::string as_read_note();
 /// The rule of the verdicts, in words, with its statements.
 [[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.

@@ -201,7 +201,7 @@ std::string analysis_part(const evaluation::SpindleResult& facts, const record::
   html += motion_plot(tr("Motion Y"), s.alpha_rad, facts.y);
   html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts.x);
   html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts.y);
-  html += "</div>" + key_numbers(facts) + words_of_spindle();
+  html += "</div>" + as_read_note() + key_numbers(facts) + words_of_spindle();
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return html + harmonic_plots(facts, asked) + harmonic_table(s);
 }

@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -164,24 +162,14 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
   return html + declaration(u.declaration);
 }
 
-/// Why values have no interval, each reason once with the characteristics that it concerns.
-std::string absent_intervals(const evaluation::FeatureResult& feature) {
-  std::vector<std::pair<core::Phrase, std::string>> reasons;
-  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-    if (!result.value || result.value->uncertainty().result()) continue;
-    const core::Phrase& why = result.value->uncertainty().why();
-    if (why.empty()) continue;
-    const std::string name = isolated(result.characteristic.id);
-    const auto known = std::ranges::find(reasons, why, &decltype(reasons)::value_type::first);
-    if (known == reasons.end()) {
-      reasons.emplace_back(why, name);
-    } else {
-      known->second += tr(", ") + name;
-    }
-  }
+std::string absent_notes(const evaluation::FeatureResult& feature) {
   std::string html;
-  for (const auto& [why, names] : reasons)
-    html += note(trf("No interval of {}: {}.", names, in_sentence(why)));
+  for (const AbsentInterval& absent : absent_intervals(feature)) {
+    std::string names;
+    for (const std::string& id : absent.ids)
+      names += (names.empty() ? "" : tr(", ")) + isolated(id);
+    html += note(trf("No interval of {}: {}.", names, in_sentence(absent.why)));
+  }
   return html;
 }
 
@@ -200,8 +188,7 @@ std::string rule_section(const evaluation::Evaluation& evaluation) {
 }
 
 std::string uncertainty_section(const evaluation::FeatureResult& feature) {
-  std::string html;
-  if (record::is_analysis(feature.feature.shape)) html += absent_intervals(feature);
+  std::string html = absent_notes(feature);
   for (const evaluation::CharacteristicResult& result : feature.characteristics) {
     if (result.value && result.value->uncertainty().result())
       html += value_part(result, !record::is_analysis(feature.feature.shape));

@@ -275,6 +275,8 @@ std::string row(const evaluation::FeatureResult& feature,
                                                    isolated(asked.drawing_zone));
   std::string words = opening_sentence(result.reason);
   if (result.outcome) words += risks_in_words(result);
+  if (const std::string own = own_rule_in_words(asked); !own.empty())
+    words += "<br/>" + trf("Decision rule of this line: {}", escaped(own));
   if (result.value)
     words += "<br/>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";

@@ -14,6 +14,7 @@
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -299,6 +300,14 @@ std::string runout_entry(const fit::WheelMeasurement& m) {
                          um(m.runout->eccentricity_mm), fixed(m.runout->effective_radius_mm, 6))));
 }
 
+/// Empty without a run-out, whose entry then says why.
+std::string effective_radius_entry(const evaluation::WheelResult& facts) {
+  if (!facts.evaluation.wheel.runout) return {};
+  const core::Phrase stated = effective_radius_in_words(facts);
+  return stated.empty() ? std::string()
+                        : entry(tr("Effective radius"), in_sentence(stated), "wide-key");
+}
+
 std::string center_entries(const fit::WheelMeasurement& m) {
   const fit::WheelCenters& c = m.centers;
   std::string html =
@@ -426,9 +435,9 @@ std::string analysis_part(const evaluation::WheelResult& facts, const record::Ru
                           int /*feature*/) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return fmt::format(R"(<h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +
-         wheel_edge_plot(m, facts.points_mm) + R"(</div><dl class="keys">)" +
-         radius_entries(facts) + runout_entry(m) + center_entries(m) + "</dl>" + words_of_wheel() +
-         path_part(facts);
+         wheel_edge_plot(m, facts.points_mm) + "</div>" + as_read_note() + R"(<dl class="keys">)" +
+         radius_entries(facts) + runout_entry(m) + effective_radius_entry(facts) +
+         center_entries(m) + "</dl>" + words_of_wheel() + path_part(facts);
 }
 
 }  // namespace rondure::reports

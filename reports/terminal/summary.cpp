@@ -75,6 +75,10 @@ std::vector<SummaryLine> lines_of(const evaluation::WheelResult& facts) {
                                        m.runout->effective_radius_mm)
                         : core::phrase("at least {} um: {}", um(m.runout->fim_mm), bound)});
   }
+  if (m.runout) {
+    if (core::Phrase stated = effective_radius_in_words(facts); !stated.empty())
+      out.push_back({"eff. radius", std::move(stated)});
+  }
   const auto& e = facts.evaluation;
   if (e.path) {
     out.push_back(
@@ -85,15 +89,30 @@ std::vector<SummaryLine> lines_of(const evaluation::WheelResult& facts) {
   return out;
 }
 
+/// Peak to valley of a curve of a part, with its interval where there is one.
+std::string peak_to_valley_of(const evaluation::ContourResult& facts,
+                              evaluation::ContourNumber::Curve curve, std::size_t part,
+                              double as_measured_mm) {
+  using Number = evaluation::ContourNumber;
+  for (const Number& number : facts.numbers) {
+    if (number.curve == curve && number.part == part && number.kind == Number::Kind::kPeakToValley)
+      return with_interval(number, "<=");
+  }
+  return um(as_measured_mm);
+}
+
 std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
+  using Curve = evaluation::ContourNumber::Curve;
   std::vector<SummaryLine> out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const fit::ContourPartResult& part = facts.study.parts[i];
     out.push_back(
         {"part",
-         core::phrase("{}: contour {} um PV; following {} um, not following {} um", facts.names[i],
-                      um(part.pin.contour.peak_to_valley_mm), um(part.following.peak_to_valley_mm),
-                      um(fit::peak_to_valley(part.direct.rest_mm)))});
+         core::phrase(
+             "{}: contour {} um PV; following {} um, not following {} um", facts.names[i],
+             peak_to_valley_of(facts, Curve::kTotal, i, part.pin.contour.peak_to_valley_mm),
+             peak_to_valley_of(facts, Curve::kFollowing, i, part.following.peak_to_valley_mm),
+             peak_to_valley_of(facts, Curve::kRest, i, fit::peak_to_valley(part.direct.rest_mm)))});
   }
   for (const core::Phrase& verdict : contour_verdicts(facts.study, facts.options.limits)) {
     out.push_back({out.size() == facts.study.parts.size() ? "stability" : "", verdict});
@@ -315,6 +334,8 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
       result.verdict == evaluation::Verdict::kUndecided || (!simple && result.outcome)) {
     add_wrapped(out, "    " + tr("because"), words(result.reason));
   }
+  if (const std::string own = own_rule_in_words(asked); !own.empty())
+    add_wrapped(out, "    " + tr("rule"), own);
   if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
   if (!simple && result.value) add_uncertainty(out, *result.value);
   if (result.finding && result.value) add_finding(out, *result.finding, *result.value, said);
@@ -402,6 +423,16 @@ std::string heading_of(const evaluation::FeatureResult& feature) {
              tr(record::name_of(feature.feature.shape)), pattern_of(feature));
 }
 
+/// "no interval  RONt, RONq: no influence of the probes is declared".
+void add_absent_intervals(std::string& out, const evaluation::FeatureResult& feature) {
+  for (const AbsentInterval& absent : absent_intervals(feature)) {
+    std::string names;
+    for (const std::string& id : absent.ids)
+      names += (names.empty() ? "" : tr(", ")) + printable(id);
+    add_wrapped(out, "  " + tr("no interval"), trf("{}: {}", names, words(absent.why)));
+  }
+}
+
 /// "gates  7 of 8 passed; first-harmonic: ..." where one did not pass; JSON and page list all.
 void add_gates(std::string& out, const evaluation::FeatureResult& feature) {
   using evaluation::Gate;
@@ -441,6 +472,7 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
     }
     if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
     add_sketch(out, feature, sketch);
+    add_absent_intervals(out, feature);
     add_analysis(out, record, i, feature);
     add_gates(out, feature);
     add_zone(out, feature);

@@ -96,14 +96,23 @@ TEST(CompareVerb, RefusesWhatItCannotReadOrCompare) {
   ASSERT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "stopped"}).status, 3);
   const Outcome stopped = rondure({"compare", folder / "stopped"});
   EXPECT_EQ(stopped.status, 2);
-  EXPECT_THAT(stopped.err, AllOf(HasSubstr("no cylinder or circle of this run has a value"),
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr("no cylindricity and no roundness with a value"),
                                  HasSubstr("not measured to its end")));
 
   ASSERT_LE(rondure({"run", example("06_wheel.json"), "--out", folder / "wheel", "--quiet"}).status,
             1);
-  const Outcome wheel = rondure({"compare", folder / "wheel"});
-  EXPECT_EQ(wheel.status, 2);
-  EXPECT_THAT(wheel.err, HasSubstr("a wheel has no reference surface to exchange"));
+  const Outcome wheel = rondure({"compare", folder / "wheel", "--json"});
+  ASSERT_EQ(wheel.status, 0) << wheel.err;
+  const json compared = json::parse(wheel.out);
+  ASSERT_EQ(compared.at("characteristics").size(), 1U);
+  EXPECT_EQ(compared.at("characteristics")[0].at("characteristic"), "edge roundness");
+  EXPECT_EQ(compared.at("not_compared").size(), 2U);
+
+  ASSERT_LE(
+      rondure({"run", example("07_crank_pin.json"), "--out", folder / "pin", "--quiet"}).status, 1);
+  const Outcome pin = rondure({"compare", folder / "pin"});
+  EXPECT_EQ(pin.status, 2);
+  EXPECT_THAT(pin.err, HasSubstr("pin / contour: the contour is held against the ground contour"));
 }
 
 }  // namespace

@@ -213,6 +213,32 @@ TEST(AnalysisInterval, ThePageSaysWhyThereIsNone) {
       "No interval of <bdi>asked</bdi>, <bdi>asked</bdi>: <bdi>declare gain_1</bdi>.";
   EXPECT_THAT(page, HasSubstr(line));
   EXPECT_THAT(page, Not(HasSubstr("Uncertainty of")));
+  EXPECT_THAT(analysis_summary(made), HasSubstr("no interval asked, asked: declare gain_1"));
+  EXPECT_THAT(write_dmis(made.record, made.evaluation),
+              HasSubstr("$$ F1T1: no interval: declare gain_1"));
+  EXPECT_THAT(write_qif(made.record, made.evaluation), HasSubstr("none: declare gain_1"));
+}
+
+// A line with a rule of its own says so wherever its verdict stands.
+TEST(AnalysisInterval, ARuleOfALineStandsInEveryWriter) {
+  Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync");
+  auto& results = made.evaluation.features.front().characteristics;
+  results.push_back(results.front());
+  results.back().characteristic.id = "strict";
+  record::DecisionRuleTask rule;
+  rule.rule = record::DecisionRuleTask::Rule::kIso14253;
+  results.back().characteristic.indication.decision_rule = rule;
+  const std::string said = "ISO 14253-1: conforms where y";
+  const std::string dmis = write_dmis(made.record, made.evaluation);
+  EXPECT_THAT(dmis, HasSubstr("$$ F1T2: decision rule of this line: " + said));
+  EXPECT_THAT(dmis, Not(HasSubstr("$$ F1T1: decision rule of this line")));
+  EXPECT_THAT(write_qif(made.record, made.evaluation), HasSubstr("name=\"decision_rule\""));
+  EXPECT_THAT(analysis_summary(made), HasSubstr("rule " + said));
+  EXPECT_THAT(page_of(made), HasSubstr("Decision rule of this line: " + said));
+  const std::string csv = write_results_csv(made.record, made.evaluation);
+  EXPECT_THAT(csv, AllOf(HasSubstr(",high_um,decision_rule\n"), HasSubstr(",3.2,iso-14253-1\n")));
+  results.pop_back();
+  EXPECT_THAT(write_results_csv(made.record, made.evaluation), Not(HasSubstr("decision_rule")));
 }
 
 TEST(AnalysisInterval, AnUpperBoundIsNowhereAValue) {

@@ -240,6 +240,52 @@ TEST(WheelReport, SaysWhatTheUncertaintyOfTheRadiusIsMadeOf) {
   EXPECT_THAT(html, Not(HasSubstr("uncertainty from the scatter of the points alone")));
 }
 
+/// 16 points about the whole turn of a wheel of 50 mm that runs out by 5 um about (12.02, -7).
+record::RunRecord whole_wheel(double tolerance_mm) {
+  test::Points2 points;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = core::kTwoPi * i / 16.0;
+    points.emplace_back(12.025 + 50.0 * std::cos(angle), -7.0 + 50.0 * std::sin(angle));
+  }
+  record::RunRecord run = run_of(points);
+  run.features.front().characteristics = {asked("FIM", record::Form::kRunOut, tolerance_mm)};
+  for (const char* name : {"point_um", "axis_um"}) {
+    run.features.front().settings.push_back(
+        number("uncertainty/" + std::string(name) + "/value", 0.3));
+  }
+  return run;
+}
+
+// Greatest distance from the axis: 50.005 mm.
+TEST(WheelReport, StatesTheEffectiveRadiusWithItsIntervalOnPageAndTerminal) {
+  const auto run = whole_wheel(0.030);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  const auto& stated = written["features"][0]["wheel"]["effective_radius_interval"];
+  ASSERT_TRUE(stated.is_object()) << written["features"][0]["wheel"].dump();
+  EXPECT_LT(stated["low_mm"], 50.005);
+  EXPECT_GT(stated["high_mm"], 50.005);
+  EXPECT_FALSE(stated["at_least"].get<bool>());
+  const std::string page = write_html(run, *evaluation);
+  EXPECT_EQ(testing::first_unbalanced_tag(page), "");
+  EXPECT_THAT(page, HasSubstr("50.00500 mm, 95 % within [50.00"));
+  const std::string summary = testing::one_line(write_summary(run, *evaluation));
+  EXPECT_THAT(summary, HasSubstr("eff. radius 50.005"));
+  EXPECT_THAT(summary, HasSubstr(" mm, 95 % within [50.00"));
+}
+
+TEST(WheelReport, AnEffectiveRadiusBesideAGapIsOnlyItsLowerEnd) {
+  auto run = whole_wheel(0.030);
+  auto& values = run.series.front().values;
+  values.resize(values.size() - 10);  // five points: a gap of 135 deg
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  EXPECT_TRUE(written["features"][0]["wheel"]["effective_radius_interval"]["at_least"]);
+  EXPECT_THAT(write_html(run, *evaluation), HasSubstr(" mm, the lower end of its 95 % interval"));
+}
+
 // The budget of an analysis is linear propagation, which knows a sign, but no shift.
 TEST(WheelReport, BudgetHasTheChangeForOneStandardUncertaintyAndNoShift) {
   auto run = wheel_run();

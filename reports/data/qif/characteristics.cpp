@@ -11,6 +11,7 @@
 #include "evaluation/results/finding.h"
 #include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
@@ -312,11 +313,17 @@ void add_circle_zone(pugi::xml_node node, const PlacedResult& placed) {
   }
 }
 
-/// Meaning of `combinedUncertainty`, which QIF leaves open; empty without an interval.
-std::string uncertainty_words(const evaluation::CharacteristicResult& result) {
+/// Meaning of `combinedUncertainty`, which QIF leaves open; without an interval, of an analysis the
+/// reason, else empty.
+std::string uncertainty_words(const record::Feature& feature,
+                              const evaluation::CharacteristicResult& result) {
   const evaluation::UncertaintyStatement* known =
       result.value ? result.value->statement() : nullptr;
-  if (known == nullptr) return {};
+  if (known == nullptr) {
+    if (!result.value || !record::is_analysis(feature.shape)) return {};
+    const core::Phrase& why = result.value->uncertainty().why();
+    return why.empty() ? std::string() : "none: " + why.english();
+  }
   if (known->at_most) {
     return fmt::format("none: the value is the upper bound, {:g} % lie below {} mm",
                        50.0 * (1.0 + result.value->uncertainty().coverage_1()),
@@ -337,7 +344,8 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
       {{"verdict", std::string(name_of(result.verdict))},
        {"verification_operator", result.value ? result.value->operator_text() : std::string()},
        {"stated", result.value ? result.value->sentence() : std::string()},
-       {"combinedUncertainty", uncertainty_words(result)},
+       {"combinedUncertainty", uncertainty_words(placed.feature.feature, result)},
+       {"decision_rule", own_rule_in_words(asked)},
        {"gates", placed.feature.gates.empty() ? std::string() : in_words(placed.feature.gates)}});
   if (!result.reason.empty()) add(node, "Description", result.reason.english());
   add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict).of_characteristic);

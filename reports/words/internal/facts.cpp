@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/results/measured_cloud.h"
@@ -38,6 +39,13 @@ std::string formula(const evaluation::DecisionRule& rule) {
           100.0 * rule.acceptance_guard_1, 100.0 * rule.rejection_guard_1);
   }
   return {};
+}
+
+std::string sentence_of(const evaluation::DecisionRule& rule) {
+  if (!rule.needs_interval()) {
+    return tr("simple acceptance; no measurement uncertainty taken into account");
+  }
+  return trf("{}; the value {} decides", in_words(rule), tr(name_of(rule.measurand)));
 }
 
 }  // namespace
@@ -129,11 +137,59 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
 
 std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation) {
   if (!evaluation.rule) return in_words(evaluation.rule.error().said());
-  const evaluation::DecisionRule& rule = *evaluation.rule;
-  if (!rule.needs_interval()) {
-    return tr("simple acceptance; no measurement uncertainty taken into account");
+  return sentence_of(*evaluation.rule);
+}
+
+std::string own_rule_in_words(const record::Characteristic& asked) {
+  const auto& own = asked.indication.decision_rule;
+  return own ? sentence_of(evaluation::rule_of(*own)) : std::string();
+}
+
+std::vector<AbsentInterval> absent_intervals(const evaluation::FeatureResult& feature) {
+  std::vector<AbsentInterval> out;
+  if (!record::is_analysis(feature.feature.shape)) return out;
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+    if (!result.value || result.value->uncertainty().result()) continue;
+    const core::Phrase& why = result.value->uncertainty().why();
+    if (why.empty()) continue;
+    auto known = std::ranges::find(out, why, &AbsentInterval::why);
+    if (known == out.end()) known = out.insert(known, {why, {}});
+    known->ids.push_back(result.characteristic.id);
   }
-  return trf("{}; the value {} decides", in_words(rule), tr(name_of(rule.measurand)));
+  return out;
+}
+
+std::string with_interval(const evaluation::ContourNumber& number, std::string_view at_most) {
+  const bool length = number.kind != evaluation::ContourNumber::Kind::kIndex;
+  const auto in_digits = [&](double value) {
+    return length ? core::um(value) : core::fixed(value, 4);
+  };
+  const auto& found = number.uncertainty.result();
+  if (!found) return in_digits(number.as_measured);
+  const evaluation::UncertaintyStatement& s = found->sampled;
+  if (s.at_most) return fmt::format("{} {}", at_most, in_digits(s.high_mm));
+  return fmt::format("{} [{}, {}]", in_digits(s.estimate_mm), in_digits(s.low_mm),
+                     in_digits(s.high_mm));
+}
+
+core::Phrase effective_radius_in_words(const evaluation::WheelResult& facts) {
+  const evaluation::UncertaintyStatus& known = facts.effective_radius;
+  if (!known.result()) {
+    return known.why().empty() ? core::Phrase() : core::phrase("no interval: {}", known.why());
+  }
+  const evaluation::UncertaintyStatement& s = known.result()->sampled;
+  const auto mm = [&](double radius_mm) {
+    return core::length_in(core::LengthUnit::kMm, radius_mm,
+                           evaluation::decimals_for(s.expanded_mm()));
+  };
+  const double percent = 100.0 * known.coverage_1();
+  const auto& runout = facts.evaluation.wheel.runout;
+  if (runout && !runout->bound_because.empty()) {
+    return core::phrase("at least {} mm, the lower end of its {:g} % interval", mm(s.low_mm),
+                        percent);
+  }
+  return core::phrase("{} mm, {:g} % within [{}, {}] mm", mm(s.estimate_mm), percent, mm(s.low_mm),
+                      mm(s.high_mm));
 }
 
 std::string rule_in_words(const record::Header& header) {

@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "evaluation/analysis_result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/section.h"
@@ -33,5 +35,25 @@ namespace rondure::reports {
 
 /// The rule in words, with its formula: "ISO 14253-1: conforms where y + 1 (hi - y) <= T, ...".
 [[nodiscard]] std::string in_words(const evaluation::DecisionRule& rule);
+
+/// The rule of a characteristic that has its own, in words; empty where that of the run holds.
+[[nodiscard]] std::string own_rule_in_words(const record::Characteristic& asked);
+
+/// Why values of an analysis have no interval: each reason once.
+struct AbsentInterval {
+  core::Phrase why;
+  std::vector<std::string> ids;  ///< Of the characteristics that it concerns, as the plan has them.
+};
+[[nodiscard]] std::vector<AbsentInterval> absent_intervals(
+    const evaluation::FeatureResult& feature);
+
+/// "8.93 [8.71, 9.14]", "<= 9.14" where only that is known, the value as measured without an
+/// interval; um, of an index a plain number.
+/// @param at_most  The sign of an upper bound.
+[[nodiscard]] std::string with_interval(const evaluation::ContourNumber& number,
+                                        std::string_view at_most);
+/// The effective radius of a wheel with its interval, where points may be missing only its lower
+/// end, or why there is no interval.
+[[nodiscard]] core::Phrase effective_radius_in_words(const evaluation::WheelResult& facts);
 
 }  // namespace rondure::reports
