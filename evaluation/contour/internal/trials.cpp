@@ -500,12 +500,57 @@ class ContourTrials {
     return out;
   }
 
+  /// Of t for the gain of a correction: the zero of the gauge turns t against the axes.
+  [[nodiscard]] CurveModel gain_model() const {
+    CurveModel out = gauge_model(total_, "total");
+    if (!said_.gauge_phase_deg) return out;
+    const DrawnInfluence zero{&said_.gauge_phase_deg, kDegree, "gauge.phase"};
+    out.effects.push_back({"gauge-phase", [zero, seed = options_.seed](int trial, Curves& curves) {
+                             turn(zero.draw(seed, 0, trial), curves);
+                           }});
+    return out;
+  }
+
+  /// Standard uncertainty of the mean f at the angles of the contours.
+  [[nodiscard]] std::vector<double> mean_following_u() const {
+    const double parts = static_cast<double>(following_.size());
+    double trace2 = 0.0;
+    for (std::size_t i = 0; i < following_.size(); ++i) {
+      for (const double left : basis_.transmission) {
+        trace2 += 0.5 * std::pow(left * trace_u(i) / parts, 2);
+      }
+    }
+    const fit::CrankGeometry& crank = facts_.options.geometry;
+    const double x = kMicrometre * record::u_of(said_.x_encoder_um);
+    const double c = kMicroradian * record::u_of(said_.c_encoder_urad);
+    std::vector<double> out = fit::contour_of(mean_skew(), facts_.options.samples);
+    for (std::size_t m = 0; m < out.size(); ++m) {
+      const double beta = core::kTwoPi * static_cast<double>(m) / static_cast<double>(out.size());
+      const auto [per_x, per_c] = fit::contour_sensitivity(crank, beta);
+      out[m] = std::sqrt(out[m] * out[m] + trace2 + std::pow(per_x * x, 2) + std::pow(per_c * c, 2));
+    }
+    return out;
+  }
+
  private:
   static constexpr std::string_view kCEncoder = "control.c-encoder";
   static constexpr std::string_view kXEncoder = "control.x-encoder";
 
   [[nodiscard]] std::string id(std::string_view what) const {
     return fmt::format("{}.{}", facts_.feature_id, what);
+  }
+
+  /// Turns curves: out(beta) = curve(beta - angle).
+  static void turn(double angle, Curves& curves) {
+    for (auto& curve : curves) {
+      for (std::size_t j = 0; j + 1 < curve.size(); j += 2) {
+        const double by = Basis::order(j) * angle;
+        const double a = curve[j];
+        const double b = curve[j + 1];
+        curve[j] = a * std::cos(by) - b * std::sin(by);
+        curve[j + 1] = a * std::sin(by) + b * std::cos(by);
+      }
+    }
   }
 
   /// The rows of an orthonormal set: the mean, then each part against those before it.
@@ -672,19 +717,23 @@ class ContourTrials {
                        scaled(mean_total(true), {&said_.gauge_phase_deg, kDegree, "gauge.phase"}));
     }
     if (!skew_.empty()) {
-      std::vector<double> mean(basis_.size(), 0.0);
-      for (const auto& curve : skew_) {
-        for (std::size_t j = 0; j < mean.size(); ++j) {
-          mean[j] += curve[j] / static_cast<double>(skew_.size());
-        }
-      }
       out.emplace_back("trace-skew",
-                       CommonCurves{{std::move(mean)}, {&said_.skew_ms, 1.0, "control.skew"}});
+                       CommonCurves{{mean_skew()}, {&said_.skew_ms, 1.0, "control.skew"}});
     }
     for (const CommonCurves& encoder : encoders_) {
       out.emplace_back(encoder.declared.id == kCEncoder ? "c-encoder" : "x-encoder", encoder);
     }
     return out;
+  }
+
+  [[nodiscard]] std::vector<double> mean_skew() const {
+    std::vector<double> mean(basis_.size(), 0.0);
+    for (const auto& curve : skew_) {
+      for (std::size_t j = 0; j < mean.size(); ++j) {
+        mean[j] += curve[j] / static_cast<double>(skew_.size());
+      }
+    }
+    return mean;
   }
 
   [[nodiscard]] std::vector<double> common_squares() const {
@@ -1002,6 +1051,38 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
                             std::span(found).subspan(of_mask[i].first, of_mask[i].second));
   }
   return out;
+}
+
+UncertaintyStatus gain_interval(const ContourResult& facts,
+                                std::span<const std::vector<double>> change_mm,
+                                const UncertaintyOptions& options) {
+  if (!facts.influences) return UncertaintyStatus::none(nothing_declared());
+  if (facts.total_void) return UncertaintyStatus::none(*facts.total_void);
+  const ContourTrials trials(facts, options);
+  if (const auto missing = trials.no_gauge()) return UncertaintyStatus::none(*missing);
+  Curves change;
+  for (const auto& curve : change_mm) change.push_back(trials.basis().of(curve));
+  Asked gain;
+  gain.value = [&basis = trials.basis(), &change](const Curves& curves) {
+    Curves after = curves;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      for (std::size_t j = 0; j < after[i].size(); ++j) after[i][j] += change[i][j];
+    }
+    return greatest_range(basis, curves) - greatest_range(basis, after);
+  };
+  gain.as_measured = gain.value(trials.total());
+  gain.convex = false;
+  gain.is_signed = true;
+  gain.has_budget = false;
+  return states(trials.gain_model(), {gain}, options).front();
+}
+
+core::Result<std::vector<double>> mean_following_u(const ContourResult& facts,
+                                                   const UncertaintyOptions& options) {
+  if (!facts.influences) return core::fail(core::Code::kMissingKey, nothing_declared());
+  const ContourTrials trials(facts, options);
+  if (const auto missing = trials.no_axes()) return core::fail(core::Code::kMissingKey, *missing);
+  return trials.mean_following_u();
 }
 
 std::vector<ContourNumber> contour_numbers(const ContourResult& facts,
