@@ -87,7 +87,8 @@ void fill_rows(const ContourResult& facts, std::span<const double> following_u_m
   for (std::size_t i = 0; i < XCorrection::kRows; ++i) {
     const bool against = facts.options.axes.c_direction < 0;
     const std::size_t row = against ? (XCorrection::kRows - i) % XCorrection::kRows : i;
-    const double alpha = kTwoPi * static_cast<double>(row) / static_cast<double>(XCorrection::kRows);
+    const double alpha =
+        kTwoPi * static_cast<double>(row) / static_cast<double>(XCorrection::kRows);
     const double beta = fit::contact_angle_rad(crank, alpha);
     const double of_mean = closed_at(mean.deviation_mm, beta);
     const double u2 = std::pow(closed_at(following_u_mm, beta), 2) +

@@ -130,9 +130,8 @@ Handed contour_tables(const record::RunRecord& record, int index, const FeatureR
       shortest(facts.options.geometry.pin_radius_mm), found->parts,
       found->parts == 1 ? ", u without the spread between parts" : "s");
   head.units = "c_deg deg, x_um um, u_um um; u is a standard uncertainty; linear between the rows";
-  head.gain =
-      fmt::format("{}; greatest peak to valley {} um as measured, {} um predicted with it",
-                  interval_of(found->gain), um(found->before_mm), um(found->after_mm));
+  head.gain = fmt::format("{}; greatest peak to valley {} um as measured, {} um predicted with it",
+                          interval_of(found->gain), um(found->before_mm), um(found->after_mm));
   std::string text = head_of(record, index, result, head) + "c_deg,x_um,u_um\n";
   for (std::size_t i = 0; i < found->x_mm.size(); ++i) {
     text += fmt::format("{},{},{}\n", i, shortest(found->x_mm[i] / kMicrometre),
@@ -165,16 +164,16 @@ Handed axis_tables(const record::RunRecord& record, int index, const FeatureResu
   if (!gain) return none_because(gain.error());
   const auto& facts = std::get<evaluation::RotaryResult>(result.analysis->found);
   Handed out;
-  const std::string said = fmt::format(
-      "{}; rms at combined poses {} um without it, {} um with it", interval_of(gain->gain),
-      um(gain->before_mm), um(gain->after_mm));
+  const std::string said =
+      fmt::format("{}; rms at combined poses {} um without it, {} um with it",
+                  interval_of(gain->gain), um(gain->before_mm), um(gain->after_mm));
   for (const evaluation::AxisFacts& axis : evaluation::axes_of(facts)) {
     Head head;
     head.kind = "axis-table";
     head.sense = fmt::format("{} as the fixture reads it, right-handed about its axis", axis.key);
     head.sign = "actual minus nominal";
-    head.validity = fmt::format("until {}, within the stations",
-                                printable(facts.calibration.expires_utc));
+    head.validity =
+        fmt::format("until {}, within the stations", printable(facts.calibration.expires_utc));
     head.units =
         "angle_deg deg, E*_um um, E*_urad urad; u_ is a standard uncertainty; at the origin of the "
         "axis, in the frame that carries it, from the zero pose; location: included";

@@ -8,6 +8,8 @@
 
 namespace rondure::reports {
 
+/// Names what is handed on, in a run directory.
+inline constexpr const char* kCorrectionsFile = "corrections.txt";
 /// Folder of the tables in a run directory.
 inline constexpr const char* kCorrectionsFolder = "corrections";
 

@@ -43,7 +43,6 @@ std::string calibration_of(const evaluation::Evaluation& evaluation) {
   return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
 }
 
-constexpr const char* kCorrectionsFile = "corrections.txt";
 constexpr const char* kResultsFile = "results.csv";
 constexpr const char* kSectionsFile = "sections.csv";
 
@@ -76,8 +75,10 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
     bytes = std::move(*printed);
   }
   if (auto sound = look_through(what, bytes); !sound) return core::fail(sound.error());
-  std::error_code ignored;  // an error here occurs again below, with its reason
-  std::filesystem::create_directory(path.parent_path(), ignored);
+  if (what.file.find('/') != std::string::npos) {
+    std::error_code ignored;  // an error here occurs again below, with its reason
+    std::filesystem::create_directory(path.parent_path(), ignored);
+  }
   if (auto done = record::write_file(path, bytes); !done) return core::fail(done.error());
   return record::Checksum{what.file, record::sha256_hex(bytes)};
 }

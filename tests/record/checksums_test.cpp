@@ -68,7 +68,8 @@ TEST(Checksums, LinesThatAreNoneAreNamed) {
   for (const std::string& line :
        {std::string("x"), std::string(), kDigest, kDigest + "  ", kDigest + " file",
         std::string(64, 'G') + "  file", kDigest + "  ../file", kDigest + "  /etc/passwd",
-        kDigest + "  ..", kDigest + "  a/../../b", kDigest + "  a//b", kDigest + "  a/", kDigest + "  a" + std::string(1, '\0')}) {
+        kDigest + "  ..", kDigest + "  a/../../b", kDigest + "  a//b", kDigest + "  a/",
+        kDigest + "  a" + std::string(1, '\0')}) {
     SCOPED_TRACE(line);
     std::ofstream(scratch / "SHA256SUMS", std::ios::binary) << good << line << "\n" << good;
     for (const auto& problem : {read_checksums(scratch.path()).error(),

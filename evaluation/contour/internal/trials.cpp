@@ -527,7 +527,8 @@ class ContourTrials {
     for (std::size_t m = 0; m < out.size(); ++m) {
       const double beta = core::kTwoPi * static_cast<double>(m) / static_cast<double>(out.size());
       const auto [per_x, per_c] = fit::contour_sensitivity(crank, beta);
-      out[m] = std::sqrt(out[m] * out[m] + trace2 + std::pow(per_x * x, 2) + std::pow(per_c * c, 2));
+      out[m] =
+          std::sqrt(out[m] * out[m] + trace2 + std::pow(per_x * x, 2) + std::pow(per_c * c, 2));
     }
     return out;
   }

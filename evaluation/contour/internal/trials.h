@@ -25,7 +25,8 @@ namespace rondure::evaluation {
                                               const UncertaintyOptions& options);
 
 /// Standard uncertainty of the mean f of the parts at the angles of the contours [mm]: errors of
-/// the encoders in full, which no trace shows, noise and skew of the traces. Or why it is not known.
+/// the encoders in full, which no trace shows, noise and skew of the traces. Or why it is not
+/// known.
 [[nodiscard]] core::Result<std::vector<double>> mean_following_u(const ContourResult& facts,
                                                                  const UncertaintyOptions& options);
 
