@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <sstream>
 
@@ -454,6 +455,23 @@ TEST(RotaryCorrection, HoldsTheTrueErrorsActualMinusNominal) {
     }
     EXPECT_GT(largest, 20.0);  // the sign would show
   }
+}
+
+TEST(RotaryCorrection, WithoutASignificantGainIsNotWritten) {
+  Bench bench;
+  bench.declared.emplace();
+  bench.declared->reading_urad = record::DeclaredInfluence{2.62};
+  const record::RunRecord run = calibration_run(bench);
+  auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  RotaryResult facts = *result_of(evaluation->features.at(0));
+  // As if the nominal axes had been as good as the tables.
+  facts.calibration.verification.before_rms_mm = facts.calibration.verification.rms_mm;
+  AnalysisResult changed{std::move(facts)};
+  evaluation->features[0].analysis = std::make_shared<const AnalysisResult>(std::move(changed));
+  const auto made = reports::write_corrections(run, *evaluation);
+  EXPECT_TRUE(made.tables.empty());
+  EXPECT_THAT(made.summary, HasSubstr("none: the predicted gain is not significant"));
 }
 
 TEST(RotaryCorrection, OfAVoidCalibrationIsNotWritten) {
