@@ -152,7 +152,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis (default: as the plan says)");
+  add_formats(*verb, arguments.formats,
+              "html,pdf,json,csv,qif,dmis,corrections (default: as the plan says)");
   add_language(*verb, arguments.language);
   add_paper(*verb, arguments.paper);
   verb->add_option("--archive", arguments.archive,
@@ -220,7 +221,8 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
   add_formats(*verb, arguments.formats,
-              "html,pdf,json,csv,qif,dmis (default: all; pdf where there is Chromium)");
+              "html,pdf,json,csv,qif,dmis,corrections (default: all but corrections;\npdf where "
+              "there is Chromium)");
   add_language(*verb, arguments.language);
   add_paper(*verb, arguments.paper);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");

@@ -14,6 +14,18 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kDigits = 64;
 
+/// Whether a name is one in the directory or in a folder of it.
+bool stays_inside(std::string_view name) {
+  if (name.find('\0') != std::string_view::npos) return false;
+  while (true) {
+    const std::size_t end = name.find('/');
+    const std::string_view step = name.substr(0, end);
+    if (step.empty() || step == "." || step == "..") return false;
+    if (end == std::string_view::npos) return true;
+    name.remove_prefix(end + 1);
+  }
+}
+
 /// "<64 digits>  <name>", or with an asterisk before the name (sha256sum --binary).
 bool read_line(std::string_view line, Checksum& out) {
   if (line.size() <= kDigits + 2 || line[kDigits] != ' ') return false;
@@ -21,9 +33,7 @@ bool read_line(std::string_view line, Checksum& out) {
   out.sha256 = line.substr(0, kDigits);
   out.file = line.substr(kDigits + 2);
   const bool hexadecimal = out.sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
-  const bool plain_name = out.file.find('/') == std::string::npos && out.file != "." &&
-                          out.file != ".." && out.file.find('\0') == std::string::npos;
-  return hexadecimal && plain_name;
+  return hexadecimal && stays_inside(out.file);
 }
 
 }  // namespace
@@ -39,7 +49,7 @@ core::Result<std::vector<Checksum>> read_checksums(const fs::path& directory) {
     if (!read_line(rest.substr(0, end), line)) {
       return core::fail(core::Code::kSyntax,
                         "this is no line of sha256sum (64 digits 0-9a-f, two blanks, the name of "
-                        "a file in this directory)",
+                        "a file in this directory or below)",
                         fmt::format("{}:{}", kChecksumsName, number));
     }
     list.push_back(std::move(line));

@@ -14,7 +14,7 @@ inline constexpr const char* kChecksumsName = "SHA256SUMS";
 
 /// One line of the list.
 struct Checksum {
-  std::string file;    ///< A name in the same directory, without folders.
+  std::string file;    ///< A name in the same directory, or in a folder of it.
   std::string sha256;  ///< SHA-256 of the bytes: 64 lower-case hexadecimal digits.
 };
 

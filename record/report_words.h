@@ -7,7 +7,7 @@
 namespace rondure::record {
 
 /// A format of the files that are derived from a record.
-enum class Format { kHtml, kPdf, kJson, kCsv, kQif, kDmis };
+enum class Format { kHtml, kPdf, kJson, kCsv, kQif, kDmis, kCorrections };
 
 /// Paper of report.pdf.
 enum class Paper { kA4, kLetter };
@@ -18,7 +18,8 @@ constexpr auto words_of(Format) {
                                       {Format::kJson, "json"},
                                       {Format::kCsv, "csv"},
                                       {Format::kQif, "qif"},
-                                      {Format::kDmis, "dmis"}});
+                                      {Format::kDmis, "dmis"},
+                                      {Format::kCorrections, "corrections"}});
 }
 constexpr auto words_of(Paper) {
   return std::to_array<Word<Paper>>({{Paper::kA4, "a4"}, {Paper::kLetter, "letter"}});

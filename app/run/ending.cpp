@@ -16,6 +16,7 @@
 #include "plans/checks/record.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
+#include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
@@ -167,6 +168,7 @@ int conclude(const RunToFinish& ending, plans::Run& run) {
 int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   record::remove_temporaries(directory);
+  record::remove_temporaries(directory / reports::kCorrectionsFolder);
   if (auto closed = close_sealed(held.read, directory); !closed) {
     return fail_run(closed.error(), live);
   }

@@ -14,6 +14,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/signature.h"
+#include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
 #include "reports/words/language.h"
@@ -27,7 +28,8 @@ std::string signed_checksums(const std::filesystem::path& directory) {
   return record::read_file(directory / record::kChecksumsName).value_or("");
 }
 
-/// The requested formats, otherwise all that can be written here.
+/// The requested formats, otherwise all that can be written here; corrections for machines only
+/// where they were asked for once.
 std::vector<std::string> formats_of(const ReportArguments& arguments) {
   if (!arguments.formats.empty()) return arguments.formats;
   std::vector<std::string> all = reports::all_formats();
@@ -35,6 +37,10 @@ std::vector<std::string> formats_of(const ReportArguments& arguments) {
     tell(fmt::format("rondure: report.pdf is not written: {}\n", browser.error().what));
     std::erase(all, "pdf");
   }
+  std::error_code unknown;
+  const bool corrected = std::filesystem::exists(
+      std::filesystem::path(arguments.directory) / reports::kCorrectionsFile, unknown);
+  if (!corrected) std::erase(all, name_of(record::Format::kCorrections));
   return all;
 }
 

@@ -72,20 +72,11 @@ core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& op
   if (auto checked = check_axis_sampling(out.axes, options.error.filter); !checked) {
     return core::fail(checked.error());
   }
-  GroundContourOptions ground;
-  ground.samples = options.samples;
-  ground.pre_filter_upr = options.pre_filter_upr;
-  ground.refine = options.refine_path;
-  if (options.method == ContourMethod::kAsPublished) ground.form = ParallelForm::kDifferences;
-  auto contour = ground_contour(options.geometry, out.axes.errors, ground);
-  if (!contour) return core::fail(contour.error());
-  out.ground = *std::move(contour);
-  warn_of_undercut(out);
-  std::vector<double> deviation = out.ground.r_mm;
-  for (double& r : deviation) r -= options.geometry.pin_radius_mm;
-  auto following = contour_error(deviation, options.geometry.pin_radius_mm, options.error);
+  auto following = following_contour(out.axes.errors, options);
   if (!following) return core::fail(following.error());
-  out.following = *std::move(following);
+  out.ground = std::move(following->ground);
+  out.following = std::move(following->error);
+  warn_of_undercut(out);
   return {};
 }
 
@@ -243,6 +234,22 @@ std::optional<PositionCheck> check_positions(const AxisTurn& axes, const CrankGe
       PositionCheck::kCourseLimit, radius, geometry.crank_radius_mm, length,
       geometry.center_distance_mm(), -std::arg(f[1]) / core::kDegree);
   return out;
+}
+
+core::Result<FollowingContour> following_contour(const AxisErrors& errors,
+                                                 const ContourStudyOptions& options) {
+  GroundContourOptions how;
+  how.samples = options.samples;
+  how.pre_filter_upr = options.pre_filter_upr;
+  how.refine = options.refine_path;
+  if (options.method == ContourMethod::kAsPublished) how.form = ParallelForm::kDifferences;
+  auto ground = ground_contour(options.geometry, errors, how);
+  if (!ground) return core::fail(ground.error());
+  std::vector<double> deviation = ground->r_mm;
+  for (double& r : deviation) r -= options.geometry.pin_radius_mm;
+  auto error = contour_error(deviation, options.geometry.pin_radius_mm, options.error);
+  if (!error) return core::fail(error.error());
+  return FollowingContour{*std::move(ground), *std::move(error)};
 }
 
 core::Result<ContourPartResult> contour_part(const ContourPart& part,

@@ -112,6 +112,16 @@ struct ContourStudy {
   std::vector<core::Error> warnings;  ///< `where` is "parts/i/..." for warnings about one part.
 };
 
+/// What axis errors grind: the contour, and its error from the base circle, filtered as the study
+/// filters every contour.
+struct FollowingContour {
+  GroundContour ground;
+  ContourError error;
+};
+/// @return the errors of ground_contour() and contour_error().
+[[nodiscard]] core::Result<FollowingContour> following_contour(const AxisErrors& errors,
+                                                               const ContourStudyOptions& options);
+
 /// Separates the contour of one part. See contour_study() for the errors.
 [[nodiscard]] core::Result<ContourPartResult> contour_part(const ContourPart& part,
                                                            const ContourStudyOptions& options);

@@ -10,6 +10,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
+#include "reports/data/corrections.h"
 #include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/data/json.h"
@@ -74,6 +75,10 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
     bytes = std::move(*printed);
   }
   if (auto sound = look_through(what, bytes); !sound) return core::fail(sound.error());
+  if (what.file.find('/') != std::string::npos) {
+    std::error_code ignored;  // an error here occurs again below, with its reason
+    std::filesystem::create_directory(path.parent_path(), ignored);
+  }
   if (auto done = record::write_file(path, bytes); !done) return core::fail(done.error());
   return record::Checksum{what.file, record::sha256_hex(bytes)};
 }
@@ -86,7 +91,8 @@ const std::vector<Export>& exports() {
       {Format::kCsv, "touches.csv"},     {Format::kCsv, kSeriesFile},
       {Format::kCsv, kResultsFile},      {Format::kCsv, kSectionsFile},
       {Format::kQif, "report.qif"},      {Format::kDmis, "report.dmo"},
-      {Format::kJson, kCalibrationFile}, {Format::kPdf, "report.pdf"}};
+      {Format::kJson, kCalibrationFile}, {Format::kCorrections, kCorrectionsFile},
+      {Format::kPdf, "report.pdf"}};
   return all;
 }
 
@@ -113,6 +119,7 @@ bool applies(const Export& what, const record::RunRecord& record) {
       });
     });
   }
+  if (what.format == Format::kCorrections) return can_correct(record);
   if (what.file != kCalibrationFile) return true;
   return record.ending == "finished" &&
          std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
@@ -130,10 +137,25 @@ std::string render(const Export& what, const record::RunRecord& record,
   if (what.format == Format::kJson) return write_json(record, evaluation);
   if (what.format == Format::kQif) return write_qif(record, evaluation);
   if (what.format == Format::kDmis) return write_dmis(record, evaluation);
+  if (what.format == Format::kCorrections) return write_corrections(record, evaluation).summary;
   if (what.file == kSeriesFile) return write_series_csv(record);
   if (what.file == kResultsFile) return write_results_csv(record, evaluation);
   if (what.file == kSectionsFile) return write_sections_csv(record, evaluation);
   return write_touches_csv(record);
+}
+
+std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
+                                 const evaluation::Evaluation& evaluation, Language language,
+                                 const EarlierResults& earlier) {
+  if (what.format != Format::kCorrections) {
+    return {{what, render(what, record, evaluation, language, earlier)}};
+  }
+  Corrections made = write_corrections(record, evaluation);
+  std::vector<Rendered> out = {{what, std::move(made.summary)}};
+  for (CorrectionTable& table : made.tables) {
+    out.push_back({{what.format, std::move(table.file)}, std::move(table.text)});
+  }
+  return out;
 }
 
 Language language_of(const Export& what, std::string_view bytes) {
@@ -149,10 +171,12 @@ bool exports_are_current(const std::filesystem::path& directory,
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) return true;
-    const auto bytes = record::read_file(directory / e.file);
-    const std::string made = render(e, record, evaluation, language, *earlier);
-    return bytes &&
-           (e.format == Format::kPdf ? is_printed_from(made, *bytes, paper) : *bytes == made);
+    const auto files = render_all(e, record, evaluation, language, *earlier);
+    return std::all_of(files.begin(), files.end(), [&](const Rendered& made) {
+      const auto bytes = record::read_file(directory / made.what.file);
+      return bytes && (e.format == Format::kPdf ? is_printed_from(made.bytes, *bytes, paper)
+                                                : *bytes == made.bytes);
+    });
   });
 }
 
@@ -176,14 +200,17 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) continue;
-    auto sum = write_one(e, directory / e.file, record.header,
-                         render(e, record, evaluation, language, *earlier), paper);
-    if (!sum) {
-      done = core::fail(sum.error());
-      break;
+    for (Rendered& made : render_all(e, record, evaluation, language, *earlier)) {
+      auto sum = write_one(made.what, directory / made.what.file, record.header,
+                           std::move(made.bytes), paper);
+      if (!sum) {
+        done = core::fail(sum.error());
+        break;
+      }
+      written.push_back(directory / made.what.file);
+      sums.push_back(std::move(*sum));
     }
-    written.push_back(directory / e.file);
-    sums.push_back(std::move(*sum));
+    if (!done) break;
   }
   // Also lists those written before one failed: an old digest would mark them as changed.
   const auto listed = record::update_checksums(directory, sums);

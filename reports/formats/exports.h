@@ -26,8 +26,21 @@ struct Export {
 [[nodiscard]] std::vector<std::string> all_formats();
 
 /// Whether a run has this export: series.csv only where series were recorded,
-/// fixture-calibration.json only of a finished calibration of the fixture.
+/// fixture-calibration.json only of a finished calibration of the fixture, corrections.txt only
+/// where a feature can give a correction.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
+
+/// One file with its bytes.
+struct Rendered {
+  Export what;
+  std::string bytes;
+};
+
+/// An export with the files that come with it: of corrections.txt the tables that it names.
+[[nodiscard]] std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
+                                               const evaluation::Evaluation& evaluation,
+                                               Language language = Language::kEnglish,
+                                               const EarlierResults& earlier = {});
 
 /// The bytes of one export as this program would write it; for report.pdf, the page that it is
 /// printed from. Files for people are in `language`; files for programs are English.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@
 #include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
+#include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
 #include "reports/history/earlier_results.h"
 #include "reports/verify/internal/compare_text.h"
@@ -93,6 +95,12 @@ std::size_t compare_results(const std::vector<record::StoredResult>& stored,
   return compared;
 }
 
+/// Whether an export is rows of columns.
+bool is_table(const Export& what) {
+  return what.format == Format::kCsv ||
+         (what.format == Format::kCorrections && what.file.ends_with(".csv"));
+}
+
 std::optional<std::string> compare_export(const Export& what, const std::string& expected,
                                           const std::string& found, const Exactness& exactness) {
   const double tolerance = exactness.tolerance();
@@ -104,11 +112,11 @@ std::optional<std::string> compare_export(const Export& what, const std::string&
   }
   if (!exactness.same_version) {
     if (what.format == Format::kJson) return compare_json_values(expected, found, tolerance);
-    if (what.format == Format::kCsv) return compare_csv_values(expected, found, tolerance);
+    if (is_table(what)) return compare_csv_values(expected, found, tolerance);
     return std::nullopt;  // its words are those of the other version; SHA256SUMS holds them
   }
   if (what.format == Format::kJson) return first_json_difference(expected, found, tolerance);
-  if (what.format == Format::kCsv) return first_csv_difference(expected, found, tolerance);
+  if (is_table(what)) return first_csv_difference(expected, found, tolerance);
   return first_text_difference(expected, found, tolerance);
 }
 
@@ -138,7 +146,24 @@ bool was_written(const Export& what, const record::RunRecord& record, const List
   return usual && applies(what, record);
 }
 
-/// Compares each export that exists.
+bool is_correction(const std::string& file) {
+  return file.starts_with(std::string(kCorrectionsFolder) + "/");
+}
+
+/// The tables of corrections that stand there or that the list names.
+std::set<std::string> correction_tables(const fs::path& directory, const ListedFiles& listed) {
+  std::set<std::string> out;
+  for (const auto& [file, state] : listed.files) {
+    if (is_correction(file)) out.insert(file);
+  }
+  std::error_code ignored;  // no folder, no tables
+  for (const auto& entry : fs::directory_iterator(directory / kCorrectionsFolder, ignored)) {
+    out.insert(fmt::format("{}/{}", kCorrectionsFolder, entry.path().filename().string()));
+  }
+  return out;
+}
+
+/// Compares each export that exists, with the files that come with it.
 /// @return Their names.
 core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
@@ -152,21 +177,37 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   }
   std::string names;
   std::string absent;
-  for (const Export& e : exports()) {
-    if (!stands_there(directory / e.file)) {
-      if (!was_written(e, record, listed)) continue;
+  std::set<std::string> tables = correction_tables(directory, listed);
+  const auto is_there = [&](const Export& e) {
+    if (stands_there(directory / e.file)) return true;
+    if (was_written(e, record, listed))
       absent += (absent.empty() ? "; not there: " : ", ") + e.file;
-      continue;
+    return false;
+  };
+  for (const Export& e : exports()) {
+    // A table for a machine is checked also where the text that names it was taken away.
+    const bool has_tables = e.format == Format::kCorrections && !tables.empty();
+    if (!is_there(e) && !has_tables) continue;
+    const auto first = record::read_file(directory / e.file);
+    if (!first && !has_tables) return core::fail(first.error());
+    const Language language = first ? language_of(e, *first) : Language::kEnglish;
+    for (const auto& [file, made] : render_all(e, record, evaluation, language, *earlier)) {
+      tables.erase(file.file);
+      if (file.file == e.file ? !first : !is_there(file)) continue;
+      const auto bytes = record::read_file(directory / file.file);
+      if (!bytes) return core::fail(bytes.error());
+      names += (names.empty() ? "" : ", ") + file.file;
+      const auto state = listed.state_of(file.file);
+      const auto difference = compare_export(file, made, *bytes, exactness);
+      if (difference || state == State::kChanged) {
+        out.differences.push_back(difference_line(file, difference, state));
+      }
     }
-    const auto bytes = record::read_file(directory / e.file);
-    if (!bytes) return core::fail(bytes.error());
-    names += (names.empty() ? "" : ", ") + e.file;
-    const std::string made = render(e, record, evaluation, language_of(e, *bytes), *earlier);
-    const auto state = listed.state_of(e.file);
-    const auto difference = compare_export(e, made, *bytes, exactness);
-    if (difference || state == State::kChanged) {
-      out.differences.push_back(difference_line(e, difference, state));
-    }
+  }
+  for (const std::string& table : tables) {
+    if (!stands_there(directory / table)) continue;
+    out.differences.push_back(
+        fmt::format("{}: the journal gives no such correction", printable(table)));
   }
   return (names.empty() ? "none" : names) + absent;
 }
@@ -192,7 +233,8 @@ void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Ver
   }
   for (const auto& [file, state] : listed.files) {
     const auto all = exports();
-    if (std::any_of(all.begin(), all.end(), [&](const Export& e) { return e.file == file; })) {
+    if (is_correction(file) ||
+        std::any_of(all.begin(), all.end(), [&](const Export& e) { return e.file == file; })) {
       continue;
     }
     if (state == State::kAbsent) {
@@ -266,9 +308,10 @@ std::string series_in_words(const record::RunRecord& record) {
   return rows == 0 ? std::string() : fmt::format(", {} rows of series", rows);
 }
 
-std::vector<std::string> signed_files() {
+std::vector<std::string> signed_files(const fs::path& directory, const ListedFiles& listed) {
   std::vector<std::string> files = {record::kJournalName};
   for (const Export& e : exports()) files.push_back(e.file);
+  for (const std::string& table : correction_tables(directory, listed)) files.push_back(table);
   files.emplace_back(kEarlierName);
   return files;
 }
@@ -281,8 +324,8 @@ core::Result<std::string> about_signature(const fs::path& directory, const Verif
     const bool present = stands_there(directory / record::kSignatureName);
     return present ? "; signed, the signature was not checked (--key PUBLIC.pem checks it)" : "";
   }
-  if (auto checked = check_signature(directory, *options.public_key_pem, listed, signed_files(),
-                                     out.differences);
+  if (auto checked = check_signature(directory, *options.public_key_pem, listed,
+                                     signed_files(directory, listed), out.differences);
       !checked) {
     return core::fail(checked.error());
   }

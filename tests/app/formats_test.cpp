@@ -162,6 +162,30 @@ TEST_F(Formats, ThePlanMayAskForThem) {
               ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.dmo", "report.qif"));
 }
 
+TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
+  const auto run = folder_ / "pins";
+  ASSERT_EQ(rondure({"run", example("07_crank_pin.json"), "--out", run, "--archive", "none",
+                     "--format", "corrections", "--quiet"})
+                .status,
+            0);
+  EXPECT_THAT(names_in(run),
+              ::testing::ElementsAre("SHA256SUMS", "corrections", "corrections.txt", "journal.db"));
+  EXPECT_THAT(rondure({"verify", run}).out, HasSubstr("corrections/pin-x-of-c.csv"));
+  replace_in(run / "corrections/pin-x-of-c.csv", "\n37,", "\n37,1");
+  const Outcome changed = rondure({"verify", run});
+  EXPECT_EQ(changed.status, 1);
+  EXPECT_THAT(changed.out, HasSubstr("corrections/pin-x-of-c.csv: line "));
+  EXPECT_EQ(rondure({"report", run, "--format", "corrections"}).status, 0);
+  EXPECT_EQ(rondure({"verify", run}).status, 0);
+  // Only by name, and again where they are already.
+  ASSERT_EQ(rondure({"report", run}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(run / "corrections.txt"));
+  std::filesystem::remove_all(run / "corrections");
+  std::filesystem::remove(run / "corrections.txt");
+  ASSERT_EQ(rondure({"report", run}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(run / "corrections.txt"));
+}
+
 TEST_F(Formats, JunitIsRefusedWithWhatToUseAndLeftOutOfAPlanInAJournal) {
   const std::string instead = R"("junit" is no longer written; use "json")";
   const Outcome asked = rondure({"report", run_, "--format", "json,junit"});

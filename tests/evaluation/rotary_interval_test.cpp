@@ -1,8 +1,11 @@
 // Calibration of the fixture: uncertainty of the six errors, residual at combined poses, gates.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,6 +26,7 @@
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
+#include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
 #include "tests/fit/rotary_cases.h"
 
@@ -398,6 +402,91 @@ TEST(RotaryCalibration, At35DegreesConformsToNothingAndIsNotWritten) {
   EXPECT_FALSE(fixture::parse_calibration(file, "file"));
 }
 
+/// Rows of a table of an axis: angle, six errors, their u.
+std::vector<std::array<double, 13>> table_rows(const std::string& text, const std::string& axis) {
+  std::vector<std::array<double, 13>> out;
+  std::istringstream stream(text);
+  std::string line;
+  while (std::getline(stream, line)) {
+    if (!line.starts_with(axis + ",")) continue;
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line.substr(axis.size()));
+    out.emplace_back();
+    for (double& field : out.back()) EXPECT_TRUE(fields >> field) << line;
+  }
+  return out;
+}
+
+TEST(RotaryCorrection, HoldsTheTrueErrorsActualMinusNominal) {
+  Bench bench;
+  bench.setting_rad = 9.09e-6;
+  bench.reading_rad = 2.62e-6;
+  bench.declared.emplace();
+  bench.declared->reading_urad = record::DeclaredInfluence{2.62};
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto made = reports::write_corrections(run, *evaluation);
+  ASSERT_EQ(made.tables.size(), 2U) << made.summary;
+  const fixture::SimulatedFixture hidden(fixture_options());
+  for (const std::string axis : {"alpha", "beta"}) {
+    SCOPED_TRACE(axis);
+    const auto& table = made.tables[axis == "alpha" ? 0 : 1];
+    EXPECT_EQ(table.file, "corrections/fixture_F-01-" + axis + "-table.csv");
+    EXPECT_THAT(table.text, testing::StartsWith("# rondure correction axis-table\n"));
+    EXPECT_THAT(table.text, HasSubstr("# sign: actual minus nominal\n"));
+    EXPECT_THAT(table.text, HasSubstr("# temperature: 20.1 degC\n"));
+    EXPECT_THAT(table.text, HasSubstr("location: included"));
+    const auto rows = table_rows(table.text, axis);
+    ASSERT_GE(rows.size(), 9U);
+    double largest = 0.0;
+    double last_deg = -400.0;
+    for (const auto& row : rows) {
+      EXPECT_GT(row[0], last_deg);
+      last_deg = row[0];
+      const auto truth = hidden.true_errors(axis == "beta", row[0] * kDegree);
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto i = static_cast<Eigen::Index>(k % 3);
+        const double expected =
+            k < 3 ? truth.shift_mm(i) / kMicrometre : truth.tilt_rad(i) / kMicroradian;
+        largest = std::max(largest, std::abs(expected));
+        EXPECT_NEAR(row[1 + k], expected, 5.0 * row[7 + k] + 1e-9) << row[0] << " " << k;
+      }
+    }
+    EXPECT_GT(largest, 20.0);  // the sign would show
+  }
+}
+
+TEST(RotaryCorrection, WithoutASignificantGainIsNotWritten) {
+  Bench bench;
+  bench.declared.emplace();
+  bench.declared->reading_urad = record::DeclaredInfluence{2.62};
+  const record::RunRecord run = calibration_run(bench);
+  auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  RotaryResult facts = *result_of(evaluation->features.at(0));
+  // As if the nominal axes had been as good as the tables.
+  facts.calibration.verification.before_rms_mm = facts.calibration.verification.rms_mm;
+  AnalysisResult changed{std::move(facts)};
+  evaluation->features[0].analysis = std::make_shared<const AnalysisResult>(std::move(changed));
+  const auto made = reports::write_corrections(run, *evaluation);
+  EXPECT_TRUE(made.tables.empty());
+  EXPECT_THAT(made.summary, HasSubstr("none: the predicted gain is not significant"));
+}
+
+TEST(RotaryCorrection, OfAVoidCalibrationIsNotWritten) {
+  Bench bench;
+  bench.temperature_degC = 35.0;
+  bench.declared.emplace();
+  bench.declared->reading_urad = record::DeclaredInfluence{2.62};
+  const record::RunRecord run = calibration_run(bench);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const auto made = reports::write_corrections(run, *evaluation);
+  EXPECT_TRUE(made.tables.empty());
+  EXPECT_THAT(made.summary, HasSubstr("fixture F-01: none: temperature 35.00 degC is outside"));
+}
+
 TEST(RotaryCalibration, HandsItsExpansionOn) {
   Bench bench;
   bench.declared.emplace();
@@ -592,8 +681,8 @@ TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
   auto& asked = run.features[0].characteristics;
   asked.clear();
   for (const auto axis : {AxisIndication::Axis::kAlpha, AxisIndication::Axis::kBeta}) {
-    for (const auto error :
-         {AxisIndication::AxisError::kX, AxisIndication::AxisError::kY, AxisIndication::AxisError::kZ}) {
+    for (const auto error : {AxisIndication::AxisError::kX, AxisIndication::AxisError::kY,
+                             AxisIndication::AxisError::kZ}) {
       asked.push_back(axis_error_of(axis, error, -1.0, 1.0));
     }
   }
@@ -626,8 +715,8 @@ TEST(AxisError, TheSignOfTheErrorCounts) {
   record::RunRecord run = calibration_run(bench);
   run.header.decision_rule = "iso-14253-1";
   const auto judged = [&](double lower_mm, double upper_mm) {
-    run.features[0].characteristics = {
-        axis_error_of(AxisIndication::Axis::kAlpha, AxisIndication::AxisError::kY, lower_mm, upper_mm)};
+    run.features[0].characteristics = {axis_error_of(
+        AxisIndication::Axis::kAlpha, AxisIndication::AxisError::kY, lower_mm, upper_mm)};
     const auto evaluation = evaluate(run);
     EXPECT_TRUE(evaluation);
     return evaluation->features.at(0).characteristics.at(0);

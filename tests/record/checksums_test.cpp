@@ -49,13 +49,27 @@ TEST(Checksums, AreThoseOfSha256sum) {
   for (const Checksum& line : *list) EXPECT_EQ(line.sha256, sha256_hex("another"));
 }
 
+TEST(Checksums, NameFilesOfFoldersToo) {
+  const Scratch scratch;
+  fs::create_directory(scratch / "corrections");
+  ASSERT_TRUE(write_file(scratch / "corrections/a.csv", "content"));
+  ASSERT_TRUE(update_checksums(scratch.path(), {{"corrections/a.csv", sha256_hex("content")}}));
+  const auto list = read_checksums(scratch.path());
+  ASSERT_TRUE(list) << list.error().what;
+  EXPECT_EQ(list->front().file, "corrections/a.csv");
+  const std::string check =
+      "cd '" + scratch.path().string() + "' && sha256sum --strict --status -c SHA256SUMS";
+  EXPECT_EQ(std::system(check.c_str()), 0);
+}
+
 TEST(Checksums, LinesThatAreNoneAreNamed) {
   const Scratch scratch;
   const std::string good = kDigest + "  journal.db\n";
   for (const std::string& line :
        {std::string("x"), std::string(), kDigest, kDigest + "  ", kDigest + " file",
         std::string(64, 'G') + "  file", kDigest + "  ../file", kDigest + "  /etc/passwd",
-        kDigest + "  ..", kDigest + "  a" + std::string(1, '\0')}) {
+        kDigest + "  ..", kDigest + "  a/../../b", kDigest + "  a//b", kDigest + "  a/",
+        kDigest + "  a" + std::string(1, '\0')}) {
     SCOPED_TRACE(line);
     std::ofstream(scratch / "SHA256SUMS", std::ios::binary) << good << line << "\n" << good;
     for (const auto& problem : {read_checksums(scratch.path()).error(),

@@ -29,7 +29,7 @@ TEST(Exports, AnUnknownFormatIsRefusedWithThoseThatAreKnown) {
   const auto written = write_exports("/nowhere", {"docx"}, made.record, made.evaluation);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().what,
-            "format 'docx' is unknown; html, json, csv, qif, dmis and pdf can be written");
+            "format 'docx' is unknown; html, json, csv, qif, dmis, corrections and pdf can be written");
 }
 
 TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {

@@ -209,8 +209,53 @@ std::optional<CurveModel> ContourTrials::indirect_model(const Curves& indirect) 
   return out;
 }
 
+CurveModel ContourTrials::gain_model() const {
+  CurveModel out = gauge_model(total_, "total");
+  if (!said_.gauge_phase_deg) return out;
+  const DrawnInfluence zero{&said_.gauge_phase_deg, kDegree, "gauge.phase"};
+  out.effects.push_back({"gauge-phase", [zero, seed = options_.seed](int trial, Curves& curves) {
+                           turn(zero.draw(seed, 0, trial), curves);
+                         }});
+  return out;
+}
+
+std::vector<double> ContourTrials::mean_following_u() const {
+  const auto parts = static_cast<double>(following_.size());
+  double trace2 = 0.0;
+  for (std::size_t i = 0; i < following_.size(); ++i) {
+    for (const double left : basis_.transmission) {
+      trace2 += 0.5 * std::pow(left * trace_u(i) / parts, 2);
+    }
+  }
+  const fit::CrankGeometry& crank = facts_.options.geometry;
+  const double x = kMicrometre * record::u_of(said_.x_encoder_um);
+  const double c = kMicroradian * record::u_of(said_.c_encoder_urad);
+  std::vector<double> out = fit::contour_of(mean_of(skew_), facts_.options.samples);
+  std::vector<double> radius(out.size(), 0.0);
+  if (!radius_.empty()) radius = fit::contour_of(radius_in_rest(), facts_.options.samples);
+  for (std::size_t m = 0; m < out.size(); ++m) {
+    const double beta = core::kTwoPi * static_cast<double>(m) / static_cast<double>(out.size());
+    const auto [per_x, per_c] = fit::contour_sensitivity(crank, beta);
+    out[m] = std::sqrt(out[m] * out[m] + radius[m] * radius[m] + trace2 + std::pow(per_x * x, 2) +
+                       std::pow(per_c * c, 2));
+  }
+  return out;
+}
+
 std::string ContourTrials::id(std::string_view what) const {
   return fmt::format("{}.{}", facts_.feature_id, what);
+}
+
+void ContourTrials::turn(double angle, Curves& curves) {
+  for (auto& curve : curves) {
+    for (std::size_t j = 0; j + 1 < curve.size(); j += 2) {
+      const double by = Basis::order(j) * angle;
+      const double a = curve[j];
+      const double b = curve[j + 1];
+      curve[j] = a * std::cos(by) - b * std::sin(by);
+      curve[j + 1] = a * std::sin(by) + b * std::cos(by);
+    }
+  }
 }
 
 double ContourTrials::contrast(std::size_t row, std::size_t part, std::size_t parts) {

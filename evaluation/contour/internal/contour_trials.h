@@ -46,12 +46,21 @@ class ContourTrials {
   /// @param indirect  t minus the main journals.
   [[nodiscard]] std::optional<CurveModel> indirect_model(const Curves& indirect) const;
 
+  /// Of t for the gain of a correction: the zero of the gauge turns t against the axes.
+  [[nodiscard]] CurveModel gain_model() const;
+
+  /// Standard uncertainty of the mean f at the angles of the contours.
+  [[nodiscard]] std::vector<double> mean_following_u() const;
+
  private:
   static constexpr std::string_view kCEncoder = "control.c-encoder";
   static constexpr std::string_view kXEncoder = "control.x-encoder";
   static constexpr const char* kWheelRadius = "wheel-radius";
 
   [[nodiscard]] std::string id(std::string_view what) const;
+
+  /// Turns curves: out(beta) = curve(beta - angle).
+  static void turn(double angle, Curves& curves);
 
   /// The rows of an orthonormal set: the mean, then each part against those before it.
   static double contrast(std::size_t row, std::size_t part, std::size_t parts);

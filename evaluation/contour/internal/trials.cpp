@@ -134,4 +134,40 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
   return out;
 }
 
+UncertaintyStatus gain_interval(const ContourResult& facts,
+                                std::span<const std::vector<double>> change_mm,
+                                const UncertaintyOptions& options) {
+  using contour_trials::Curves;
+  if (!facts.influences) return UncertaintyStatus::none(contour_trials::nothing_declared());
+  if (facts.total_void) return UncertaintyStatus::none(*facts.total_void);
+  const contour_trials::ContourTrials trials(facts, options);
+  if (const auto missing = trials.no_gauge()) return UncertaintyStatus::none(*missing);
+  Curves change;
+  for (const auto& curve : change_mm) change.push_back(trials.basis().of(curve));
+  contour_trials::Asked gain;
+  gain.value = [&basis = trials.basis(), &change](const Curves& curves) {
+    Curves after = curves;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      for (std::size_t j = 0; j < after[i].size(); ++j) after[i][j] += change[i][j];
+    }
+    return contour_trials::greatest_range(basis, curves) -
+           contour_trials::greatest_range(basis, after);
+  };
+  gain.as_measured = gain.value(trials.total());
+  gain.convex = false;
+  gain.is_signed = true;
+  gain.has_budget = false;
+  return contour_trials::states(trials.gain_model(), {gain}, options).front();
+}
+
+core::Result<std::vector<double>> mean_following_u(const ContourResult& facts,
+                                                   const UncertaintyOptions& options) {
+  if (!facts.influences) {
+    return core::fail(core::Code::kMissingKey, contour_trials::nothing_declared());
+  }
+  const contour_trials::ContourTrials trials(facts, options);
+  if (const auto missing = trials.no_axes()) return core::fail(core::Code::kMissingKey, *missing);
+  return trials.mean_following_u();
+}
+
 }  // namespace rondure::evaluation

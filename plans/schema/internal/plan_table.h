@@ -500,7 +500,7 @@ void describe(Visitor& v, ReportsPlan& p) {
            .empty_allowed = false,
            .meaning =
                "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
-               "QIF 3.0 results, a DMIS output block."});
+               "QIF 3.0 results, a DMIS output block, corrections for machines."});
   v.text("paper", p.paper, {.meaning = "Paper that the PDF is printed on."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "

@@ -1,0 +1,155 @@
+#include "evaluation/contour/correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/numbers.h"
+#include "core/statistics.h"
+#include "core/units.h"
+#include "evaluation/analysis_result.h"
+#include "evaluation/contour/internal/trials.h"
+#include "evaluation/interval/internal/declared.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::Code;
+using core::kTwoPi;
+
+/// A closed curve of equal steps, linear between them.
+double closed_at(std::span<const double> curve, double angle_rad) {
+  const double turns = angle_rad / kTwoPi;
+  const double place = (turns - std::floor(turns)) * static_cast<double>(curve.size());
+  const double below = std::floor(place);
+  const auto i = static_cast<std::size_t>(below) % curve.size();
+  const double share = place - below;
+  return (1.0 - share) * curve[i] + share * curve[(i + 1) % curve.size()];
+}
+
+/// Why nothing of the feature may reach a machine.
+std::optional<core::Phrase> barred(const FeatureResult& result) {
+  if (result.failure) return result.failure->said();
+  const auto voids = std::ranges::find_if(
+      result.gates, [](const Gate& gate) { return gate.outcome == Gate::Outcome::kVoids; });
+  if (voids != result.gates.end()) return voids->reason;
+  if (!result.analysis) return core::phrase("the feature has no result");
+  return std::nullopt;
+}
+
+std::optional<core::Phrase> barred(const ContourResult& facts) {
+  for (const auto& curve : {facts.total_void, facts.following_void, facts.rest_void}) {
+    if (curve) return curve;
+  }
+  if (facts.options.method == fit::ContourMethod::kAsPublished) {
+    return core::phrase(
+        "method as-published turns f onto the contour, which is for comparison only");
+  }
+  return std::nullopt;
+}
+
+/// Mean and standard deviation of f over the parts, at the angles of the contours.
+struct Mean {
+  std::vector<double> mean_mm;
+  std::vector<double> deviation_mm;  ///< 0 of one part.
+};
+
+Mean mean_following(const fit::ContourStudy& study) {
+  const std::size_t points = study.parts.front().following.error_mm.size();
+  Mean out{std::vector<double>(points, 0.0), std::vector<double>(points, 0.0)};
+  std::vector<double> values(study.parts.size());
+  for (std::size_t m = 0; m < points; ++m) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = study.parts[i].following.error_mm[m];
+    }
+    out.mean_mm[m] = core::mean(values);
+    if (values.size() > 1) {
+      out.deviation_mm[m] = core::standard_deviation(values, out.mean_mm[m]);
+    }
+  }
+  return out;
+}
+
+/// C position of the method at a C position of the control, and the other way round.
+double sensed(const ContourResult& facts, double c_rad) {
+  return facts.options.axes.c_direction * c_rad;
+}
+
+void fill_rows(const ContourResult& facts, std::span<const double> following_u_mm,
+               XCorrection& out) {
+  const fit::CrankGeometry& crank = facts.options.geometry;
+  const Mean mean = mean_following(facts.study);
+  const auto over_alpha = fit::x_compensation_mm(crank, mean.mean_mm, XCorrection::kRows);
+  out.parts = facts.study.parts.size();
+  const double constant = core::mean(over_alpha);
+  for (std::size_t i = 0; i < XCorrection::kRows; ++i) {
+    const bool against = facts.options.axes.c_direction < 0;
+    const std::size_t row = against ? (XCorrection::kRows - i) % XCorrection::kRows : i;
+    const double alpha =
+        kTwoPi * static_cast<double>(row) / static_cast<double>(XCorrection::kRows);
+    const double beta = fit::contact_angle_rad(crank, alpha);
+    const double of_mean = closed_at(mean.deviation_mm, beta);
+    const double u2 = std::pow(closed_at(following_u_mm, beta), 2) +
+                      of_mean * of_mean / static_cast<double>(out.parts);
+    out.x_mm.push_back(over_alpha[row] - constant);
+    out.u_mm.push_back(std::sqrt(u2) / std::cos(beta - alpha));
+  }
+}
+
+/// What the correction adds to the contour of each part.
+core::Result<std::vector<std::vector<double>>> changes(const ContourResult& facts,
+                                                       const XCorrection& correction) {
+  std::vector<std::vector<double>> out;
+  for (const fit::ContourPartResult& part : facts.study.parts) {
+    fit::AxisErrors errors = part.axes.errors;
+    for (std::size_t n = 0; n < errors.x_mm.size(); ++n) {
+      const double alpha =
+          kTwoPi * static_cast<double>(n) / static_cast<double>(errors.x_mm.size());
+      errors.x_mm[n] += closed_at(correction.x_mm, sensed(facts, alpha));
+    }
+    auto again = fit::following_contour(errors, facts.options);
+    if (!again) return core::fail(again.error());
+    std::vector<double> change = std::move(again->error.error_mm);
+    for (std::size_t m = 0; m < change.size(); ++m) change[m] -= part.following.error_mm[m];
+    out.push_back(std::move(change));
+  }
+  return out;
+}
+
+}  // namespace
+
+core::Result<XCorrection> x_correction(const record::RunRecord& record,
+                                       const FeatureResult& result) {
+  if (const auto why = barred(result)) return core::fail(Code::kMeaning, *why);
+  const auto& facts = std::get<ContourResult>(result.analysis->found);
+  if (const auto why = barred(facts)) return core::fail(Code::kMeaning, *why);
+  const UncertaintyOptions options = uncertainty_options(record);
+  const auto following_u_mm = mean_following_u(facts, options);
+  if (!following_u_mm) return core::fail(following_u_mm.error());
+  XCorrection out;
+  fill_rows(facts, *following_u_mm, out);
+  const auto change_mm = changes(facts, out);
+  if (!change_mm) return core::fail(change_mm.error());
+  for (std::size_t i = 0; i < change_mm->size(); ++i) {
+    const fit::ContourError& total = facts.study.parts[i].pin.contour;
+    std::vector<double> after = total.error_mm;
+    for (std::size_t m = 0; m < after.size(); ++m) after[m] += (*change_mm)[i][m];
+    out.before_mm = std::max(out.before_mm, total.peak_to_valley_mm);
+    out.after_mm = std::max(out.after_mm, fit::peak_to_valley(after));
+  }
+  const UncertaintyStatus gain = gain_interval(facts, *change_mm, options);
+  if (!gain.result()) return core::fail(Code::kMeaning, gain.why());
+  out.gain = gain.result()->sampled;
+  if (out.gain.low_mm <= 0.0) {
+    return core::fail(
+        Code::kMeaning,
+        core::phrase("the predicted gain is not significant: {} um, interval {} to {} um",
+                     core::um(out.gain.estimate_mm), core::um(out.gain.low_mm),
+                     core::um(out.gain.high_mm)));
+  }
+  return out;
+}
+
+}  // namespace rondure::evaluation

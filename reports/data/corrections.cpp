@@ -1,0 +1,214 @@
+#include "reports/data/corrections.h"
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "core/utf8.h"
+#include "evaluation/analysis_result.h"
+#include "evaluation/contour/correction.h"
+#include "evaluation/rotary/correction.h"
+#include "record/sha256.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::kMicrometre;
+using core::kMicroradian;
+using core::printable;
+using core::shortest;
+using core::um;
+using evaluation::FeatureResult;
+using record::Shape;
+
+bool gives_correction(const record::Feature& feature) {
+  return feature.shape == Shape::kContour || feature.shape == Shape::kRotaryAxes;
+}
+
+/// The id of a feature as part of a file's name: letters, digits, dot, dash and underscore, the
+/// others as underscores. A name that is taken gets the number of the feature.
+std::vector<std::string> file_names(const record::RunRecord& record) {
+  constexpr std::size_t kLongest = 100;
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789.-_";
+  std::vector<std::string> out;
+  for (const record::Feature& feature : record.features) {
+    std::string name = feature.id.substr(0, kLongest);
+    for (char& c : name) {
+      if (kPlain.find(c) == std::string_view::npos) c = '_';
+    }
+    if (std::find(out.begin(), out.end(), name) != out.end()) {
+      name += fmt::format("-{}", out.size() + 1);
+    }
+    out.push_back(std::move(name));
+  }
+  return out;
+}
+
+/// SHA-256 of all that was recorded for a feature: rows of its series, places of its touches.
+std::string data_hash(const record::RunRecord& record, int feature) {
+  std::string text;
+  for (const record::Series& series : record.series) {
+    if (series.feature != feature || series.role != record::Series::Role::kData) continue;
+    text += series.name + "\n";
+    for (const double value : series.values) text += shortest(value) + "\n";
+  }
+  for (const record::PoseVisit& pose : record.poses) {
+    if (pose.feature != feature) continue;
+    for (const record::Touch& touch : record.touches) {
+      if (touch.pose != pose.id) continue;
+      text += fmt::format("{} {} {}\n", shortest(touch.tip_mm.x()), shortest(touch.tip_mm.y()),
+                          shortest(touch.tip_mm.z()));
+    }
+  }
+  return record::sha256_hex(text);
+}
+
+std::string temperature_of(const FeatureResult& result) {
+  if (!result.temperatures) return "not recorded";
+  return fmt::format("{} degC{}", shortest(result.temperatures->mean_degC),
+                     result.temperatures->declared ? ", declared" : "");
+}
+
+/// One correction: what it is, in the words of its head.
+struct Head {
+  std::string_view kind;
+  std::string sense;
+  std::string_view sign;
+  std::string validity;
+  std::string_view units;
+  std::string gain;
+};
+
+std::string head_of(const record::RunRecord& record, int index, const FeatureResult& result,
+                    const Head& head) {
+  return fmt::format(
+      "# rondure correction {}\n# run: {}\n# feature: {}\n# data: sha256 {}\n"
+      "# temperature: {}\n# sense: {}\n# sign: {}\n# validity: {}\n# date: {}\n# units: {}\n"
+      "# predicted gain: {}\n",
+      head.kind, printable(record.header.run_id), printable(result.feature.id),
+      data_hash(record, index), temperature_of(result), head.sense, head.sign, head.validity,
+      printable(record.header.started_utc), head.units, head.gain);
+}
+
+std::string interval_of(const evaluation::UncertaintyStatement& gain) {
+  return fmt::format("{} um, interval {} to {} um", um(gain.estimate_mm), um(gain.low_mm),
+                     um(gain.high_mm));
+}
+
+/// The tables of one feature, and its line of the summary.
+struct Handed {
+  std::vector<CorrectionTable> tables;
+  std::string line;
+};
+
+Handed none_because(const core::Error& why) {
+  return {{}, fmt::format("none: {}", printable(why.said().english()))};
+}
+
+Handed contour_tables(const record::RunRecord& record, int index, const FeatureResult& result,
+                      const std::string& name) {
+  const auto found = evaluation::x_correction(record, result);
+  if (!found) return none_because(found.error());
+  const auto& facts = std::get<evaluation::ContourResult>(result.analysis->found);
+  const bool against = facts.options.axes.c_direction < 0;
+  Head head;
+  head.kind = "x-of-c";
+  head.sense = fmt::format("C as the control counts it, c_axis {}",
+                           against ? "against-wheel" : "with-wheel");
+  head.sign = "add to command";
+  head.validity = fmt::format(
+      "crank radius {} mm, wheel radius {} mm, pin radius {} mm; mean of {} part{}; the speed, "
+      "gains and temperature of these parts",
+      shortest(facts.options.geometry.crank_radius_mm),
+      shortest(facts.options.geometry.wheel_radius_mm),
+      shortest(facts.options.geometry.pin_radius_mm), found->parts,
+      found->parts == 1 ? ", u without the spread between parts" : "s");
+  head.units = "c_deg deg, x_um um, u_um um; u is a standard uncertainty; linear between the rows";
+  head.gain = fmt::format("{}; greatest peak to valley {} um as measured, {} um predicted with it",
+                          interval_of(found->gain), um(found->before_mm), um(found->after_mm));
+  std::string text = head_of(record, index, result, head) + "c_deg,x_um,u_um\n";
+  for (std::size_t i = 0; i < found->x_mm.size(); ++i) {
+    text += fmt::format("{},{},{}\n", i, shortest(found->x_mm[i] / kMicrometre),
+                        shortest(found->u_mm[i] / kMicrometre));
+  }
+  const std::string file = fmt::format("{}/{}-x-of-c.csv", kCorrectionsFolder, name);
+  return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
+}
+
+std::string axis_rows(const evaluation::AxisFacts& axis) {
+  std::string text =
+      "axis,angle_deg,EX_um,EY_um,EZ_um,EA_urad,EB_urad,EC_urad,u_EX_um,u_EY_um,u_EZ_um,"
+      "u_EA_urad,u_EB_urad,u_EC_urad\n";
+  for (const fixture::AxisStation& station : axis.motion->stations()) {
+    text += fmt::format("{},{}", axis.key, shortest(station.angle_rad / core::kDegree));
+    const Eigen::Matrix<double, 6, 1> u = station.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    for (const double v : station.errors.shift_mm) text += "," + shortest(v / kMicrometre);
+    for (const double v : station.errors.tilt_rad) text += "," + shortest(v / kMicroradian);
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      text += "," + shortest(u(k) / (k < 3 ? kMicrometre : kMicroradian));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+Handed axis_tables(const record::RunRecord& record, int index, const FeatureResult& result,
+                   const std::string& name) {
+  const auto gain = evaluation::axis_table_gain(record, result);
+  if (!gain) return none_because(gain.error());
+  const auto& facts = std::get<evaluation::RotaryResult>(result.analysis->found);
+  Handed out;
+  const std::string said =
+      fmt::format("{}; rms at combined poses {} um without it, {} um with it",
+                  interval_of(gain->gain), um(gain->before_mm), um(gain->after_mm));
+  for (const evaluation::AxisFacts& axis : evaluation::axes_of(facts)) {
+    Head head;
+    head.kind = "axis-table";
+    head.sense = fmt::format("{} as the fixture reads it, right-handed about its axis", axis.key);
+    head.sign = "actual minus nominal";
+    head.validity =
+        fmt::format("until {}, within the stations", printable(facts.calibration.expires_utc));
+    head.units =
+        "angle_deg deg, E*_um um, E*_urad urad; u_ is a standard uncertainty; at the origin of the "
+        "axis, in the frame that carries it, from the zero pose; location: included";
+    head.gain = said;
+    const std::string file = fmt::format("{}/{}-{}-table.csv", kCorrectionsFolder, name, axis.key);
+    out.tables.push_back({file, head_of(record, index, result, head) + axis_rows(axis)});
+    out.line += (out.line.empty() ? "" : ", ") + file;
+  }
+  out.line += ": " + said;
+  return out;
+}
+
+}  // namespace
+
+bool can_correct(const record::RunRecord& record) {
+  return record.ending == "finished" &&
+         std::any_of(record.features.begin(), record.features.end(), gives_correction);
+}
+
+Corrections write_corrections(const record::RunRecord& record,
+                              const evaluation::Evaluation& evaluation) {
+  Corrections out;
+  out.summary = fmt::format("# rondure corrections, run {}\n", printable(record.header.run_id));
+  const auto names = file_names(record);
+  for (std::size_t i = 0; i < evaluation.features.size() && i < names.size(); ++i) {
+    const FeatureResult& result = evaluation.features[i];
+    if (!gives_correction(result.feature)) continue;
+    const auto index = static_cast<int>(i);
+    Handed handed = result.feature.shape == Shape::kContour
+                        ? contour_tables(record, index, result, names[i])
+                        : axis_tables(record, index, result, names[i]);
+    out.summary += fmt::format("{}: {}\n", printable(result.feature.id), handed.line);
+    for (CorrectionTable& table : handed.tables) out.tables.push_back(std::move(table));
+  }
+  return out;
+}
+
+}  // namespace rondure::reports
