@@ -34,8 +34,8 @@ inline constexpr double kGreatestNumber = 1e9;
 /// um() with its sign, including "+".
 [[nodiscard]] std::string signed_um(double length_mm);
 /// A length without its unit, to `decimals` of a micrometre: "8.312" in um, "29.998312" in mm.
-[[nodiscard]] std::string length_in(LengthUnit unit, double length_mm, int decimals);
-[[nodiscard]] std::string_view name_of(LengthUnit unit);
+[[nodiscard]] std::string length_in(ValueUnit unit, double length_mm, int decimals);
+[[nodiscard]] std::string_view name_of(ValueUnit unit);
 /// f of a pose in um: three decimals, two above 100 um.
 [[nodiscard]] std::string f_um(double f_mm);
 /// A very small length in um, two digits: "1.2e-09".

@@ -12,8 +12,8 @@ inline constexpr double kMicroradian = 1e-6;  ///< in rad
 inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
 inline constexpr double kSameAngle = 1e-9;  ///< Angles this close or closer count as equal [rad].
 
-/// Unit in which a length is written: deviations in um, sizes in mm.
-enum class LengthUnit { kUm, kMm };
+/// Unit in which a value is written: deviations in um, sizes in mm.
+enum class ValueUnit { kUm, kMm };
 
 /// A length in um and an angle in degrees, for a key, a column or a message.
 [[nodiscard]] constexpr double micrometres(double length_mm) { return length_mm / kMicrometre; }

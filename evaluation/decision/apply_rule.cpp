@@ -139,7 +139,7 @@ NearestLimit nearest_limit(const Limits& limits, const Zones& zones) {
 
 /// The same with its unit, which is mm for a size.
 std::string with_unit(const KnownValue& value, double length_mm) {
-  if (value.unit == core::LengthUnit::kUm) return in_digits(value, length_mm) + " um";
+  if (value.unit == core::ValueUnit::kUm) return in_digits(value, length_mm) + " um";
   const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
   return core::length_in(value.unit, length_mm, decimals) + " mm";
 }
@@ -147,14 +147,14 @@ std::string with_unit(const KnownValue& value, double length_mm) {
 /// A limit with its unit, as a drawing states it: to the nanometre at most.
 std::string limit_text(const KnownValue& value, double limit_mm) {
   constexpr double kSteps = 1e6;
-  return value.unit == core::LengthUnit::kUm
+  return value.unit == core::ValueUnit::kUm
              ? fixed(micrometres(limit_mm), 3) + " um"
              : core::shortest(core::on_grid(limit_mm, kSteps)) + " mm";
 }
 
 /// Whether sentences speak of "the tolerance": a form deviation with its one limit.
 bool has_tolerance(const KnownValue& value, const Limits& limits) {
-  return !limits.lower_mm && value.unit == core::LengthUnit::kUm;
+  return !limits.lower_mm && value.unit == core::ValueUnit::kUm;
 }
 
 core::Phrase side_of(const NearestLimit& limit) {
@@ -255,7 +255,7 @@ std::optional<double> tolerance_of(const KnownValue& value, const Limits& limits
   if (value.tolerance_mm) return value.tolerance_mm;
   if (!limits.upper_mm) return std::nullopt;
   if (limits.lower_mm) return *limits.upper_mm - *limits.lower_mm;
-  return value.unit == core::LengthUnit::kUm ? limits.upper_mm : std::nullopt;
+  return value.unit == core::ValueUnit::kUm ? limits.upper_mm : std::nullopt;
 }
 
 /// Why a value and its limits have no ratio N:1, or nothing.

@@ -67,7 +67,7 @@ struct OneSided {
 [[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
 [[nodiscard]] std::string reference_of(record::Reference reference, record::Shape shape);
 /// Unit in which value and limits of a characteristic are written: mm of a size, um of all else.
-[[nodiscard]] core::LengthUnit unit_of(const record::Characteristic& characteristic);
+[[nodiscard]] core::ValueUnit unit_of(const record::Characteristic& characteristic);
 
 /// The feature without the points in its windows, as a report draws it; nothing where all points
 /// take part. Its fits are the same: they never saw those points.

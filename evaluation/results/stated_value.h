@@ -67,7 +67,7 @@ class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints,
-              core::LengthUnit unit = core::LengthUnit::kUm);
+              core::ValueUnit unit = core::ValueUnit::kUm);
 
   /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
@@ -79,7 +79,7 @@ class StatedValue {
     return known->at_most ? known->high_mm : known->estimate_mm;
   }
   /// Unit of the texts: mm for a size, um for all else.
-  [[nodiscard]] core::LengthUnit unit() const { return unit_; }
+  [[nodiscard]] core::ValueUnit unit() const { return unit_; }
   /// A length in that unit, with as many decimals of a micrometre as the interval warrants; three
   /// without one.
   [[nodiscard]] std::string in_digits(double length_mm) const;
@@ -109,7 +109,7 @@ class StatedValue {
   ValueOperator operator_;
   UncertaintyStatus uncertainty_;
   Measurand measurand_;
-  core::LengthUnit unit_;
+  core::ValueUnit unit_;
 };
 
 }  // namespace rondure::evaluation

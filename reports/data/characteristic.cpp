@@ -73,7 +73,7 @@ Json uncertainty_json(bool of_cloud, const evaluation::CharacteristicResult& res
 /// which journals hold.
 /// @param found  Whether evaluation::find() computes the value.
 Json limit_um(bool found, const std::optional<double>& limit_mm) {
-  return found ? optional_json(limit_in(core::LengthUnit::kUm, limit_mm)) : optional_um(limit_mm);
+  return found ? optional_json(limit_in(core::ValueUnit::kUm, limit_mm)) : optional_um(limit_mm);
 }
 
 /// The compared value, the limits of the rule and the risks; null where the rule decided nothing.
@@ -109,7 +109,7 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
   using Filter = record::Indication::Filter;
   const record::Characteristic& asked = result.characteristic;
   const record::Indication& indication = asked.indication;
-  if (const auto unit = evaluation::unit_of(asked); unit == core::LengthUnit::kMm) {
+  if (const auto unit = evaluation::unit_of(asked); unit == core::ValueUnit::kMm) {
     json["unit"] = name_of(unit);
     json["tolerance_um"] = nullptr;
     json["lower_limit_mm"] = optional_json(limit_in(unit, asked.lower_mm));

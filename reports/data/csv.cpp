@@ -36,7 +36,7 @@ std::string number(double value) { return std::isfinite(value) ? core::shortest(
 /// Whether a characteristic has two limits, in columns of their own: a size, or a value with a
 /// sign.
 bool has_two_limits(const record::Characteristic& asked) {
-  return evaluation::unit_of(asked) == core::LengthUnit::kMm || asked.lower_mm;
+  return evaluation::unit_of(asked) == core::ValueUnit::kMm || asked.lower_mm;
 }
 
 bool any_has_two_limits(const evaluation::Evaluation& evaluation) {
@@ -47,7 +47,7 @@ bool any_has_two_limits(const evaluation::Evaluation& evaluation) {
   });
 }
 
-std::string limit_field(core::LengthUnit unit, const std::optional<double>& limit_mm) {
+std::string limit_field(core::ValueUnit unit, const std::optional<double>& limit_mm) {
   const auto limit = limit_in(unit, limit_mm);
   return limit ? number(*limit) : "";
 }
@@ -57,15 +57,15 @@ std::string tolerance_field(const record::Feature& feature, const record::Charac
   if (has_two_limits(asked)) return {};
   // that of a form without filter and window keeps the digits of earlier versions
   return evaluation::is_found(feature, asked)
-             ? limit_field(core::LengthUnit::kUm, asked.tolerance_mm)
+             ? limit_field(core::ValueUnit::kUm, asked.tolerance_mm)
              : um_field(asked.tolerance_mm);
 }
 
 /// ",lower_limit_mm,upper_limit_mm" of a run with sizes.
 std::string size_fields(const record::Characteristic& asked) {
   if (!has_two_limits(asked)) return ",,";
-  return "," + limit_field(core::LengthUnit::kMm, asked.lower_mm) + "," +
-         limit_field(core::LengthUnit::kMm, asked.tolerance_mm);
+  return "," + limit_field(core::ValueUnit::kMm, asked.lower_mm) + "," +
+         limit_field(core::ValueUnit::kMm, asked.tolerance_mm);
 }
 
 /// "layer,height_mm,angle_deg,radius_mm" of a local value; the three that it has not are empty.

@@ -21,7 +21,7 @@ using core::um;
 using evaluation::Finding;
 using evaluation::LocalValue;
 
-std::string sign_of(core::LengthUnit unit) { return unit == core::LengthUnit::kUm ? "µm" : "mm"; }
+std::string sign_of(core::ValueUnit unit) { return unit == core::ValueUnit::kUm ? "µm" : "mm"; }
 
 /// Words for a number of a finding, with the unit of one that is no length of the value.
 struct NumberWords {
@@ -47,7 +47,7 @@ std::string number_entry(const evaluation::NamedNumber& number,
   const std::string name = known != kWords.end() ? tr(known->words) : escaped(number.name);
   if (number.length) {
     // A deviation is in um also where the value is a size.
-    const bool size = value.unit() == core::LengthUnit::kMm && number.name != "SR" &&
+    const bool size = value.unit() == core::ValueUnit::kMm && number.name != "SR" &&
                       number.name != "SQ" && known == kWords.end();
     return entry(name, size ? value.in_digits(number.value) + " mm" : um(number.value) + " µm");
   }
@@ -190,7 +190,7 @@ std::string judged_entries(const evaluation::CharacteristicResult& result) {
   std::string html;
   for (const evaluation::JudgedValue& value : result.finding->judged) {
     const auto limit = [&](const std::optional<double>& limit_mm) {
-      return result.value->unit() == core::LengthUnit::kUm
+      return result.value->unit() == core::ValueUnit::kUm
                  ? um(*limit_mm)
                  : core::decimal(core::on_grid(*limit_mm, 1e6));
     };

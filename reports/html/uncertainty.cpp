@@ -41,13 +41,13 @@ std::string statements(const evaluation::DecisionRule& rule) {
 
 /// @param unit  Of the value; its uncertainty is always in µm.
 std::string statement_entry(const std::string& name, const evaluation::UncertaintyStatement& s,
-                            core::LengthUnit unit, double coverage_1) {
+                            core::ValueUnit unit, double coverage_1) {
   const int decimals = evaluation::decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
   const auto value = [&](double mm) {
-    return unit == core::LengthUnit::kUm ? number(mm) : core::length_in(unit, mm, decimals);
+    return unit == core::ValueUnit::kUm ? number(mm) : core::length_in(unit, mm, decimals);
   };
-  const std::string sign = unit == core::LengthUnit::kUm ? "µm" : "mm";
+  const std::string sign = unit == core::ValueUnit::kUm ? "µm" : "mm";
   if (s.at_most) {
     return entry(name,
                  with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
@@ -134,9 +134,9 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
                                  trf("{}. Monte Carlo of {} trials (JCGM 101).",
                                      in_sentence(result.value->sentence()), u.trials));
   html += R"(<dl class="keys">)";
-  const core::LengthUnit unit = result.value->unit();
+  const core::ValueUnit unit = result.value->unit();
   html += entry(tr("As read, not corrected"),
-                unit == core::LengthUnit::kUm ? um(u.uncorrected_mm) + " µm"
+                unit == core::ValueUnit::kUm ? um(u.uncorrected_mm) + " µm"
                                               : result.value->in_digits(u.uncorrected_mm) + " mm");
   html += statement_entry(
       of_cloud ? tr("At the sampled points, free of noise") : tr("Free of noise and influences"),

@@ -27,19 +27,19 @@ std::string css_name(evaluation::Verdict verdict) {
 
 /// Whether the limits are not the one upper limit of a deviation.
 bool has_sides(const record::Characteristic& asked) {
-  return asked.lower_mm || evaluation::unit_of(asked) == core::LengthUnit::kMm;
+  return asked.lower_mm || evaluation::unit_of(asked) == core::ValueUnit::kMm;
 }
 
 /// A limit, which is the sum of a nominal size and a deviation.
-std::string limit_text(core::LengthUnit unit, double limit_mm) {
+std::string limit_text(core::ValueUnit unit, double limit_mm) {
   constexpr double kSteps = 1e6;  // of a nanometre
-  return unit == core::LengthUnit::kUm ? um(limit_mm) + " µm"
+  return unit == core::ValueUnit::kUm ? um(limit_mm) + " µm"
                                        : core::decimal(core::on_grid(limit_mm, kSteps)) + " mm";
 }
 
 /// "&le; 30 mm, &ge; 29.987 mm".
 std::string limits_of(const record::Characteristic& asked, std::string_view between) {
-  const core::LengthUnit unit = evaluation::unit_of(asked);
+  const core::ValueUnit unit = evaluation::unit_of(asked);
   std::string html;
   if (asked.tolerance_mm) html += "≤ " + limit_text(unit, *asked.tolerance_mm);
   if (asked.tolerance_mm && asked.lower_mm) html += between;
@@ -103,7 +103,7 @@ std::string unfinished_banner(const record::RunRecord& record,
 std::string size_frame(const record::Feature& feature, const record::Characteristic& asked) {
   using Indication = record::Indication;
   std::string size;
-  if (feature.nominal_diameter_mm > 0.0 && evaluation::unit_of(asked) == core::LengthUnit::kMm) {
+  if (feature.nominal_diameter_mm > 0.0 && evaluation::unit_of(asked) == core::ValueUnit::kMm) {
     size = fmt::format("Ø{:.10g}", feature.nominal_diameter_mm);
     const auto deviation = [&](const std::optional<double>& limit_mm) {
       if (!limit_mm) return std::string("–");
@@ -183,8 +183,8 @@ std::string bar_cell(const evaluation::CharacteristicResult& result) {
                      trf("{} % of the limit", fixed(100.0 * shown_mm(*result.value) / *limit, 0)));
 }
 
-std::string_view unit_sign(core::LengthUnit unit) {
-  return unit == core::LengthUnit::kUm ? "µm" : "mm";
+std::string_view unit_sign(core::ValueUnit unit) {
+  return unit == core::ValueUnit::kUm ? "µm" : "mm";
 }
 
 /// The deciding value; with an interval, the estimate, that interval and the value as read.

@@ -211,7 +211,7 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
 /// um".
 std::string limits_text(const record::Characteristic& asked) {
   if (!asked.toleranced()) return tr("no limit");
-  if (evaluation::unit_of(asked) == core::LengthUnit::kUm) {
+  if (evaluation::unit_of(asked) == core::ValueUnit::kUm) {
     if (!asked.lower_mm) return trf("limit {} um", um(*asked.tolerance_mm));
     if (asked.tolerance_mm) return trf("{} to {} um", um(*asked.lower_mm), um(*asked.tolerance_mm));
   }

@@ -348,7 +348,7 @@ TEST(DecisionRule, NToOneComparesWithBothLimitsOfASizeOrNotAtAll) {
   evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
   rule.ratio = 4.0;
   evaluation::KnownValue size = known(29.999, error_sample());  // the interval is 1.95 um wide
-  size.unit = core::LengthUnit::kMm;
+  size.unit = core::ValueUnit::kMm;
   const Limits upper{.lower_mm = {}, .upper_mm = 30.0};
   const Limits lower{.lower_mm = 29.98, .upper_mm = {}};
   for (const Limits& one : {upper, lower}) {

@@ -41,7 +41,7 @@ enum class Family {
 
 Family family_of(const record::Characteristic& asked) {
   using Indication = record::Indication;
-  if (evaluation::unit_of(asked) == core::LengthUnit::kMm) return Family::kDiameter;
+  if (evaluation::unit_of(asked) == core::ValueUnit::kMm) return Family::kDiameter;
   if (!asked.tolerance_mm || asked.lower_mm) return Family::kUserDefined;
   if (asked.indication.parameter != Indication::Parameter::kTotal) return Family::kUserDefined;
   switch (asked.form) {
