@@ -43,11 +43,33 @@ std::string signed_um(double length_mm) {
 
 std::string length_in(ValueUnit unit, double length_mm, int decimals) {
   constexpr int kMoreOfMillimetre = 3;
-  return unit == ValueUnit::kUm ? fixed(micrometres(length_mm), decimals)
-                                         : fixed(length_mm, decimals + kMoreOfMillimetre);
+  return unit == ValueUnit::kMm ? fixed(length_mm, decimals + kMoreOfMillimetre)
+                                : fixed(micrometres(length_mm), decimals);
 }
 
-std::string_view name_of(ValueUnit unit) { return unit == ValueUnit::kUm ? "um" : "mm"; }
+std::string_view name_of(ValueUnit unit) {
+  switch (unit) {
+    case ValueUnit::kUm:
+      return "um";
+    case ValueUnit::kMm:
+      return "mm";
+    case ValueUnit::kUrad:
+      return "urad";
+  }
+  return "";
+}
+
+std::string_view sign_of(ValueUnit unit) {
+  switch (unit) {
+    case ValueUnit::kUm:
+      return "\u00b5m";
+    case ValueUnit::kMm:
+      return "mm";
+    case ValueUnit::kUrad:
+      return "\u00b5rad";
+  }
+  return "";
+}
 
 std::string f_um(double f_mm) { return fixed(f_mm / kMicrometre, std::abs(f_mm) > 0.1 ? 2 : 3); }
 

@@ -167,6 +167,9 @@ std::string reference_of(record::Reference reference, record::Shape shape) {
 }
 
 core::ValueUnit unit_of(const record::Characteristic& characteristic) {
+  if (record::is_angle(characteristic.form, characteristic.indication)) {
+    return core::ValueUnit::kUrad;
+  }
   const bool size = record::limits_of(characteristic.form, characteristic.indication.rank) ==
                     record::LimitKind::kSize;
   return size ? core::ValueUnit::kMm : core::ValueUnit::kUm;

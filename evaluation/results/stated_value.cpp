@@ -84,8 +84,8 @@ std::string StatedValue::in_digits(double length_mm) const {
   constexpr int kWithoutInterval = 3;
   if (known != nullptr)
     return core::length_in(unit_, length_mm, decimals_for(known->expanded_mm()));
-  return unit_ == core::ValueUnit::kUm ? um(length_mm)
-                                        : core::length_in(unit_, length_mm, kWithoutInterval);
+  return unit_ == core::ValueUnit::kMm ? core::length_in(unit_, length_mm, kWithoutInterval)
+                                       : um(length_mm);
 }
 
 core::Phrase StatedValue::value_text() const {
