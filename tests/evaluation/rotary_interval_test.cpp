@@ -588,7 +588,7 @@ TEST(AxisError, TheStationFarthestFromTheMiddleDecides) {
 TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
   using AxisIndication = record::Indication;
   Bench bench;
-  bench.declared.emplace();
+  bench.declared.emplace().ball_um = record::DeclaredInfluence{0.1};
   record::RunRecord run = calibration_run(bench);
   auto& asked = run.features[0].characteristics;
   asked.clear();
@@ -628,7 +628,7 @@ TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
 TEST(AxisError, TheSignOfTheErrorCounts) {
   using AxisIndication = record::Indication;
   Bench bench;
-  bench.declared.emplace();
+  bench.declared.emplace().ball_um = record::DeclaredInfluence{0.1};
   record::RunRecord run = calibration_run(bench);
   run.header.decision_rule = "iso-14253-1";
   for (const auto error : {AxisIndication::AxisError::kY, AxisIndication::AxisError::kB}) {

@@ -229,7 +229,7 @@ TEST(AnalysisInterval, OfAnAngleIsInMicroradiansInEveryWriter) {
   const std::string csv = write_results_csv(made.record, made.evaluation);
   EXPECT_THAT(csv, AllOf(HasSubstr(",high_um,value_urad,quoted_urad,low_urad,high_urad,"
                                    "lower_limit_urad,upper_limit_urad\n"),
-                         HasSubstr(",,,,3.1,1.6,0.1,3.2,-5,5\n")));
+                         HasSubstr(",,,,3.09"), HasSubstr(",1.6,0.1,3.2,-5,5\n")));
   EXPECT_THAT(write_dmis(made.record, made.evaluation), HasSubstr("= 1.6 urad, 95 % [0.1, 3.2]"));
   const std::string qif = write_qif(made.record, made.evaluation);
   EXPECT_TRUE(check_qif(qif).empty());
@@ -255,7 +255,7 @@ TEST(AnalysisInterval, OfAnAngleWithOneLimitNamesItInMicroradians) {
   const auto asked = analysis_document(made)["features"][0]["characteristics"][0];
   EXPECT_NEAR(asked["tolerance_urad"], 5.0, 1e-9);
   EXPECT_THAT(write_results_csv(made.record, made.evaluation),
-              HasSubstr(",,,,3.1,1.6,0.1,3.2,,5\n"));
+              AllOf(HasSubstr(",,,,3.09"), HasSubstr(",1.6,0.1,3.2,,5\n")));
   EXPECT_THAT(analysis_summary(made), HasSubstr("limit 5.000 urad"));
   EXPECT_THAT(page_of(made), HasSubstr("5.000 \u00b5rad"));
 }
