@@ -41,13 +41,35 @@ std::string signed_um(double length_mm) {
   return text.front() == '-' || !std::isfinite(length_mm) ? text : text.insert(0, 1, '+');
 }
 
-std::string length_in(LengthUnit unit, double length_mm, int decimals) {
+std::string length_in(ValueUnit unit, double length_mm, int decimals) {
   constexpr int kMoreOfMillimetre = 3;
-  return unit == LengthUnit::kUm ? fixed(micrometres(length_mm), decimals)
-                                         : fixed(length_mm, decimals + kMoreOfMillimetre);
+  return unit == ValueUnit::kMm ? fixed(length_mm, decimals + kMoreOfMillimetre)
+                                : fixed(micrometres(length_mm), decimals);
 }
 
-std::string_view name_of(LengthUnit unit) { return unit == LengthUnit::kUm ? "um" : "mm"; }
+std::string_view name_of(ValueUnit unit) {
+  switch (unit) {
+    case ValueUnit::kUm:
+      return "um";
+    case ValueUnit::kMm:
+      return "mm";
+    case ValueUnit::kUrad:
+      return "urad";
+  }
+  return "";
+}
+
+std::string_view sign_of(ValueUnit unit) {
+  switch (unit) {
+    case ValueUnit::kUm:
+      return "\u00b5m";
+    case ValueUnit::kMm:
+      return "mm";
+    case ValueUnit::kUrad:
+      return "\u00b5rad";
+  }
+  return "";
+}
 
 std::string f_um(double f_mm) { return fixed(f_mm / kMicrometre, std::abs(f_mm) > 0.1 ? 2 : 3); }
 

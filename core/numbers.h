@@ -33,9 +33,13 @@ inline constexpr double kGreatestNumber = 1e9;
 [[nodiscard]] std::string um(double length_mm);
 /// um() with its sign, including "+".
 [[nodiscard]] std::string signed_um(double length_mm);
-/// A length without its unit, to `decimals` of a micrometre: "8.312" in um, "29.998312" in mm.
-[[nodiscard]] std::string length_in(LengthUnit unit, double length_mm, int decimals);
-[[nodiscard]] std::string_view name_of(LengthUnit unit);
+/// A value without its unit, to `decimals` of a micrometre or microradian: "8.312" in um or urad,
+/// "29.998312" in mm.
+/// @param length_mm  Of an angle in mrad.
+[[nodiscard]] std::string length_in(ValueUnit unit, double length_mm, int decimals);
+[[nodiscard]] std::string_view name_of(ValueUnit unit);
+/// The same with the micro sign, for a page: "\u00b5m", "mm", "\u00b5rad".
+[[nodiscard]] std::string_view sign_of(ValueUnit unit);
 /// f of a pose in um: three decimals, two above 100 um.
 [[nodiscard]] std::string f_um(double f_mm);
 /// A very small length in um, two digits: "1.2e-09".

@@ -50,7 +50,7 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
   const bool asks = rule && rule->needs_interval();
   out.value.emplace(symbol_of(asked), value->value_mm,
                     operator_of(*result.analysis, asked, temperature_words(result)), interval,
-                    asks ? rule->measurand : Measurand::kSampledPoints);
+                    asks ? rule->measurand : Measurand::kSampledPoints, unit_of(asked));
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;

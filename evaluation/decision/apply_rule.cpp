@@ -115,10 +115,30 @@ Zones zones_of(const DecisionRule& rule, const KnownValue& value, const Limits& 
   return out;
 }
 
-/// A length in um with one digit more than the uncertainty warrants.
+/// A length in um, an angle in urad, with one digit more than the uncertainty warrants.
 std::string in_digits(const KnownValue& value, double length_mm) {
   const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
   return fixed(micrometres(length_mm), decimals);
+}
+
+/// A number of micrometres or microradians with that unit.
+std::string with_small_unit(const KnownValue& value, const std::string& number) {
+  return fmt::format("{} {}", number, core::name_of(core::unit_of_difference(value.unit)));
+}
+
+/// "0.312 um": a difference of values, in um also of sizes.
+std::string difference(const KnownValue& value, double length_mm) {
+  return with_small_unit(value, in_digits(value, length_mm));
+}
+
+/// "12 um": a tolerance as a plan states it.
+std::string tolerance_text(const KnownValue& value, double length_mm) {
+  return with_small_unit(value, fmt::format("{:g}", micrometres(length_mm)));
+}
+
+/// "0.312 um": the width of an interval.
+std::string width_text(const KnownValue& value, double length_mm) {
+  return with_small_unit(value, fmt::format("{:.3f}", micrometres(length_mm)));
 }
 
 /// The limit that a value is nearest to, or farthest beyond, with those of the rule beside it.
@@ -137,9 +157,9 @@ NearestLimit nearest_limit(const Limits& limits, const Zones& zones) {
   return {false, *limits.lower_mm, *zones.acceptance.lower_mm, *zones.rejection.lower_mm};
 }
 
-/// The same with its unit, which is mm for a size.
+/// A value with its unit, which is mm for a size.
 std::string with_unit(const KnownValue& value, double length_mm) {
-  if (value.unit == core::LengthUnit::kUm) return in_digits(value, length_mm) + " um";
+  if (value.unit != core::ValueUnit::kMm) return difference(value, length_mm);
   const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
   return core::length_in(value.unit, length_mm, decimals) + " mm";
 }
@@ -147,14 +167,14 @@ std::string with_unit(const KnownValue& value, double length_mm) {
 /// A limit with its unit, as a drawing states it: to the nanometre at most.
 std::string limit_text(const KnownValue& value, double limit_mm) {
   constexpr double kSteps = 1e6;
-  return value.unit == core::LengthUnit::kUm
-             ? fixed(micrometres(limit_mm), 3) + " um"
-             : core::shortest(core::on_grid(limit_mm, kSteps)) + " mm";
+  return value.unit == core::ValueUnit::kMm
+             ? core::shortest(core::on_grid(limit_mm, kSteps)) + " mm"
+             : with_small_unit(value, fixed(micrometres(limit_mm), 3));
 }
 
 /// Whether sentences speak of "the tolerance": a form deviation with its one limit.
 bool has_tolerance(const KnownValue& value, const Limits& limits) {
-  return !limits.lower_mm && value.unit == core::LengthUnit::kUm;
+  return !limits.lower_mm && value.unit != core::ValueUnit::kMm;
 }
 
 core::Phrase side_of(const NearestLimit& limit) {
@@ -171,14 +191,15 @@ core::Phrase simple_sentence(const core::Phrase& text, const KnownValue& value,
   const bool vanishes = by.find_first_not_of("0.") == std::string::npos;
   if (vanishes && !limits.hold(zones.compared_mm))
     by = fmt::format("{:.2g}", micrometres(apart_mm));
+  by = with_small_unit(value, by);
   if (has_tolerance(value, limits)) {
     return core::phrase(
-        "{} is {} the tolerance of {:g} um by {} um", text,
+        "{} is {} the tolerance of {} by {}", text,
         limits.hold(zones.compared_mm) ? core::phrase("within") : core::phrase("above"),
-        micrometres(limit.limit_mm), by);
+        tolerance_text(value, limit.limit_mm), by);
   }
   return core::phrase(
-      "{} is {} the {} limit of {} by {} um", text,
+      "{} is {} the {} limit of {} by {}", text,
       limits.hold(zones.compared_mm) ? core::phrase("within") : core::phrase("beyond"),
       side_of(limit), limit_text(value, limit.limit_mm), by);
 }
@@ -195,14 +216,14 @@ core::Phrase guarded_between(const KnownValue& known, const Zones& zones, const 
   const std::string rejection = with_unit(known, limit.rejection_mm);
   const std::string stated = limit_text(known, limit.limit_mm);
   if (verdict == Verdict::kConforms) {
-    return core::phrase("{} is within the acceptance limit of {} ({} limit {}, guard band {} um)",
+    return core::phrase("{} is within the acceptance limit of {} ({} limit {}, guard band {})",
                         value, acceptance, side_of(limit), stated,
-                        in_digits(known, std::abs(limit.limit_mm - limit.acceptance_mm)));
+                        difference(known, std::abs(limit.limit_mm - limit.acceptance_mm)));
   }
   if (verdict == Verdict::kDoesNotConform) {
-    return core::phrase("{} is beyond the rejection limit of {} ({} limit {}, guard band {} um)",
+    return core::phrase("{} is beyond the rejection limit of {} ({} limit {}, guard band {})",
                         value, rejection, side_of(limit), stated,
-                        in_digits(known, std::abs(limit.rejection_mm - limit.limit_mm)));
+                        difference(known, std::abs(limit.rejection_mm - limit.limit_mm)));
   }
   return core::phrase(
       "{} lies between the acceptance limit of {} and the rejection limit of {} about the {} "
@@ -215,26 +236,24 @@ core::Phrase guarded_sentence(const KnownValue& known, const Limits& limits, con
   const NearestLimit limit = nearest_limit(limits, zones);
   if (!has_tolerance(known, limits)) return guarded_between(known, zones, limit, verdict);
   const core::Phrase value = corrected_value(known, zones);
-  const std::string acceptance = in_digits(known, limit.acceptance_mm);
-  const std::string rejection = in_digits(known, limit.rejection_mm);
+  const std::string acceptance = with_unit(known, limit.acceptance_mm);
+  const std::string rejection = with_unit(known, limit.rejection_mm);
   if (verdict == Verdict::kConforms) {
     return core::phrase(
-        "{} is within the acceptance limit of {} um (tolerance {:g} um, guard "
-        "band {} um)",
-        value, acceptance, micrometres(limit.limit_mm),
-        in_digits(known, limit.limit_mm - limit.acceptance_mm));
+        "{} is within the acceptance limit of {} (tolerance {}, guard band {})",
+        value, acceptance, tolerance_text(known, limit.limit_mm),
+        difference(known, limit.limit_mm - limit.acceptance_mm));
   }
   if (verdict == Verdict::kDoesNotConform) {
     return core::phrase(
-        "{} is above the rejection limit of {} um (tolerance {:g} um, guard "
-        "band {} um)",
-        value, rejection, micrometres(limit.limit_mm),
-        in_digits(known, limit.rejection_mm - limit.limit_mm));
+        "{} is above the rejection limit of {} (tolerance {}, guard band {})",
+        value, rejection, tolerance_text(known, limit.limit_mm),
+        difference(known, limit.rejection_mm - limit.limit_mm));
   }
   return core::phrase(
-      "{} lies between the acceptance limit of {} um and the rejection limit of "
-      "{} um about the tolerance of {:g} um: neither is proven",
-      value, acceptance, rejection, micrometres(limit.limit_mm));
+      "{} lies between the acceptance limit of {} and the rejection limit of {} about the "
+      "tolerance of {}: neither is proven",
+      value, acceptance, rejection, tolerance_text(known, limit.limit_mm));
 }
 
 core::Phrase probability_sentence(const DecisionRule& rule, double p_1, Verdict verdict) {
@@ -255,7 +274,7 @@ std::optional<double> tolerance_of(const KnownValue& value, const Limits& limits
   if (value.tolerance_mm) return value.tolerance_mm;
   if (!limits.upper_mm) return std::nullopt;
   if (limits.lower_mm) return *limits.upper_mm - *limits.lower_mm;
-  return value.unit == core::LengthUnit::kUm ? limits.upper_mm : std::nullopt;
+  return value.unit == core::ValueUnit::kMm ? std::nullopt : limits.upper_mm;
 }
 
 /// Why a value and its limits have no ratio N:1, or nothing.
@@ -277,9 +296,9 @@ std::optional<core::Phrase> obstacle_to_ratio(const DecisionRule& rule, const Kn
   const double tolerance_mm = *tolerance;
   if (tolerance_mm >= rule.ratio * width_mm) return std::nullopt;
   return core::phrase(
-      "the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
-      "{:.3f} um",
-      rule.ratio, micrometres(tolerance_mm), tolerance_mm / width_mm, micrometres(width_mm));
+      "the rule {:g}:1 does not apply: the tolerance of {} is {:.3g} times the interval of {}",
+      rule.ratio, tolerance_text(value, tolerance_mm), tolerance_mm / width_mm,
+      width_text(value, width_mm));
 }
 
 /// Why a rule cannot be applied, or nothing.
@@ -379,9 +398,9 @@ std::optional<core::Phrase> incapability(const KnownValue& value, const Limits& 
   if (width_mm <= apart_mm) return std::nullopt;
   if (verdict == Verdict::kDoesNotConform && beyond(known, limits)) return std::nullopt;
   return core::phrase(
-      "capability: the interval is {:.3f} um wide, the limits are {:g} um apart; no value can be "
-      "proven to lie between them",
-      micrometres(width_mm), micrometres(apart_mm));
+      "capability: the interval is {} wide, the limits are {} apart; no value can be proven to lie "
+      "between them",
+      width_text(value, width_mm), tolerance_text(value, apart_mm));
 }
 
 /// Why a value that was read beyond a limit is undecided although its corrected value is within.
@@ -397,10 +416,10 @@ core::Phrase read_beyond_sentence(const KnownValue& value, const Limits& limits,
   }
   if (has_tolerance(value, limits)) {
     return core::phrase(
-        "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
-        "below: neither is proven",
-        in_digits(value, value.measured_mm), micrometres(*limits.upper_mm),
-        in_digits(value, corrected_mm));
+        "read above the limit: {}, the tolerance is {}; the corrected value, {}, is below: neither "
+        "is proven",
+        with_unit(value, value.measured_mm), tolerance_text(value, *limits.upper_mm),
+        with_unit(value, corrected_mm));
   }
   const bool below = limits.lower_mm && value.measured_mm < *limits.lower_mm;
   return core::phrase(

@@ -83,7 +83,7 @@ struct DecisionRule {
 struct KnownValue {
   double measured_mm = 0.0;  ///< Value of the points as read, not corrected.
   std::optional<UncertaintyStatement> statement = {};
-  core::LengthUnit unit = core::LengthUnit::kUm;  ///< In sentences; of a size mm.
+  core::ValueUnit unit = core::ValueUnit::kUm;  ///< In sentences; of a size mm, of an angle urad.
   /// Between both limits of its characteristic, where the value is held against one of them only.
   std::optional<double> tolerance_mm = {};
 };

@@ -166,10 +166,13 @@ std::string reference_of(record::Reference reference, record::Shape shape) {
   return acronym(reference) + (shape == record::Shape::kCylinder ? "CY" : "CI");
 }
 
-core::LengthUnit unit_of(const record::Characteristic& characteristic) {
+core::ValueUnit unit_of(const record::Characteristic& characteristic) {
+  if (record::is_angle(characteristic.form, characteristic.indication)) {
+    return core::ValueUnit::kUrad;
+  }
   const bool size = record::limits_of(characteristic.form, characteristic.indication.rank) ==
                     record::LimitKind::kSize;
-  return size ? core::LengthUnit::kMm : core::LengthUnit::kUm;
+  return size ? core::ValueUnit::kMm : core::ValueUnit::kUm;
 }
 
 std::optional<FeatureResult> outside_windows(const FeatureResult& feature) {

@@ -66,8 +66,9 @@ struct OneSided {
 /// "MZPL", "LSPL"; empty where no reference is chosen.
 [[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
 [[nodiscard]] std::string reference_of(record::Reference reference, record::Shape shape);
-/// Unit in which value and limits of a characteristic are written: mm of a size, um of all else.
-[[nodiscard]] core::LengthUnit unit_of(const record::Characteristic& characteristic);
+/// Unit in which value and limits of a characteristic are written: mm of a size, urad of
+/// an angle, um of all else.
+[[nodiscard]] core::ValueUnit unit_of(const record::Characteristic& characteristic);
 
 /// The feature without the points in its windows, as a report draws it; nothing where all points
 /// take part. Its fits are the same: they never saw those points.

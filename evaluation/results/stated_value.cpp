@@ -64,7 +64,7 @@ const UncertaintyStatement* UncertaintyStatus::about(Measurand measurand) const 
 }
 
 StatedValue::StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
-                         UncertaintyStatus uncertainty, Measurand measurand, core::LengthUnit unit)
+                         UncertaintyStatus uncertainty, Measurand measurand, core::ValueUnit unit)
     : symbol_(std::move(symbol)),
       value_mm_(value_mm),
       operator_(std::move(value_operator)),
@@ -84,8 +84,8 @@ std::string StatedValue::in_digits(double length_mm) const {
   constexpr int kWithoutInterval = 3;
   if (known != nullptr)
     return core::length_in(unit_, length_mm, decimals_for(known->expanded_mm()));
-  return unit_ == core::LengthUnit::kUm ? um(length_mm)
-                                        : core::length_in(unit_, length_mm, kWithoutInterval);
+  return unit_ == core::ValueUnit::kMm ? core::length_in(unit_, length_mm, kWithoutInterval)
+                                       : um(length_mm);
 }
 
 core::Phrase StatedValue::value_text() const {

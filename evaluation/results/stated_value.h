@@ -63,11 +63,12 @@ class UncertaintyStatus {
 };
 
 /// A value as every report writes it: always with its operator and the status of its uncertainty.
+/// Of an angle all numbers are in mrad, not mm (core::ValueUnit).
 class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints,
-              core::LengthUnit unit = core::LengthUnit::kUm);
+              core::ValueUnit unit = core::ValueUnit::kUm);
 
   /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
@@ -78,10 +79,10 @@ class StatedValue {
     if (known == nullptr) return value_mm_;
     return known->at_most ? known->high_mm : known->estimate_mm;
   }
-  /// Unit of the texts: mm for a size, um for all else.
-  [[nodiscard]] core::LengthUnit unit() const { return unit_; }
-  /// A length in that unit, with as many decimals of a micrometre as the interval warrants; three
-  /// without one.
+  /// Unit of the texts: mm for a size, urad for an angle, um for all else.
+  [[nodiscard]] core::ValueUnit unit() const { return unit_; }
+  /// A value in that unit, with as many decimals of a micrometre or microradian as the interval
+  /// warrants; three without one.
   [[nodiscard]] std::string in_digits(double length_mm) const;
   [[nodiscard]] const ValueOperator& value_operator() const { return operator_; }
   [[nodiscard]] const UncertaintyStatus& uncertainty() const { return uncertainty_; }
@@ -109,7 +110,7 @@ class StatedValue {
   ValueOperator operator_;
   UncertaintyStatus uncertainty_;
   Measurand measurand_;
-  core::LengthUnit unit_;
+  core::ValueUnit unit_;
 };
 
 }  // namespace rondure::evaluation

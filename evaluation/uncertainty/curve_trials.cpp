@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/noise.h"
+#include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/uncertainty/internal/statement.h"
@@ -346,6 +347,14 @@ std::pair<std::vector<BudgetLine>, double> budget_of(std::vector<LinearTerm> ter
   return {std::move(budget), std::sqrt(squares_mm2)};
 }
 
+/// "0.312 um"; an angle in urad.
+std::string with_unit(core::ValueUnit unit, fmt::format_string<const double&> digits,
+                      double length_mm) {
+  const double number = core::micrometres(length_mm);
+  return fmt::format(digits, number) + " " +
+         std::string(core::name_of(core::unit_of_difference(unit)));
+}
+
 }  // namespace
 
 core::Result<UncertaintyResult> statement_of_trials(TrialValues values,
@@ -372,19 +381,20 @@ core::Result<UncertaintyResult> statement_of_trials(TrialValues values,
   if (out.sampled.at_most && nothing_left) out.sampled.high_mm = as_drawn_mm;
   if (out.sampled.at_most) {
     out.notes.push_back(core::phrase(
-        "noise-dominates: noise and influences make up {:.3f} um of {:.3f} um as measured, more "
-        "than {:g} %; the value is only known to be at most {:.3f} um",
-        core::micrometres(out.noise_inflation_mm), core::micrometres(out.uncorrected_mm),
-        100.0 * kDominates, core::micrometres(out.sampled.high_mm)));
+        "noise-dominates: noise and influences make up {} of {} as measured, more than {:g} %; the "
+        "value is only known to be at most {}",
+        with_unit(values.unit, "{:.3f}", out.noise_inflation_mm),
+        with_unit(values.unit, "{:.3f}", out.uncorrected_mm), 100.0 * kDominates,
+        with_unit(values.unit, "{:.3f}", out.sampled.high_mm)));
   }
   double linear_mm = 0.0;
   std::tie(out.budget, linear_mm) = budget_of(std::move(terms));
   const double trials_mm = out.sampled.standard_uncertainty_mm;
   if (linear_mm > 0.0 && std::abs(trials_mm - linear_mm) > kNotLinear * linear_mm) {
     out.notes.push_back(core::phrase(
-        "the value is not linear in its influences: the standard uncertainty is {:.3g} um by the "
-        "trials, {:.3g} um by linear propagation; the interval is that of the trials",
-        core::micrometres(trials_mm), core::micrometres(linear_mm)));
+        "the value is not linear in its influences: the standard uncertainty is {} by the trials, "
+        "{} by linear propagation; the interval is that of the trials",
+        with_unit(values.unit, "{:.3g}", trials_mm), with_unit(values.unit, "{:.3g}", linear_mm)));
   }
   out.declaration = std::move(declaration);
   return out;

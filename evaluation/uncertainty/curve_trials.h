@@ -10,6 +10,7 @@
 
 #include "core/phrase.h"
 #include "core/result.h"
+#include "core/units.h"
 #include "evaluation/uncertainty/statement.h"
 
 // Trials of the values of an analysis (JCGM 101) that do not count noise twice. A measured curve
@@ -104,6 +105,7 @@ struct TrialValues {
   std::vector<double> core_mm = {};
   double core_center_mm = 0.0;  ///< The value of CurveDraws::core_mm().
   bool signed_value = false;    ///< false: values are cut at 0.
+  core::ValueUnit unit = core::ValueUnit::kUm;  ///< In notes; of kUrad the values are in mrad.
 };
 
 /// An influence alone: how the value changes with it.

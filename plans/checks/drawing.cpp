@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -181,28 +182,48 @@ void check_size_limits(const Asked& asked) {
   }
 }
 
+/// The limits of a characteristic, with the keys that hold them: of an angle they end in _urad.
+struct SignedLimits {
+  std::string tolerance;
+  std::string lower;
+  std::string upper;
+  std::string symmetric;
+  std::optional<double> low;
+  std::optional<double> high;
+};
+
+SignedLimits signed_limits(const record::CharacteristicTask& c) {
+  if (record::is_angle(c.form, c.indication)) {
+    return {"tolerance_urad", "lower_urad", "upper_urad", "symmetric_urad",
+            c.lower_urad,     c.upper_urad};
+  }
+  return {"tolerance_um", "lower_um", "upper_um", "symmetric_um", c.lower_um, c.upper_um};
+}
+
 /// Checks the limits of a value that has a sign.
 void check_signed_limits(const Asked& asked) {
   const record::CharacteristicTask& c = asked.task;
-  const bool lower = asked.given("lower_um");
-  const bool upper = asked.given("upper_um");
-  if (asked.given("tolerance_um")) {
-    for (const std::string_view key : {"lower_um", "upper_um", "symmetric_um"}) {
+  const SignedLimits keys = signed_limits(c);
+  const bool lower = asked.given(keys.lower);
+  const bool upper = asked.given(keys.upper);
+  if (asked.given(keys.tolerance)) {
+    for (const std::string& key : {keys.lower, keys.upper, keys.symmetric}) {
       if (!asked.given(key)) continue;
-      asked.refuse(key, "tolerance_um limits the amount already, without its sign; remove one");
+      asked.refuse(key, fmt::format("{} limits the amount already, without its sign; remove one",
+                                    keys.tolerance));
     }
-  } else if (asked.given("symmetric_um")) {
-    for (const std::string_view key : {"lower_um", "upper_um"}) {
-      if (asked.given(key)) asked.refuse(key, "symmetric_um holds both limits; remove one");
+  } else if (asked.given(keys.symmetric)) {
+    for (const std::string& key : {keys.lower, keys.upper}) {
+      if (!asked.given(key)) continue;
+      asked.refuse(key, fmt::format("{} holds both limits; remove one", keys.symmetric));
     }
   } else if (lower != upper) {
-    asked.refuse(lower ? "lower_um" : "upper_um",
-                 fmt::format("one limit leaves the other side open; add {}, or give symmetric_um "
-                             "in its place",
-                             lower ? "upper_um" : "lower_um"));
-  } else if (c.lower_um && c.upper_um && *c.lower_um >= *c.upper_um) {
-    asked.refuse("lower_um", fmt::format("lower_um {} is not below upper_um {}; exchange them",
-                                         plain(*c.lower_um), plain(*c.upper_um)));
+    asked.refuse(lower ? keys.lower : keys.upper,
+                 fmt::format("one limit leaves the other side open; add {}, or give {} in its place",
+                             lower ? keys.upper : keys.lower, keys.symmetric));
+  } else if (keys.low && keys.high && *keys.low >= *keys.high) {
+    asked.refuse(keys.lower, fmt::format("{} {} is not below {} {}; exchange them", keys.lower,
+                                         plain(*keys.low), keys.upper, plain(*keys.high)));
   }
   const auto& rule = asked.resolved.indication.decision_rule;
   const bool prior = rule ? rule->prior.has_value() : asked.plan.decision_rule.prior.has_value();
@@ -213,9 +234,26 @@ void check_signed_limits(const Asked& asked) {
   }
 }
 
+/// Refuses limits in um of an angle, and in urad of a length.
+void check_unit_of_limits(const Asked& asked) {
+  const Form form = asked.task.form;
+  const Indication& i = asked.task.indication;
+  if (form == Form::kAxisError && !i.error) return;  // which unit it has is not known
+  const bool angle = record::is_angle(form, i);
+  const std::string what = form == Form::kAxisError ? std::string(record::name_of(*i.error))
+                                                    : with_article(name_of(form));
+  for (const std::string_view key : {"tolerance", "lower", "upper", "symmetric"}) {
+    const std::string wrong = fmt::format("{}_{}", key, angle ? "um" : "urad");
+    if (!asked.given(wrong)) continue;
+    asked.refuse(wrong, angle ? fmt::format("{} is an angle; give {}_urad", what, key)
+                              : fmt::format("{} is a length, no angle; give its limits in um", what));
+  }
+}
+
 void check_limits_of(const Asked& asked) {
   const Form form = asked.task.form;
   const LimitKind kind = record::limits_of(form, asked.task.indication.rank);
+  check_unit_of_limits(asked);
   if (kind == LimitKind::kSigned) return check_signed_limits(asked);
   if (asked.given("symmetric_um")) {
     asked.refuse(
@@ -461,7 +499,7 @@ void check_of_analysis(const Asked& asked) {
     if (!of_axis || asked.given(key)) continue;
     asked.refuse(key,
                  fmt::format("this key is missing: an axis-error is that of one axis; give {}",
-                             key == "axis" ? "alpha or beta" : "EX, EY or EZ"),
+                             key == "axis" ? "alpha or beta" : "EX, EY, EZ, EA, EB or EC"),
                  Code::kMissingKey);
   }
   check_limits_of(asked);

@@ -72,17 +72,23 @@ Characteristic characteristic_of(const CharacteristicTask& task, double nominal_
   out.form = task.form;
   out.reference = reference_of(task, levels);
   const LimitKind limits = limits_of(task.form, task.indication.rank);
+  // A urad is to the mrad of an angle what a um is to the mm of a length.
+  const bool angle = is_angle(task.form, task.indication);
+  const auto& tolerance = angle ? task.tolerance_urad : task.tolerance_um;
+  const auto& lower = angle ? task.lower_urad : task.lower_um;
+  const auto& upper = angle ? task.upper_urad : task.upper_um;
+  const auto& symmetric = angle ? task.symmetric_urad : task.symmetric_um;
   if (limits == LimitKind::kSize) {
-    out.lower_mm = in_mm(task.lower_um, nominal_diameter_mm);
-    out.tolerance_mm = in_mm(task.upper_um, nominal_diameter_mm);
-  } else if (task.tolerance_um) {
-    out.tolerance_mm = *task.tolerance_um * core::kMicrometre;
-  } else if (limits == LimitKind::kSigned && task.symmetric_um) {
-    out.lower_mm = -*task.symmetric_um * core::kMicrometre;
-    out.tolerance_mm = *task.symmetric_um * core::kMicrometre;
+    out.lower_mm = in_mm(lower, nominal_diameter_mm);
+    out.tolerance_mm = in_mm(upper, nominal_diameter_mm);
+  } else if (tolerance) {
+    out.tolerance_mm = *tolerance * core::kMicrometre;
+  } else if (limits == LimitKind::kSigned && symmetric) {
+    out.lower_mm = -*symmetric * core::kMicrometre;
+    out.tolerance_mm = *symmetric * core::kMicrometre;
   } else if (limits == LimitKind::kSigned) {
-    out.lower_mm = in_mm(task.lower_um, 0.0);
-    out.tolerance_mm = in_mm(task.upper_um, 0.0);
+    out.lower_mm = in_mm(lower, 0.0);
+    out.tolerance_mm = in_mm(upper, 0.0);
   }
   out.drawing_zone = task.drawing_zone;
   for (const HarmonicLimitTask& line : task.harmonic_limits) {

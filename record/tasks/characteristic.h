@@ -33,6 +33,11 @@ struct CharacteristicTask {
   std::optional<double> lower_um = {};
   std::optional<double> upper_um = {};
   std::optional<double> symmetric_um = {};  ///< Both limits of a signed value: -T and +T.
+  /// The same limits of an angle.
+  std::optional<double> tolerance_urad = {};
+  std::optional<double> lower_urad = {};
+  std::optional<double> upper_urad = {};
+  std::optional<double> symmetric_urad = {};
   Indication indication = {};
 };
 
@@ -112,6 +117,20 @@ void describe(Visitor& v, CharacteristicTask& p) {
                  "Of the radius of a wheel: limits of R - nominal_radius_mm with its sign, minus "
                  "and plus this value, instead of lower_um and upper_um; of an axis-error "
                  "likewise."));
+  v.number("tolerance_urad", p.tolerance_urad,
+           above(0.0, 100'000.0,
+                 "Of an axis-error EA, EB or EC, in place of tolerance_um: limit of the amount of "
+                 "the angle."));
+  const NumberSpec angle = within(
+      100'000.0,
+      "Of an axis-error EA, EB or EC, in place of lower_um and upper_um: limits of the angle with "
+      "its sign, both.");
+  v.number("lower_urad", p.lower_urad, angle);
+  v.number("upper_urad", p.upper_urad, angle);
+  v.number("symmetric_urad", p.symmetric_urad,
+           above(0.0, 100'000.0,
+                 "Of an axis-error EA, EB or EC: limits of the angle with its sign, minus and plus "
+                 "this value, instead of lower_urad and upper_urad."));
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
   v.list("harmonic_limits", p.harmonic_limits,
@@ -119,8 +138,8 @@ void describe(Visitor& v, CharacteristicTask& p) {
   describe(v, p.indication);
 }
 
-/// The characteristic that a journal keeps: limits in mm, those of a size absolute, and what the
-/// levels above say where it says nothing. A filter comes with the cut-offs of its level and of
+/// The characteristic that a journal keeps: limits in mm, those of a size absolute, those of an
+/// angle in mrad (core::ValueUnit), and what the levels above say where it says nothing. A filter comes with the cut-offs of its level and of
 /// those below it. What the form does not take is left out.
 /// @param levels  The nearest first: feature, plan.
 [[nodiscard]] Characteristic characteristic_of(const CharacteristicTask& task,

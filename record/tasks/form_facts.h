@@ -27,7 +27,8 @@ class Shapes {
 enum class LimitKind {
   kUpper,   ///< tolerance_um.
   kSize,    ///< lower_um and upper_um, deviations from the nominal diameter.
-  kSigned,  ///< lower_um and upper_um, or symmetric_um; tolerance_um limits the amount.
+  kSigned,  ///< lower_um and upper_um, or symmetric_um; tolerance_um limits the amount. Of an angle
+            ///< the same keys end in _urad.
   kMask     ///< harmonic_limits.
 };
 enum class DatumNeed { kNone, kAxis, kAxisOrPlane };
@@ -171,6 +172,11 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
   const bool spread =
       form == Form::kDiameter && (rank == Indication::Rank::kSR || rank == Indication::Rank::kSQ);
   return spread ? LimitKind::kUpper : facts_of(form).limits;
+}
+
+/// Whether value and limits of a characteristic are angles.
+[[nodiscard]] constexpr bool is_angle(Form form, const Indication& indication) {
+  return form == Form::kAxisError && indication.error && is_angle(*indication.error);
 }
 
 /// Whether each form has its row and its word.

@@ -1,4 +1,5 @@
 #include <string>
+#include <string_view>
 
 #include "core/numbers.h"
 #include "evaluation/part/find.h"
@@ -73,7 +74,7 @@ Json uncertainty_json(bool of_cloud, const evaluation::CharacteristicResult& res
 /// which journals hold.
 /// @param found  Whether evaluation::find() computes the value.
 Json limit_um(bool found, const std::optional<double>& limit_mm) {
-  return found ? optional_json(limit_in(core::LengthUnit::kUm, limit_mm)) : optional_um(limit_mm);
+  return found ? optional_json(limit_in(core::ValueUnit::kUm, limit_mm)) : optional_um(limit_mm);
 }
 
 /// The compared value, the limits of the rule and the risks; null where the rule decided nothing.
@@ -95,6 +96,19 @@ Json decision_json(bool found, const evaluation::CharacteristicResult& result) {
   return json;
 }
 
+/// The same object of an angle: every key of a number in um ends in _urad instead.
+Json of_angle(const Json& json) {
+  constexpr std::string_view kUm = "_um";
+  if (json.is_array()) return list_json(json, of_angle);
+  if (!json.is_object()) return json;
+  Json out = Json::object();
+  for (const auto& [key, value] : json.items()) {
+    const bool number = key.ends_with(kUm);
+    out[number ? key.substr(0, key.size() - kUm.size()) + "_urad" : key] = of_angle(value);
+  }
+  return out;
+}
+
 /// A rule as the plan spells it.
 Json own_rule_json(const record::DecisionRuleTask& rule) {
   Json json = Json::object();
@@ -109,7 +123,7 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
   using Filter = record::Indication::Filter;
   const record::Characteristic& asked = result.characteristic;
   const record::Indication& indication = asked.indication;
-  if (const auto unit = evaluation::unit_of(asked); unit == core::LengthUnit::kMm) {
+  if (const auto unit = evaluation::unit_of(asked); unit == core::ValueUnit::kMm) {
     json["unit"] = name_of(unit);
     json["tolerance_um"] = nullptr;
     json["lower_limit_mm"] = optional_json(limit_in(unit, asked.lower_mm));
@@ -153,7 +167,9 @@ Json characteristic_json(const record::Feature& feature,
                                               : Json(nullptr)},
                {"decision", decision_json(found, result)}};
   add_indication(result, json);
-  return json;
+  if (evaluation::unit_of(asked) != core::ValueUnit::kUrad) return json;
+  json["unit"] = name_of(core::ValueUnit::kUrad);
+  return of_angle(json);
 }
 
 }  // namespace

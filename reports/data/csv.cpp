@@ -34,47 +34,71 @@ std::string um_field(const std::optional<double>& length_mm) {
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
 
-/// Whether a characteristic has two limits, in columns of their own: a size, or a value with a
-/// sign.
-bool has_two_limits(const record::Characteristic& asked) {
-  return evaluation::unit_of(asked) == core::LengthUnit::kMm || asked.lower_mm;
+/// Whether value and limits are in urad, in columns of their own.
+bool is_angle(const record::Characteristic& asked) {
+  return evaluation::unit_of(asked) == core::ValueUnit::kUrad;
 }
 
-bool any_has_two_limits(const evaluation::Evaluation& evaluation) {
-  return std::ranges::any_of(evaluation.features, [](const evaluation::FeatureResult& feature) {
-    return std::ranges::any_of(feature.characteristics, [](const auto& result) {
-      return has_two_limits(result.characteristic);
+/// Whether a characteristic has two limits, in columns of their own: a size, or a length with a
+/// sign.
+bool has_two_limits(const record::Characteristic& asked) {
+  if (is_angle(asked)) return false;
+  return evaluation::unit_of(asked) == core::ValueUnit::kMm || asked.lower_mm;
+}
+
+bool any_of(const evaluation::Evaluation& evaluation,
+            bool (*holds)(const record::Characteristic& asked)) {
+  return std::ranges::any_of(evaluation.features, [&](const evaluation::FeatureResult& feature) {
+    return std::ranges::any_of(feature.characteristics, [&](const auto& result) {
+      return holds(result.characteristic);
     });
   });
 }
 
-std::string limit_field(core::LengthUnit unit, const std::optional<double>& limit_mm) {
+std::string limit_field(core::ValueUnit unit, const std::optional<double>& limit_mm) {
   const auto limit = limit_in(unit, limit_mm);
   return limit ? number(*limit) : "";
 }
 
 /// "tolerance_um": empty of a size, whose limits are in columns of their own.
 std::string tolerance_field(const record::Feature& feature, const record::Characteristic& asked) {
-  if (has_two_limits(asked)) return {};
+  if (has_two_limits(asked) || is_angle(asked)) return {};
   // that of a form without filter and window keeps the digits of earlier versions
   return evaluation::is_found(feature, asked)
-             ? limit_field(core::LengthUnit::kUm, asked.tolerance_mm)
+             ? limit_field(core::ValueUnit::kUm, asked.tolerance_mm)
              : um_field(asked.tolerance_mm);
 }
 
 /// ",lower_limit_mm,upper_limit_mm" of a run with sizes.
 std::string size_fields(const record::Characteristic& asked) {
   if (!has_two_limits(asked)) return ",,";
-  return "," + limit_field(core::LengthUnit::kMm, asked.lower_mm) + "," +
-         limit_field(core::LengthUnit::kMm, asked.tolerance_mm);
+  return "," + limit_field(core::ValueUnit::kMm, asked.lower_mm) + "," +
+         limit_field(core::ValueUnit::kMm, asked.tolerance_mm);
 }
 
-bool any_has_own_rule(const evaluation::Evaluation& evaluation) {
-  return std::ranges::any_of(evaluation.features, [](const evaluation::FeatureResult& feature) {
-    return std::ranges::any_of(feature.characteristics, [](const auto& result) {
-      return result.characteristic.indication.decision_rule.has_value();
-    });
-  });
+/// ",quoted,low,high": the estimate and its interval.
+std::string interval_fields(const evaluation::CharacteristicResult& result) {
+  const evaluation::UncertaintyStatement* known =
+      result.value ? result.value->statement() : nullptr;
+  // Of "at most 3.2 um" only the upper end is stated.
+  const bool both = known != nullptr && !known->at_most;
+  return "," + (both ? um_field(known->estimate_mm) : "") + "," +
+         (both ? um_field(known->low_mm) : "") + "," +
+         (known != nullptr ? um_field(known->high_mm) : "");
+}
+
+/// ",value_urad,quoted_urad,low_urad,high_urad,lower_limit_urad,upper_limit_urad" of a run with
+/// angles.
+std::string angle_fields(const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  if (!is_angle(asked)) return ",,,,,,";
+  const auto unit = core::ValueUnit::kUrad;
+  return "," + um_field(result.value_mm()) + interval_fields(result) + "," +
+         limit_field(unit, asked.lower_mm) + "," + limit_field(unit, asked.tolerance_mm);
+}
+
+bool has_own_rule(const record::Characteristic& asked) {
+  return asked.indication.decision_rule.has_value();
 }
 
 /// The rule that a characteristic was judged by, as a plan spells it.
@@ -112,27 +136,25 @@ std::string write_results_csv(const record::RunRecord& record,
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um";
-  const bool sizes = any_has_two_limits(evaluation);
-  const bool rules = any_has_own_rule(evaluation);
+  const bool sizes = any_of(evaluation, has_two_limits);
+  const bool angles = any_of(evaluation, is_angle);
+  const bool rules = any_of(evaluation, has_own_rule);
   if (sizes) text += ",lower_limit_mm,upper_limit_mm";
+  if (angles) text += ",value_urad,quoted_urad,low_urad,high_urad,lower_limit_urad,upper_limit_urad";
   text += rules ? ",decision_rule\n" : "\n";
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
-      const evaluation::UncertaintyStatement* known =
-          result.value ? result.value->statement() : nullptr;
-      // Of "at most 3.2 um" only the upper end is stated.
-      const bool both = known != nullptr && !known->at_most;
-      const std::string interval = (both ? um_field(known->estimate_mm) : "") + "," +
-                                   (both ? um_field(known->low_mm) : "") + "," +
-                                   (known != nullptr ? um_field(known->high_mm) : "");
+      const bool angle = is_angle(asked);
       text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{}", head, text_field(feature.feature.id),
+          "{},{},{},{},{},{},{},{},{},{}{}", head, text_field(feature.feature.id),
           text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),
-          um_field(result.value_mm()), tolerance_field(feature.feature, asked),
+          angle ? "" : um_field(result.value_mm()), tolerance_field(feature.feature, asked),
           name_of(result.verdict), text_field(result.reason.english()),
-          text_field(result.value ? result.value->operator_text().english() : ""), interval);
+          text_field(result.value ? result.value->operator_text().english() : ""),
+          angle ? ",,," : interval_fields(result));
       if (sizes) text += size_fields(asked);
+      if (angles) text += angle_fields(result);
       if (rules) text += fmt::format(",{}", rule_field(evaluation, asked));
       text += "\n";
     }

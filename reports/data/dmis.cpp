@@ -75,7 +75,7 @@ const char* tolerance_word(const record::Characteristic& asked) {
     case Form::kRoundness:
       return "CIRLTY";
     case Form::kDiameter:
-      return evaluation::unit_of(asked) == core::LengthUnit::kMm ? "DIAM" : nullptr;
+      return evaluation::unit_of(asked) == core::ValueUnit::kMm ? "DIAM" : nullptr;
     case Form::kStraightness:
       return "STRGHT";
     case Form::kFlatness:
@@ -131,7 +131,7 @@ core::Result<ToleranceBlock> tolerance_block(const evaluation::CharacteristicRes
   if (word == nullptr || !decided || !result.value || !asked.toleranced()) return none("");
   ToleranceBlock block;
   block.actual = fmt::format("{},{}", word, decimal(shown_mm(*result.value)));
-  if (evaluation::unit_of(asked) == core::LengthUnit::kMm) {
+  if (evaluation::unit_of(asked) == core::ValueUnit::kMm) {
     if (!asked.lower_mm || !asked.tolerance_mm) return none("TOL/DIAM needs both limits; ");
     if (result.finding && result.finding->judged.size() > 1)
       return none("two values are judged, and TOL/DIAM holds one; ");

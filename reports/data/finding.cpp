@@ -13,20 +13,20 @@ using evaluation::LocalValue;
 /// Writes lengths in the unit of their value, which ends the key.
 class Lengths {
  public:
-  explicit Lengths(core::LengthUnit unit) : unit_(unit) {}
+  explicit Lengths(core::ValueUnit unit) : unit_(unit) {}
 
   [[nodiscard]] std::string key(std::string_view name) const {
     return fmt::format("{}_{}", name, name_of(unit_));
   }
   [[nodiscard]] Json number(const std::optional<double>& length_mm) const {
-    return unit_ == core::LengthUnit::kMm ? optional_json(length_mm) : optional_um(length_mm);
+    return unit_ == core::ValueUnit::kMm ? optional_json(length_mm) : optional_um(length_mm);
   }
   [[nodiscard]] Json limit(const std::optional<double>& length_mm) const {
     return optional_json(limit_in(unit_, length_mm));
   }
 
  private:
-  core::LengthUnit unit_;
+  core::ValueUnit unit_;
 };
 
 Json judged_json(const evaluation::JudgedValue& value, const Lengths& lengths) {
@@ -91,7 +91,7 @@ Json left_out_json(const evaluation::LeftOut& left_out) {
 
 }  // namespace
 
-Json finding_json(const evaluation::Finding& finding, core::LengthUnit unit) {
+Json finding_json(const evaluation::Finding& finding, core::ValueUnit unit) {
   const Lengths lengths(unit);
   const bool local = finding.worst < finding.local.size();
   return {

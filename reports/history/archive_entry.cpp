@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/analysis.h"
 #include "evaluation/results/feature_values.h"
@@ -74,6 +75,8 @@ record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
   }
   out.sampling =
       feature.analysis ? sampling_text(*feature.analysis).english() : sampling_of(feature, asked);
+  // The archive keeps values as they are held: lengths in mm, angles in mrad.
+  if (evaluation::unit_of(asked) == core::ValueUnit::kUrad) out.unit = "mrad";
   // A bound is no value: it would enter control limits and capability as one.
   if (found.value && !is_at_most(*found.value)) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;

@@ -9,12 +9,14 @@
 namespace rondure::reports {
 namespace {
 
-/// Lengths leave the program in um; values in other units stay unchanged.
+/// Lengths leave the program in um, angles in urad; values in other units stay unchanged.
 std::optional<double> outside(const std::optional<double>& value, const std::string& unit) {
   if (!value || !std::isfinite(*value)) return std::nullopt;
-  return unit == "mm" ? *value / core::kMicrometre : *value;
+  return unit == "mm" || unit == "mrad" ? *value / core::kMicrometre : *value;
 }
-std::string outside_unit(const std::string& unit) { return unit == "mm" ? "um" : unit; }
+std::string outside_unit(const std::string& unit) {
+  return unit == "mm" || unit == "mrad" ? std::string(name_of(unit_of_archive(unit))) : unit;
+}
 
 /// The fields of a result, for the JSON and, in this order, for the CSV file.
 Json result_json(const record::ArchivedResult& r) {
@@ -51,6 +53,7 @@ Json um_json(double mm) { return mm / core::kMicrometre; }
 Json chart_json(const RunChart& chart) {
   if (chart.results.empty()) return nullptr;
   const record::ArchivedResult& newest = chart.results.back();
+  const std::string suffix = "_" + std::string(name_of(unit_of(chart)));
   Json out = {{"part", newest.head.part_id},
               {"feature", newest.result.feature},
               {"characteristic", newest.result.characteristic},
@@ -61,9 +64,9 @@ Json chart_json(const RunChart& chart) {
               {"notes", chart.notes}};
   if (chart.limits) {
     out["control_limits"] = {{"method", "I-MR chart of ln x"},
-                             {"lower_um", um_json(chart.limits->lower_mm)},
-                             {"center_um", um_json(chart.limits->center_mm)},
-                             {"upper_um", um_json(chart.limits->upper_mm)}};
+                             {"lower" + suffix, um_json(chart.limits->lower_mm)},
+                             {"center" + suffix, um_json(chart.limits->center_mm)},
+                             {"upper" + suffix, um_json(chart.limits->upper_mm)}};
   }
   for (const std::size_t i : chart.beyond) {
     out["beyond_control_limits"].push_back(chart.results[i].head.run_id);
@@ -75,8 +78,8 @@ Json chart_json(const RunChart& chart) {
                        {"index", c.index},
                        {"lower_bound_95", optional_json(c.lower_bound)},
                        {"percentiles_of", model ? "log-normal" : "sample"},
-                       {"median_um", um_json(c.median_mm)},
-                       {"point_99_865_um", um_json(c.upper_point_mm)},
+                       {"median" + suffix, um_json(c.median_mm)},
+                       {"point_99_865" + suffix, um_json(c.upper_point_mm)},
                        {"anderson_darling_p", c.fit_p}};
   return out;
 }

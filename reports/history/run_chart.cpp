@@ -34,6 +34,11 @@ bool comparable(const ArchivedResult& a, const ArchivedResult& b) {
          a.result.sampling == b.result.sampling && a.result.unit == b.result.unit;
 }
 
+/// "8.312 um"; an angle in urad.
+std::string with_unit(std::string_view unit, double value_mm) {
+  return fmt::format("{} {}", um(value_mm), name_of(unit_of_archive(unit)));
+}
+
 core::Phrase results_were(std::size_t number) {
   return number == 1 ? core::phrase("{} result was", number)
                      : core::phrase("{} results were", number);
@@ -97,10 +102,12 @@ void note_mixtures(RunChart& chart) {
     return fmt::format("{} {} {:.8}", r.head.plan_name, r.head.plan_revision, r.head.plan_sha256);
   });
   note_mixture(chart, core::phrase("upper limits"), [](const auto& r) {
-    return r.result.upper_limit ? um(*r.result.upper_limit) + " um" : std::string("none");
+    return r.result.upper_limit ? with_unit(r.result.unit, *r.result.upper_limit)
+                                : std::string("none");
   });
   note_mixture(chart, core::phrase("lower limits"), [](const auto& r) {
-    return r.result.lower_limit ? um(*r.result.lower_limit) + " um" : std::string("none");
+    return r.result.lower_limit ? with_unit(r.result.unit, *r.result.lower_limit)
+                                : std::string("none");
   });
 }
 
@@ -165,6 +172,15 @@ void add_capability(RunChart& chart, const std::vector<double>& values) {
 
 }  // namespace
 
+core::ValueUnit unit_of_archive(std::string_view unit) {
+  return unit == "mrad" ? core::ValueUnit::kUrad : core::ValueUnit::kUm;
+}
+
+core::ValueUnit unit_of(const RunChart& chart) {
+  return chart.results.empty() ? core::ValueUnit::kUm
+                               : unit_of_archive(chart.results.back().result.unit);
+}
+
 RunChart run_chart_of(std::span<const ArchivedResult> newest_first) {
   RunChart chart;
   choose_results(chart, newest_first);
@@ -219,17 +235,22 @@ core::Phrase capability_in_words(const RunChart& chart) {
     index = core::phrase("{}, at least {} with 95 % confidence", index, fixed(*c.lower_bound, 2));
   }
   const bool model = c.method == Capability::Method::kLogNormal;
+  const auto number = [&](double value_mm) {
+    return with_unit(chart.results.back().result.unit, value_mm);
+  };
   const core::Phrase model_words =
       model ? core::phrase("fitted log-normal distribution") : core::phrase("results themselves");
   if (c.lower_point_mm) {
     const core::Phrase between =
-        core::phrase("0.135 % point {} um, median {} um, 99.865 % point {} um of the {}",
-                     um(*c.lower_point_mm), um(c.median_mm), um(c.upper_point_mm), model_words);
+        core::phrase("0.135 % point {}, median {}, 99.865 % point {} of the {}",
+                     number(*c.lower_point_mm), number(c.median_mm), number(c.upper_point_mm),
+                     model_words);
     return core::phrase("{} ({})", joined(index, between),
                         core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
   }
-  const core::Phrase percentiles = core::phrase("median {} um, 99.865 % point {} um of the {}",
-                                                um(c.median_mm), um(c.upper_point_mm), model_words);
+  const core::Phrase percentiles = core::phrase(
+      "median {}, 99.865 % point {} of the {}", number(c.median_mm), number(c.upper_point_mm),
+      model_words);
   return core::phrase("{} ({})", joined(index, percentiles),
                       core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
 }

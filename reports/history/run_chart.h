@@ -4,8 +4,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/units.h"
 #include "record/archive/archive.h"
 #include "reports/history/capability.h"
 
@@ -42,7 +44,11 @@ struct ChartRange {
 };
 [[nodiscard]] ChartRange range_of(const RunChart& chart);
 
-/// The value of a result in mm; the archive's only unit so far.
+/// The unit that the numbers of an archive are written in: it keeps lengths in mm, angles in mrad.
+[[nodiscard]] core::ValueUnit unit_of_archive(std::string_view unit);
+[[nodiscard]] core::ValueUnit unit_of(const RunChart& chart);
+
+/// The value of a result in mm; of an angle in mrad, here and in all statistics.
 [[nodiscard]] std::vector<double> values_of(const RunChart& chart);
 
 /// "PpkU 1.23, at least 1.05 with 95 % confidence; log-normal, ..."; empty without an index.

@@ -51,7 +51,8 @@ void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
     tick_beside(svg, kRunLeft, axes.y.at(value), tick_label(value), 9.0);
   }
   svg.upward_text(16.0, 0.5 * (kRunTop + kRunBottom), "title",
-                  fmt::format("{} / µm", chart.results.back().result.symbol));
+                  fmt::format("{} / {}", chart.results.back().result.symbol,
+                              core::sign_of(unit_of(chart))));
   for (const double number : core::round_ticks(1.0, axes.x.high - 1.0, 8)) {
     if (number != std::floor(number)) continue;
     tick_below(svg, axes.x.at(number), kRunBottom, tick_label(number));
@@ -143,6 +144,9 @@ std::string with_micro_sign(std::string text) {
   for (std::size_t at = text.find(" um"); at != std::string::npos; at = text.find(" um", at + 1)) {
     text.replace(at, 3, " µm");
   }
+  for (std::size_t at = text.find(" urad"); at != std::string::npos; at = text.find(" urad", at)) {
+    text.replace(at, 5, " µrad");
+  }
   return text;
 }
 
@@ -164,7 +168,8 @@ std::vector<core::Phrase> history_sentences(const RunChart& chart) {
   }
   if (chart.upper_limit_mm && !range_of(chart).limit_shown) {
     out.push_back(
-        core::phrase("The tolerance, {} um, is above the chart.", um(*chart.upper_limit_mm)));
+        core::phrase("The tolerance, {}, is above the chart.",
+                     fmt::format("{} {}", um(*chart.upper_limit_mm), name_of(unit_of(chart)))));
   }
   for (const core::Phrase& note : chart.notes) out.push_back(core::phrase("Note: {}.", note));
   return out;

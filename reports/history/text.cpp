@@ -42,7 +42,8 @@ std::string minute_of(const std::string& utc) {
 /// The drawing as rows of characters, the first row on top.
 class TextCanvas {
  public:
-  TextCanvas(double low_um, double high_um) : low_(low_um), high_(high_um) {
+  TextCanvas(double low_um, double high_um, core::ValueUnit unit)
+      : low_(low_um), high_(high_um), unit_(unit) {
     rows_.fill(std::string(kPlot, ' '));
   }
 
@@ -66,6 +67,7 @@ class TextCanvas {
  private:
   double low_;
   double high_;
+  core::ValueUnit unit_;
   std::array<std::string, kRows> rows_;
   std::array<std::string, kRows> labels_;
 };
@@ -91,7 +93,7 @@ std::string TextCanvas::text(bool coloured) const {
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
   }
-  return out + fmt::format("{:>{}} +{}\n", "um", kAxis - 2, std::string(kPlot, '-'));
+  return out + fmt::format("{:>{}} +{}\n", name_of(unit_), kAxis - 2, std::string(kPlot, '-'));
 }
 
 /// X beyond a control limit, # beyond the tolerance.
@@ -146,6 +148,9 @@ std::string history_table(std::span<const record::ArchivedResult> newest_first) 
                     um_or_dash(r->result.upper_limit), cell(r->result.verdict, 16));
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
+    if (unit_of_archive(r->result.unit) == core::ValueUnit::kUrad) {  // the head says um
+      out += fmt::format("{:>63}\n", "in urad");
+    }
     if (r->result.lower_limit) {  // below the limit, which is the upper one
       out += fmt::format("{:>{}}\n",
                          fmt::format("lower limit {:>7}", um_or_dash(r->result.lower_limit)), 63);
@@ -158,7 +163,8 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   if (chart.results.empty()) return "no result with a value\n";
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);
-  TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
+  TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre,
+                    unit_of(chart));
   const auto line = [&](double value_mm, char mark, std::string_view name) {
     canvas.line(value_mm / core::kMicrometre, mark, fmt::format("{} {}", name, um(value_mm)));
   };
@@ -178,7 +184,8 @@ std::string history_chart(const RunChart& chart, bool coloured) {
                        std::string(chart.lower_limit_mm ? "; L: its lower limit" : ""));
   }
   if (chart.upper_limit_mm && !range.limit_shown) {
-    out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));
+    out += fmt::format("the tolerance, {} {}, is above the chart\n", um(*chart.upper_limit_mm),
+                       name_of(unit_of(chart)));
   }
   if (const std::string words = capability_in_words(chart); !words.empty()) {
     out.append("\n").append(wrapped("", words));

@@ -21,8 +21,6 @@ using core::um;
 using evaluation::Finding;
 using evaluation::LocalValue;
 
-std::string sign_of(core::LengthUnit unit) { return unit == core::LengthUnit::kUm ? "µm" : "mm"; }
-
 /// Words for a number of a finding, with the unit of one that is no length of the value.
 struct NumberWords {
   std::string_view name;
@@ -47,7 +45,7 @@ std::string number_entry(const evaluation::NamedNumber& number,
   const std::string name = known != kWords.end() ? tr(known->words) : escaped(number.name);
   if (number.length) {
     // A deviation is in um also where the value is a size.
-    const bool size = value.unit() == core::LengthUnit::kMm && number.name != "SR" &&
+    const bool size = value.unit() == core::ValueUnit::kMm && number.name != "SR" &&
                       number.name != "SQ" && known == kWords.end();
     return entry(name, size ? value.in_digits(number.value) + " mm" : um(number.value) + " µm");
   }
@@ -79,7 +77,7 @@ std::string local_table(const evaluation::CharacteristicResult& result) {
   if (number == 0) return {};
   const bool ranges = std::ranges::any_of(
       finding.local, [](const LocalValue& local) { return local.least_mm.has_value(); });
-  const std::string unit = " / " + sign_of(result.value->unit());
+  const std::string unit = fmt::format(" / {}", core::sign_of(result.value->unit()));
   std::vector<std::string> names = {tr("Place")};
   if (ranges) names.push_back(tr("Least") + unit);
   names.push_back((ranges ? tr("Greatest") : tr("Value")) + unit);
@@ -142,7 +140,7 @@ std::string datum_table(const evaluation::CharacteristicResult& result,
   }
   for (std::size_t i = 0; i < std::min(finding.about_equalised_mm.size(), finding.judged.size());
        ++i) {
-    const std::string unit = sign_of(result.value->unit());
+    const std::string unit(core::sign_of(result.value->unit()));
     html += note(trf("{}: {} about the one-sided datum, {} about the equalised one.",
                      escaped(tr(finding.judged[i].symbol)),
                      result.value->in_digits(finding.judged[i].value_mm) + " " + unit,
@@ -186,13 +184,13 @@ std::string finding_warnings(const Finding& finding) {
 }
 
 std::string judged_entries(const evaluation::CharacteristicResult& result) {
-  const std::string unit = sign_of(result.value->unit());
+  const std::string unit(core::sign_of(result.value->unit()));
   std::string html;
   for (const evaluation::JudgedValue& value : result.finding->judged) {
     const auto limit = [&](const std::optional<double>& limit_mm) {
-      return result.value->unit() == core::LengthUnit::kUm
-                 ? um(*limit_mm)
-                 : core::decimal(core::on_grid(*limit_mm, 1e6));
+      return result.value->unit() == core::ValueUnit::kMm
+                 ? core::decimal(core::on_grid(*limit_mm, 1e6))
+                 : um(*limit_mm);
     };
     std::string limits;
     if (value.limits.lower_mm) limits = trf("at least {} {}", limit(value.limits.lower_mm), unit);

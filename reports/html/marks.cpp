@@ -110,9 +110,11 @@ std::string tolerance_bar(const evaluation::CharacteristicResult& result, double
   end_mm = std::max(end_mm, 1.05 * rejection_mm);
   const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
   const core::Phrase text = result.value->value_text();
-  std::string label = trf("{} of {} um", in_words(text).value_or(text.english()), um(tolerance_mm));
+  const std::string_view unit = core::name_of(result.value->unit());
+  std::string label =
+      trf("{} of {} {}", in_words(text).value_or(text.english()), um(tolerance_mm), unit);
   if (acceptance_mm < tolerance_mm) {
-    label += trf(", accepted up to {} um", um(acceptance_mm));
+    label += trf(", accepted up to {}", fmt::format("{} {}", um(acceptance_mm), unit));
   }
   Svg svg(kWidth, 26.0, "bar", label);
   svg.rect(x.from, 8.0, x.at(tolerance_mm) - x.from, 10.0, "allowed");
@@ -197,7 +199,7 @@ std::string limits_bar(const evaluation::CharacteristicResult& result,
   return svg.str();
 }
 
-std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget) {
+std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget, core::ValueUnit unit) {
   constexpr double kRow = 24.0;
   constexpr double kFrom = 170.0;
   double most_mm = 0.0;
@@ -217,14 +219,17 @@ std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget) {
     svg.text(kFrom - 10.0, y + 16.0, "end", "label", tr(line->name));
     svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
              line->measurand == evaluation::Measurand::kWholeSurface ? "share surface" : "share");
-    const std::string size = um(line->standard_uncertainty_mm);
+    const auto with_sign = [&](const std::string& number) {
+      return fmt::format("{} {}", number, core::sign_of(unit));
+    };
+    const std::string size = with_sign(um(line->standard_uncertainty_mm));
     const std::string share = fixed(100.0 * line->share_1, 0);
     // Linear propagation knows no shift, but how the value changes.
     svg.text(end + 8.0, y + 16.0, "start", "label",
-             line->per_u_mm ? trf("{} \u00b5m, {} %; {} \u00b5m for +1 u", size, share,
-                                  signed_um(*line->per_u_mm))
-                            : trf("{} \u00b5m, {} %; mean shift {} \u00b5m", size, share,
-                                  signed_um(line->shift_mm)));
+             line->per_u_mm
+                 ? trf("{}, {} %; {} for +1 u", size, share, with_sign(signed_um(*line->per_u_mm)))
+                 : trf("{}, {} %; mean shift {}", size, share,
+                       with_sign(signed_um(line->shift_mm))));
     y += kRow;
   }
   return svg.str();

@@ -36,7 +36,7 @@ std::string place_title(LocalValue::Place place) {
 std::string local_chart(const evaluation::CharacteristicResult& result, double nominal_mm) {
   const Finding& finding = *result.finding;
   if (finding.local.size() < 2) return {};
-  const bool size = evaluation::unit_of(result.characteristic) == core::LengthUnit::kMm;
+  const bool size = evaluation::unit_of(result.characteristic) == core::ValueUnit::kMm;
   const double zero_mm = !size              ? 0.0
                          : nominal_mm > 0.0 ? nominal_mm
                                             : finding.local.front().value_mm;

@@ -27,7 +27,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string limits_bar(const evaluation::CharacteristicResult& result,
                                      const std::vector<evaluation::JudgedValue>& judged);
 /// Ranked bars of an uncertainty budget.
-[[nodiscard]] std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget);
+[[nodiscard]] std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget,
+                                      core::ValueUnit unit);
 
 /// Polar plots of the layers, all at one magnification.
 /// @param all  The feature with the points in windows, whose sectors are shaded; null: none is.

@@ -37,31 +37,35 @@ std::string statements(const evaluation::DecisionRule& rule) {
   return html.empty() ? html : "<dl>" + html + "</dl>";
 }
 
-/// @param unit  Of the value; its uncertainty is always in µm.
+/// @param unit  Of the value; the uncertainty of a length is always in µm.
 std::string statement_entry(const std::string& name, const evaluation::UncertaintyStatement& s,
-                            core::LengthUnit unit, double coverage_1) {
+                            core::ValueUnit unit, double coverage_1) {
   const int decimals = evaluation::decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
   const auto value = [&](double mm) {
-    return unit == core::LengthUnit::kUm ? number(mm) : core::length_in(unit, mm, decimals);
+    return unit == core::ValueUnit::kMm ? core::length_in(unit, mm, decimals) : number(mm);
   };
-  const std::string sign = unit == core::LengthUnit::kUm ? "µm" : "mm";
+  const std::string_view sign = core::sign_of(unit);
+  const auto with_small_sign = [&](const std::string& text) {
+    return fmt::format("{} {}", text, core::sign_of(core::unit_of_difference(unit)));
+  };
   if (s.at_most) {
     return entry(name,
                  with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
                            trf("upper end of the {:g} % interval; noise and influences make up too "
-                               "much of the value for more. Numbers stable to {} µm",
-                               100.0 * coverage_1, tiny_um(s.numerical_tolerance_mm))),
+                               "much of the value for more. Numbers stable to {}",
+                               100.0 * coverage_1,
+                               with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
                  "lead");
   }
   return entry(name,
                with_note(fmt::format("{} {} [{}, {}]", value(s.estimate_mm), sign, value(s.low_mm),
                                      value(s.high_mm)),
-                         trf("corrected value; {:g} % interval, U = {} µm, standard uncertainty {} "
-                             "µm; numbers stable to {} µm",
-                             100.0 * coverage_1, number(s.expanded_mm()),
-                             fixed(s.standard_uncertainty_mm * 1e3, decimals + 1),
-                             tiny_um(s.numerical_tolerance_mm))),
+                         trf("corrected value; {:g} % interval, U = {}, standard uncertainty {}; "
+                             "numbers stable to {}",
+                             100.0 * coverage_1, with_small_sign(number(s.expanded_mm())),
+                             with_small_sign(fixed(s.standard_uncertainty_mm * 1e3, decimals + 1)),
+                             with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
                "lead");
 }
 
@@ -132,10 +136,12 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
                                  trf("{}. Monte Carlo of {} trials (JCGM 101).",
                                      in_sentence(result.value->sentence()), u.trials));
   html += R"(<dl class="keys">)";
-  const core::LengthUnit unit = result.value->unit();
+  const core::ValueUnit unit = result.value->unit();
   html += entry(tr("As read, not corrected"),
-                unit == core::LengthUnit::kUm ? um(u.uncorrected_mm) + " µm"
-                                              : result.value->in_digits(u.uncorrected_mm) + " mm");
+                fmt::format("{} {}",
+                            unit == core::ValueUnit::kMm ? result.value->in_digits(u.uncorrected_mm)
+                                                         : um(u.uncorrected_mm),
+                            core::sign_of(unit)));
   html += statement_entry(
       of_cloud ? tr("At the sampled points, free of noise") : tr("Free of noise and influences"),
       u.sampled, unit, status.coverage_1());
@@ -145,11 +151,12 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
   }
   html += of_cloud ? bias_entries(u) + finding_entry(u)
                    : entry(tr("Inflation by noise and influences"),
-                           with_note(signed_um(u.noise_inflation_mm) + " µm",
+                           with_note(fmt::format("{} {}", signed_um(u.noise_inflation_mm),
+                                                 core::sign_of(core::unit_of_difference(unit))),
                                      tr("value as measured minus the corrected value")));
   html += "</dl>";
   if (!of_cloud) html += note_list(u.notes);
-  if (const std::string bars = budget_bars(u.budget); !bars.empty()) {
+  if (const std::string bars = budget_bars(u.budget, core::unit_of_difference(unit)); !bars.empty()) {
     html += fmt::format(
         R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", bars,
         of_cloud

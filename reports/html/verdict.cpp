@@ -27,19 +27,22 @@ std::string css_name(evaluation::Verdict verdict) {
 
 /// Whether the limits are not the one upper limit of a deviation.
 bool has_sides(const record::Characteristic& asked) {
-  return asked.lower_mm || evaluation::unit_of(asked) == core::LengthUnit::kMm;
+  return asked.lower_mm || evaluation::unit_of(asked) == core::ValueUnit::kMm;
 }
 
 /// A limit, which is the sum of a nominal size and a deviation.
-std::string limit_text(core::LengthUnit unit, double limit_mm) {
+std::string limit_text(core::ValueUnit unit, double limit_mm) {
   constexpr double kSteps = 1e6;  // of a nanometre
-  return unit == core::LengthUnit::kUm ? um(limit_mm) + " µm"
-                                       : core::decimal(core::on_grid(limit_mm, kSteps)) + " mm";
+  return fmt::format("{} {}",
+                     unit == core::ValueUnit::kMm
+                         ? core::decimal(core::on_grid(limit_mm, kSteps))
+                         : um(limit_mm),
+                     core::sign_of(unit));
 }
 
 /// "&le; 30 mm, &ge; 29.987 mm".
 std::string limits_of(const record::Characteristic& asked, std::string_view between) {
-  const core::LengthUnit unit = evaluation::unit_of(asked);
+  const core::ValueUnit unit = evaluation::unit_of(asked);
   std::string html;
   if (asked.tolerance_mm) html += "≤ " + limit_text(unit, *asked.tolerance_mm);
   if (asked.tolerance_mm && asked.lower_mm) html += between;
@@ -73,9 +76,10 @@ std::string sentence(const evaluation::Evaluation& evaluation) {
     return trf("{} {}, limits {}.", tr(evaluation::symbol_of(only->characteristic)),
                in_sentence(only->value->value_text()), limits_of(only->characteristic, tr(", ")));
   }
-  const std::string limit = um(*only->characteristic.tolerance_mm);
-  if (!only->value) return trf("There is no value to hold against {} µm.", limit);
-  return trf("{} {}, limit {} µm.", tr(evaluation::symbol_of(only->characteristic)),
+  const std::string limit = limit_text(evaluation::unit_of(only->characteristic),
+                                       *only->characteristic.tolerance_mm);
+  if (!only->value) return trf("There is no value to hold against {}.", limit);
+  return trf("{} {}, limit {}.", tr(evaluation::symbol_of(only->characteristic)),
              in_sentence(only->value->value_text()), limit);
 }
 
@@ -103,7 +107,7 @@ std::string unfinished_banner(const record::RunRecord& record,
 std::string size_frame(const record::Feature& feature, const record::Characteristic& asked) {
   using Indication = record::Indication;
   std::string size;
-  if (feature.nominal_diameter_mm > 0.0 && evaluation::unit_of(asked) == core::LengthUnit::kMm) {
+  if (feature.nominal_diameter_mm > 0.0 && evaluation::unit_of(asked) == core::ValueUnit::kMm) {
     size = fmt::format("Ø{:.10g}", feature.nominal_diameter_mm);
     const auto deviation = [&](const std::optional<double>& limit_mm) {
       if (!limit_mm) return std::string("–");
@@ -183,15 +187,11 @@ std::string bar_cell(const evaluation::CharacteristicResult& result) {
                      trf("{} % of the limit", fixed(100.0 * shown_mm(*result.value) / *limit, 0)));
 }
 
-std::string_view unit_sign(core::LengthUnit unit) {
-  return unit == core::LengthUnit::kUm ? "µm" : "mm";
-}
-
 /// The deciding value; with an interval, the estimate, that interval and the value as read.
 std::string value_cell(const evaluation::StatedValue& value) {
   std::string html =
       fmt::format(R"(<span class="value">{}{}</span> {})", is_at_most(value) ? "≤ " : "",
-                  value.in_digits(shown_mm(value)), unit_sign(value.unit()));
+                  value.in_digits(shown_mm(value)), core::sign_of(value.unit()));
   if (is_at_most(value)) {
     return html + fmt::format(R"(<div class="note">{}</div><div class="note">{}</div>)",
                               tr("upper bound only"),
@@ -214,7 +214,7 @@ std::string values_cell(const evaluation::CharacteristicResult& result) {
     html += value.value_mm == stated.value_mm()
                 ? value_cell(stated)
                 : fmt::format(R"(<span class="value">{}</span> {})",
-                              stated.in_digits(value.value_mm), unit_sign(stated.unit()));
+                              stated.in_digits(value.value_mm), core::sign_of(stated.unit()));
     html += fmt::format(R"(<div class="note">{}</div>)", escaped(tr(value.symbol)));
   }
   return html;
@@ -222,7 +222,8 @@ std::string values_cell(const evaluation::CharacteristicResult& result) {
 
 std::string limits_cell(const record::Characteristic& asked) {
   if (!asked.toleranced()) return tr("none");
-  return has_sides(asked) ? limits_of(asked, "<br/>") : um(*asked.tolerance_mm) + " µm";
+  return has_sides(asked) ? limits_of(asked, "<br/>")
+                          : limit_text(evaluation::unit_of(asked), *asked.tolerance_mm);
 }
 
 /// A probability estimated from trials, with a resolution no finer than one trial.

@@ -213,7 +213,9 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   };
   line("    " + tr("corrected"), u.sampled);
   if (u.whole) line("", *u.whole);
-  std::string bias = trf("noise {} um", signed_um(u.noise_inflation_mm));
+  std::string bias =
+      trf("noise {}", fmt::format("{} {}", signed_um(u.noise_inflation_mm),
+                                  name_of(core::unit_of_difference(value.unit()))));
   if (u.sampling_loss_mm) bias += trf(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
   const auto most = std::find_if(
       u.budget.begin(), u.budget.end(),
@@ -230,9 +232,13 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
 /// um".
 std::string limits_text(const record::Characteristic& asked) {
   if (!asked.toleranced()) return tr("no limit");
-  if (evaluation::unit_of(asked) == core::LengthUnit::kUm) {
-    if (!asked.lower_mm) return trf("limit {} um", um(*asked.tolerance_mm));
-    if (asked.tolerance_mm) return trf("{} to {} um", um(*asked.lower_mm), um(*asked.tolerance_mm));
+  if (const auto unit = evaluation::unit_of(asked); unit != core::ValueUnit::kMm) {
+    if (!asked.lower_mm) {
+      return trf("limit {}", fmt::format("{} {}", um(*asked.tolerance_mm), name_of(unit)));
+    }
+    if (asked.tolerance_mm) {
+      return trf("{} to {} {}", um(*asked.lower_mm), um(*asked.tolerance_mm), name_of(unit));
+    }
   }
   constexpr double kSteps = 1e6;  // of a nanometre: limits are sums of a nominal and a deviation
   const auto mm = [](double length_mm) { return core::decimal(core::on_grid(length_mm, kSteps)); };

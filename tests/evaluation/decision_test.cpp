@@ -348,7 +348,7 @@ TEST(DecisionRule, NToOneComparesWithBothLimitsOfASizeOrNotAtAll) {
   evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
   rule.ratio = 4.0;
   evaluation::KnownValue size = known(29.999, error_sample());  // the interval is 1.95 um wide
-  size.unit = core::LengthUnit::kMm;
+  size.unit = core::ValueUnit::kMm;
   const Limits upper{.lower_mm = {}, .upper_mm = 30.0};
   const Limits lower{.lower_mm = 29.98, .upper_mm = {}};
   for (const Limits& one : {upper, lower}) {
@@ -360,6 +360,42 @@ TEST(DecisionRule, NToOneComparesWithBothLimitsOfASizeOrNotAtAll) {
   for (const Limits& one : {upper, lower}) EXPECT_TRUE(apply_rule(rule, size, one));
   size.tolerance_mm = 7e-3;
   for (const Limits& one : {upper, lower}) EXPECT_FALSE(apply_rule(rule, size, one));
+}
+
+// An angle is held in mrad: its numbers are those of a length in mm, and its unit is urad.
+TEST(DecisionRule, OfAnAngleSpeaksOfMicroradians) {
+  const auto errors = error_sample();
+  const Limits both{.lower_mm = -10e-3, .upper_mm = 10e-3};
+  for (const Kind kind : kAllRules) {
+    for (const Limits& limits : {kTolerance, both}) {
+      for (const double sign : {1.0, -1.0}) {
+        for (const double size_mm : {2e-3, 9.9e-3, 15e-3}) {
+          SCOPED_TRACE(fmt::format("{} {}", name_of(kind), sign * size_mm));
+          const KnownValue length = known(sign * size_mm, errors);
+          KnownValue angle = length;
+          angle.unit = core::ValueUnit::kUrad;
+          const auto of_length = apply_rule(rule_named(kind), length, limits);
+          const auto of_angle = apply_rule(rule_named(kind), angle, limits);
+          ASSERT_EQ(of_length.has_value(), of_angle.has_value());
+          if (of_length) {
+            EXPECT_EQ(of_length->verdict, of_angle->verdict);
+          }
+          std::string said =
+              of_length ? of_length->sentence.english() : of_length.error().what;
+          for (std::size_t at = said.find(" um"); at != std::string::npos; at = said.find(" um")) {
+            said.replace(at, 3, " urad");
+          }
+          EXPECT_EQ(of_angle ? of_angle->sentence.english() : of_angle.error().what, said);
+        }
+      }
+    }
+  }
+  KnownValue angle{.measured_mm = 7.5e-3};
+  angle.unit = core::ValueUnit::kUrad;
+  const auto outcome = apply_rule(rule_named(Kind::kSimpleAcceptance), angle, both);
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->sentence.english(),
+            "7.500 urad is within the upper limit of 10.000 urad by 2.500 urad");
 }
 
 TEST(DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {

@@ -38,6 +38,7 @@ using core::kMicrometre;
 using core::kMicroradian;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kPlateBallRadius_mm = 5.0;
 constexpr double kTip_mm = 2.0;
@@ -682,7 +683,8 @@ TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
   asked.clear();
   for (const auto axis : {AxisIndication::Axis::kAlpha, AxisIndication::Axis::kBeta}) {
     for (const auto error : {AxisIndication::AxisError::kX, AxisIndication::AxisError::kY,
-                             AxisIndication::AxisError::kZ}) {
+                             AxisIndication::AxisError::kZ, AxisIndication::AxisError::kA,
+                             AxisIndication::AxisError::kB, AxisIndication::AxisError::kC}) {
       asked.push_back(axis_error_of(axis, error, -1.0, 1.0));
     }
   }
@@ -691,15 +693,19 @@ TEST(AxisError, IsTheLargestOverTheStationsOfACalibration) {
   const FeatureResult& feature = evaluation->features.at(0);
   ASSERT_NE(result_of(feature), nullptr) << (feature.failure ? feature.failure->what : "");
   const fixture::SimulatedFixture hidden(fixture_options());
-  for (std::size_t c = 0; c < 6; ++c) {
+  for (std::size_t c = 0; c < 12; ++c) {
     SCOPED_TRACE(c);
     const CharacteristicResult& one = feature.characteristics.at(c);
-    double truth_mm = 0.0;
+    const bool angle = c % 6 >= 3;
+    double truth_mm = 0.0;  // of an angle in mrad
     for (int k = -4; k <= 4; ++k) {
-      const auto errors = hidden.true_errors(c >= 3, k * kStep_deg * kDegree);
-      truth_mm = std::max(truth_mm, std::abs(errors.shift_mm(static_cast<Eigen::Index>(c % 3))));
+      const auto errors = hidden.true_errors(c >= 6, k * kStep_deg * kDegree);
+      const auto i = static_cast<Eigen::Index>(c % 3);
+      truth_mm =
+          std::max(truth_mm, std::abs(angle ? 1e3 * errors.tilt_rad(i) : errors.shift_mm(i)));
     }
     ASSERT_TRUE(one.value && one.value->statement() != nullptr) << one.reason;
+    EXPECT_EQ(one.value->unit(), angle ? core::ValueUnit::kUrad : core::ValueUnit::kUm);
     const UncertaintyStatement& said = *one.value->statement();
     const double u_mm = 0.5 * (said.high_mm - said.low_mm);
     EXPECT_GT(u_mm, 0.0);
@@ -714,22 +720,33 @@ TEST(AxisError, TheSignOfTheErrorCounts) {
   bench.declared.emplace().ball_um = record::DeclaredInfluence{0.1};
   record::RunRecord run = calibration_run(bench);
   run.header.decision_rule = "iso-14253-1";
-  const auto judged = [&](double lower_mm, double upper_mm) {
-    run.features[0].characteristics = {axis_error_of(
-        AxisIndication::Axis::kAlpha, AxisIndication::AxisError::kY, lower_mm, upper_mm)};
-    const auto evaluation = evaluate(run);
-    EXPECT_TRUE(evaluation);
-    return evaluation->features.at(0).characteristics.at(0);
-  };
-  const CharacteristicResult within = judged(-1.0, 1.0);
-  EXPECT_EQ(within.verdict, Verdict::kConforms) << within.reason;
-  const double found_mm = within.value_mm().value();
-  const double size_mm = std::abs(found_mm);
-  EXPECT_EQ(judged(-2.0 * size_mm, 2.0 * size_mm).verdict, Verdict::kConforms);
-  const CharacteristicResult beyond = found_mm > 0.0 ? judged(-2.0 * size_mm, 0.5 * size_mm)
-                                                     : judged(-0.5 * size_mm, 2.0 * size_mm);
-  EXPECT_EQ(beyond.verdict, Verdict::kDoesNotConform) << beyond.reason;
-  EXPECT_EQ(beyond.value_mm().value(), found_mm);
+  for (const auto error : {AxisIndication::AxisError::kY, AxisIndication::AxisError::kB}) {
+    SCOPED_TRACE(record::name_of(error));
+    const auto judged = [&](double lower_mm, double upper_mm) {
+      run.features[0].characteristics = {
+          axis_error_of(AxisIndication::Axis::kAlpha, error, lower_mm, upper_mm)};
+      const auto evaluation = evaluate(run);
+      EXPECT_TRUE(evaluation);
+      return evaluation->features.at(0).characteristics.at(0);
+    };
+    const CharacteristicResult within = judged(-1.0, 1.0);
+    EXPECT_EQ(within.verdict, Verdict::kConforms) << within.reason;
+    const double found_mm = within.value_mm().value();
+    const double size_mm = std::abs(found_mm);
+    EXPECT_EQ(judged(-2.0 * size_mm, 2.0 * size_mm).verdict, Verdict::kConforms);
+    const CharacteristicResult beyond = found_mm > 0.0 ? judged(-2.0 * size_mm, 0.5 * size_mm)
+                                                       : judged(-0.5 * size_mm, 2.0 * size_mm);
+    EXPECT_EQ(beyond.verdict, Verdict::kDoesNotConform) << beyond.reason;
+    EXPECT_EQ(beyond.value_mm().value(), found_mm);
+    const std::string_view unit = record::is_angle(error) ? " urad" : " um";
+    const std::string_view other = record::is_angle(error) ? " um" : " urad";
+    for (const CharacteristicResult* one : {&within, &beyond}) {
+      for (const std::string& text : {one->reason.english(), one->value->sentence().english()}) {
+        EXPECT_THAT(text, HasSubstr(std::string(unit)));
+        EXPECT_THAT(text, Not(HasSubstr(std::string(other))));
+      }
+    }
+  }
 }
 
 /// A result of one axis with 24 stations, whose errors carry noise of standard deviation u.
@@ -742,6 +759,9 @@ RotaryResult of_stations(const std::function<double(double)>& error_mm, double u
     station.angle_rad = (k * kStep_deg - 172.5) * kDegree;
     station.errors.shift_mm.x() = error_mm(station.angle_rad) + u_mm * noise.normal();
     station.covariance(0, 0) = u_mm * u_mm;
+    // The same numbers in mrad as a tilt about z.
+    station.errors.tilt_rad.z() = 1e-3 * station.errors.shift_mm.x();
+    station.covariance(5, 5) = 1e-6 * u_mm * u_mm;
     stations.push_back(station);
   }
   auto motion = fixture::StationMotion::through(std::move(stations));
@@ -775,6 +795,27 @@ TEST(AxisError, ErrorsOfNoiseAloneAreTurned) {
   }
   EXPECT_NEAR(measured, 2.24, 0.35);
   EXPECT_LT(estimate, 0.8 * measured);
+}
+
+// Errors of the same numbers in mrad and in mm: value and interval are the same numbers.
+TEST(AxisError, OfAnAngleIsThatOfALengthOfTheSameNumbers) {
+  const RotaryResult found =
+      of_stations([](double rad) { return -10e-3 * std::cos(rad) - 2e-3; }, 0.3e-3, 3);
+  record::Characteristic asked = axis_error_of(
+      record::Indication::Axis::kAlpha, record::Indication::AxisError::kX, -20e-3, 20e-3);
+  const auto shift = value_of(found, asked);
+  const auto of_shift = intervals_of(found, std::vector{asked}, {});
+  asked.indication.error = record::Indication::AxisError::kC;
+  const auto tilt = value_of(found, asked);
+  const auto of_tilt = intervals_of(found, std::vector{asked}, {});
+  ASSERT_TRUE(shift && tilt);
+  EXPECT_NEAR(tilt->value_mm, shift->value_mm, 1e-12);
+  const UncertaintyStatement* length = of_shift.at(0).about(Measurand::kSampledPoints);
+  const UncertaintyStatement* angle = of_tilt.at(0).about(Measurand::kSampledPoints);
+  ASSERT_TRUE(length != nullptr && angle != nullptr);
+  // Draws of their own: the widths agree within the scatter of 2000 trials.
+  EXPECT_NEAR(angle->estimate_mm, length->estimate_mm, 0.1e-3);
+  EXPECT_NEAR(angle->expanded_mm(), length->expanded_mm(), 0.15 * length->expanded_mm());
 }
 
 TEST(AxisError, IntervalsHoldTheLargestError) {

@@ -417,6 +417,32 @@ TEST(Characteristics, OfTheRadiusOfAWheelHaveLimitsWithTheirSigns) {
   EXPECT_EQ(characteristic_of(asked, 30.0).tolerance_mm, -5.0 * core::kMicrometre);
 }
 
+// Lengths are held in mm, angles in mrad: 20 urad are 0.02 mrad. Keys of the other unit say nothing.
+TEST(Characteristics, OfAnglesHaveLimitsInMicroradians) {
+  CharacteristicTask asked;
+  asked.form = Form::kAxisError;
+  asked.symmetric_um = 7.0;
+  asked.symmetric_urad = 20.0;
+  for (const auto error : {Indication::AxisError::kA, Indication::AxisError::kB,
+                           Indication::AxisError::kC}) {
+    asked.indication.error = error;
+    EXPECT_DOUBLE_EQ(characteristic_of(asked).lower_mm.value(), -0.020);
+    EXPECT_DOUBLE_EQ(characteristic_of(asked).tolerance_mm.value(), 0.020);
+  }
+  asked.indication.error = Indication::AxisError::kX;
+  EXPECT_DOUBLE_EQ(characteristic_of(asked).tolerance_mm.value(), 0.007);
+  asked.indication.error = Indication::AxisError::kC;
+  asked.symmetric_urad.reset();
+  EXPECT_FALSE(characteristic_of(asked).toleranced());
+  asked.lower_urad = -20.0;
+  asked.upper_urad = -5.0;
+  EXPECT_DOUBLE_EQ(characteristic_of(asked).lower_mm.value(), -0.020);
+  EXPECT_DOUBLE_EQ(characteristic_of(asked).tolerance_mm.value(), -0.005);
+  asked.tolerance_urad = 8.0;
+  EXPECT_FALSE(characteristic_of(asked).lower_mm);
+  EXPECT_DOUBLE_EQ(characteristic_of(asked).tolerance_mm.value(), 0.008);
+}
+
 TEST(Characteristics, OfAnalysesCarryTheirOwnDecisionRule) {
   std::array<CharacteristicLevel, 1> levels;
   levels[0].decision_rule.emplace().rule = DecisionRuleTask::Rule::kJcgm106;

@@ -198,6 +198,68 @@ TEST(AnalysisInterval, StandsInEveryWriter) {
   EXPECT_THAT(page, Not(HasSubstr("spots")));
 }
 
+// An angle, held in mrad: 3.1 urad as read, limits of 5 urad to both sides.
+Case angle_case(std::optional<double> lower) {
+  Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync");
+  CharacteristicResult& one = made.evaluation.features.front().characteristics.front();
+  one.characteristic.form = record::Form::kAxisError;
+  one.characteristic.indication.axis = record::Indication::Axis::kAlpha;
+  one.characteristic.indication.error = record::Indication::AxisError::kC;
+  one.characteristic.lower_mm = lower;
+  const core::Phrase said = core::as_it_is("none");
+  one.value.emplace("EC \u03b1", 0.0031,
+                    ValueOperator(ReferenceTerm(said), FilterTerm(said), SamplingTerm(said),
+                                  TipTerm(said), TemperatureTerm(said)),
+                    UncertaintyStatus::stated(interval(false), 0.95), Measurand::kSampledPoints,
+                    core::ValueUnit::kUrad);
+  return made;
+}
+
+TEST(AnalysisInterval, OfAnAngleIsInMicroradiansInEveryWriter) {
+  const Case made = angle_case(-0.005);
+  const auto asked = analysis_document(made)["features"][0]["characteristics"][0];
+  EXPECT_EQ(asked["unit"], "urad");
+  EXPECT_NEAR(asked["value_urad"], 3.1, 1e-9);
+  EXPECT_NEAR(asked["quoted_urad"], 1.6, 1e-9);
+  EXPECT_EQ(asked["lower_limit_urad"], -5.0);
+  EXPECT_EQ(asked["upper_limit_urad"], 5.0);
+  EXPECT_NEAR(asked["uncertainty"]["sampled_points"]["high_urad"], 3.2, 1e-9);
+  EXPECT_NEAR(asked["uncertainty"]["budget"][0]["standard_uncertainty_urad"], 0.7, 1e-9);
+  EXPECT_THAT(asked.dump(), Not(HasSubstr("_um\"")));
+  const std::string csv = write_results_csv(made.record, made.evaluation);
+  EXPECT_THAT(csv, AllOf(HasSubstr(",high_um,value_urad,quoted_urad,low_urad,high_urad,"
+                                   "lower_limit_urad,upper_limit_urad\n"),
+                         HasSubstr(",,,,3.09"), HasSubstr(",1.6,0.1,3.2,-5,5\n")));
+  EXPECT_THAT(write_dmis(made.record, made.evaluation), HasSubstr("= 1.6 urad, 95 % [0.1, 3.2]"));
+  const std::string qif = write_qif(made.record, made.evaluation);
+  EXPECT_TRUE(check_qif(qif).empty());
+  // 5 urad are 0.000286479 degrees, 1.6 urad 0.0000916732 degrees.
+  EXPECT_THAT(qif, AllOf(HasSubstr("<UserDefinedAngularCharacteristicMeasurement"),
+                         HasSubstr("<MaxValue>0.000286478"), HasSubstr("<MinValue>-0.000286478"),
+                         HasSubstr(">0.0000916732"), Not(HasSubstr("UserDefinedLinear"))));
+  EXPECT_THAT(analysis_summary(made), AllOf(HasSubstr("1.6 urad"), HasSubstr("-5.000 to 5.000 urad"),
+                                            HasSubstr("[0.1, 3.2] urad"),
+                                            HasSubstr("noise +1.500 urad")));
+  const std::string page = page_of(made);
+  EXPECT_EQ(testing::first_unbalanced_tag(page), "");
+  EXPECT_THAT(page, AllOf(HasSubstr("<span class=\"value\">1.6</span> \u00b5rad"),
+                          HasSubstr("\u2264 5.000 \u00b5rad"),
+                          HasSubstr("\u2265 -5.000 \u00b5rad"), HasSubstr("0.700 \u00b5rad")));
+  const record::ArchiveResult kept = archive_entry(made.record, made.evaluation, "").results.front();
+  EXPECT_EQ(kept.unit, "mrad");
+  EXPECT_EQ(kept.value, 0.0016);
+}
+
+TEST(AnalysisInterval, OfAnAngleWithOneLimitNamesItInMicroradians) {
+  const Case made = angle_case(std::nullopt);
+  const auto asked = analysis_document(made)["features"][0]["characteristics"][0];
+  EXPECT_NEAR(asked["tolerance_urad"], 5.0, 1e-9);
+  EXPECT_THAT(write_results_csv(made.record, made.evaluation),
+              AllOf(HasSubstr(",,,,3.09"), HasSubstr(",1.6,0.1,3.2,,5\n")));
+  EXPECT_THAT(analysis_summary(made), HasSubstr("limit 5.000 urad"));
+  EXPECT_THAT(page_of(made), HasSubstr("5.000 \u00b5rad"));
+}
+
 TEST(AnalysisInterval, ThePageSaysWhyThereIsNone) {
   Case made = spindle_case(record::Form::kMotionSynchronous, "EM sync");
   CharacteristicResult& first = made.evaluation.features.front().characteristics.front();

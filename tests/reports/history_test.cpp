@@ -197,6 +197,24 @@ TEST(History, OfASizeShowsBothLimits) {
   EXPECT_THAT(history_chart(run_chart_of(sizes), false), HasSubstr("#"));
 }
 
+// The archive keeps angles in mrad, which leave it in urad.
+TEST(History, OfAnAngleIsInMicroradians) {
+  auto angles = results(60);
+  for (ArchivedResult& r : angles) {
+    r.result.symbol = "EC \u03b1";
+    r.result.unit = "mrad";
+    r.result.value = 4.25e-3;
+    r.result.upper_limit = 12.5e-3;
+  }
+  const RunChart chart = run_chart_of(angles);
+  EXPECT_EQ(unit_of(chart), core::ValueUnit::kUrad);
+  EXPECT_THAT(history_chart(chart, false), AllOf(HasSubstr("  urad +"), Not(HasSubstr("  um +"))));
+  EXPECT_THAT(history_svg(chart), HasSubstr("EC \u03b1 / \u00b5rad"));
+  EXPECT_THAT(history_table(angles), HasSubstr("in urad\n"));
+  EXPECT_THAT(history_csv_rows(angles), HasSubstr(",4.25,12.5,urad,"));
+  EXPECT_THAT(history_table(results(3)), Not(HasSubstr("urad")));
+}
+
 TEST(History, KeepsHostileTextAsText) {
   for (const std::string& text : hostile_fields()) {
     SCOPED_TRACE(text.substr(0, 40));

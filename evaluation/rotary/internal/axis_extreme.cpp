@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/statistics.h"
+#include "evaluation/results/feature_values.h"
 #include "evaluation/uncertainty/curve_trials.h"
 
 namespace rondure::evaluation {
@@ -16,11 +17,12 @@ namespace {
 using record::Indication;
 
 constexpr double kReferencePose_rad = 1e-9;
+constexpr double kMilliradian = 1e3;        ///< Of a rad: angles are held in mrad.
 constexpr double kLeastStationU_mm = 1e-9;  ///< An error of 0 leaves no distribution.
 
-/// The three independent parts of a covariance of shifts, as columns.
-Eigen::Matrix3d shift_parts(const Eigen::Matrix3d& covariance_mm2) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(covariance_mm2);
+/// The three independent parts of a covariance of shifts or tilts, as columns.
+Eigen::Matrix3d independent_parts(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(covariance);
   return solved.eigenvectors() * solved.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
@@ -46,20 +48,25 @@ AxisCurve axis_curve(const RotaryResult& result, const record::Characteristic& c
   const Indication& asked = characteristic.indication;
   const bool beta = asked.axis == Indication::Axis::kBeta;
   const AxisFacts axis = axes_of(result)[beta ? 1 : 0];
-  const auto k = static_cast<Eigen::Index>(asked.error.value_or(Indication::AxisError::kX));
+  const auto error = asked.error.value_or(Indication::AxisError::kX);
+  const bool angle = record::is_angle(error);
+  const auto place = static_cast<Eigen::Index>(error);  // in (t; w), the order of the covariances
+  const Eigen::Index k = place % 3;
+  const double scale = angle ? kMilliradian : 1.0;
   // The combined poses may have scaled the covariances of the stations.
   const double factor = result.scale_low > 1.0 ? result.scale * result.scale : 1.0;
   const fit::RotaryTable& table = axis.study->table;
-  const Eigen::Matrix3d parts =
-      shift_parts(factor * table.reference_covariance.topLeftCorner<3, 3>());
+  const Eigen::Matrix3d of_reference = table.reference_covariance.block<3, 3>(place - k, place - k);
+  const Eigen::Matrix3d parts = scale * independent_parts(factor * of_reference);
   AxisCurve out;
   for (const fixture::AxisStation& station : axis.motion->stations()) {
     const double turned_rad = station.angle_rad - table.reference_rad;
     if (std::abs(turned_rad) <= kReferencePose_rad) continue;
     const Eigen::Vector3d common = (table.axis.turn(turned_rad) * parts).row(k).transpose();
-    const double alone_mm2 = station.covariance(k, k) - common.squaredNorm();
+    const double alone_mm2 =
+        scale * scale * station.covariance(place, place) - common.squaredNorm();
     out.angle_rad.push_back(station.angle_rad);
-    out.found_mm.push_back(station.errors.shift_mm(k));
+    out.found_mm.push_back(scale * (angle ? station.errors.tilt_rad : station.errors.shift_mm)(k));
     out.u_mm.push_back(std::max(kLeastStationU_mm, std::sqrt(std::max(0.0, alone_mm2))));
     out.common_mm.push_back(common);
     out.redundancy.push_back(least_redundancy(*axis.study, station.angle_rad));
@@ -124,6 +131,7 @@ UncertaintyStatus axis_error_interval(const RotaryResult& result,
   const double inflation_mm = std::max(0.0, core::mean(core_mm) - core_center_mm);
   TrialValues values;
   values.signed_value = characteristic.lower_mm.has_value();
+  values.unit = unit_of(characteristic);
   values.as_measured_mm = axis_value_mm(characteristic, measured);
   for (AxisExtreme& one : drawn) {
     one.from_middle_mm = std::max(0.0, one.from_middle_mm - 2.0 * inflation_mm);

@@ -10,8 +10,8 @@
 
 namespace rondure::evaluation {
 
-/// One translational error of one axis over its stations. The reference pose is no station: its
-/// errors are 0 by definition.
+/// One error of one axis over its stations: a shift, or a tilt in mrad, here and below. The
+/// reference pose is no station: its errors are 0 by definition.
 struct AxisCurve {
   std::vector<double> angle_rad;
   std::vector<double> found_mm;

@@ -47,7 +47,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json gates_json(const std::vector<evaluation::Gate>& gates);
 /// How a value came about.
 /// @param unit  Of the value: of all its lengths but places.
-[[nodiscard]] Json finding_json(const evaluation::Finding& finding, core::LengthUnit unit);
+[[nodiscard]] Json finding_json(const evaluation::Finding& finding, core::ValueUnit unit);
 /// JSON of a feature whose shape is an analysis.
 [[nodiscard]] Json analysis_json(const evaluation::FeatureResult& feature);
 [[nodiscard]] Json rotary_json(const evaluation::RotaryResult& facts);

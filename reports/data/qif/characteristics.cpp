@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/units.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
 #include "evaluation/results/section.h"
@@ -23,9 +24,11 @@ using record::Form;
 using record::Reference;
 
 /// The family of elements for a characteristic. Geometric characteristics of QIF must have a
-/// tolerance; reported-only values, and those that QIF has no word for, are user-defined lengths.
+/// tolerance; reported-only values, and those that QIF has no word for, are user-defined lengths or
+/// angles.
 enum class Family {
   kUserDefined,
+  kUserDefinedAngle,
   kCylindricity,
   kCircularity,
   kDiameter,
@@ -42,7 +45,8 @@ enum class Family {
 
 Family family_of(const record::Characteristic& asked) {
   using Indication = record::Indication;
-  if (evaluation::unit_of(asked) == core::LengthUnit::kMm) return Family::kDiameter;
+  if (evaluation::unit_of(asked) == core::ValueUnit::kMm) return Family::kDiameter;
+  if (evaluation::unit_of(asked) == core::ValueUnit::kUrad) return Family::kUserDefinedAngle;
   if (!asked.tolerance_mm || asked.lower_mm) return Family::kUserDefined;
   if (asked.indication.parameter != Indication::Parameter::kTotal) return Family::kUserDefined;
   switch (asked.form) {
@@ -75,10 +79,10 @@ Family family_of(const record::Characteristic& asked) {
 
 /// "CylindricityCharacteristicItem", ...
 std::string element(Family family, const char* kind) {
-  constexpr std::array<const char*, 13> kNames = {
-      "UserDefinedLinear", "Cylindricity",   "Circularity",   "Diameter",    "Straightness",
-      "Flatness",          "Coaxiality",     "Concentricity", "Parallelism", "Perpendicularity",
-      "Angularity",        "CircularRunout", "TotalRunout"};
+  constexpr std::array<const char*, 14> kNames = {
+      "UserDefinedLinear", "UserDefinedAngular", "Cylindricity",  "Circularity", "Diameter",
+      "Straightness",      "Flatness",           "Coaxiality",    "Concentricity", "Parallelism",
+      "Perpendicularity",  "Angularity",         "CircularRunout", "TotalRunout"};
   return fmt::format("{}Characteristic{}", kNames[static_cast<std::size_t>(family)], kind);
 }
 
@@ -102,15 +106,27 @@ struct PlacedResult {
   int item = 0;
 };
 
-/// The limits of a length.
-void add_length_limits(pugi::xml_node node, const record::Characteristic& asked) {
+/// A length in mm, or an angle, which is held in mrad, in degrees: the units of the file.
+double in_file_unit(const record::Characteristic& asked, double value_mm) {
+  constexpr double kMilliradian = 1e-3;  // in rad
+  return evaluation::unit_of(asked) == core::ValueUnit::kUrad
+             ? core::degrees(kMilliradian * value_mm)
+             : value_mm;
+}
+
+/// The limits of a length or an angle.
+void add_limits(pugi::xml_node node, const record::Characteristic& asked) {
   if (!asked.toleranced()) {
     add(node, "NonTolerance", "MEASURED");
     return;
   }
   const pugi::xml_node tolerance = add(node, "Tolerance");
-  if (asked.tolerance_mm) add(tolerance, "MaxValue", decimal(*asked.tolerance_mm));
-  if (asked.lower_mm) add(tolerance, "MinValue", decimal(*asked.lower_mm));
+  if (asked.tolerance_mm) {
+    add(tolerance, "MaxValue", decimal(in_file_unit(asked, *asked.tolerance_mm)));
+  }
+  if (asked.lower_mm) {
+    add(tolerance, "MinValue", decimal(in_file_unit(asked, *asked.lower_mm)));
+  }
   add(tolerance, "DefinedAsLimit", "true");
 }
 
@@ -220,12 +236,12 @@ void add_definition(QifDraft& draft, PlacedResult& placed) {
                                      element(placed.family, "Definition"));
   const int definition = id_of(node);
   add(node, "Name", asked.id);
-  if (placed.family == Family::kUserDefined) {
-    add_length_limits(node, asked);
+  if (placed.family == Family::kUserDefined || placed.family == Family::kUserDefinedAngle) {
+    add_limits(node, asked);
     add(node, "WhatToMeasure", symbol_words(asked));
   } else if (placed.family == Family::kDiameter) {
     add_size(node, asked.indication);
-    add_length_limits(node, asked);
+    add_limits(node, asked);
   } else {
     add(node, "ToleranceValue", decimal(*asked.tolerance_mm));
     add_zone_definition(draft, placed, node);
@@ -324,14 +340,20 @@ std::string uncertainty_words(const record::Feature& feature,
     const core::Phrase& why = result.value->uncertainty().why();
     return why.empty() ? std::string() : "none: " + why.english();
   }
+  const bool angle = result.value->unit() == core::ValueUnit::kUrad;
+  const char* unit = angle ? "degrees" : "mm";
+  const auto number = [&](double value_mm) {
+    return decimal(in_file_unit(result.characteristic, value_mm));
+  };
   if (known->at_most) {
-    return fmt::format("none: the value is the upper bound, {:g} % lie below {} mm",
+    return fmt::format("none: the value is the upper bound, {:g} % lie below {} {}",
                        50.0 * (1.0 + result.value->uncertainty().coverage_1()),
-                       decimal(known->high_mm));
+                       number(known->high_mm), unit);
   }
-  return fmt::format("standard uncertainty in mm (k = 1), {}; {:g} % lie within {} and {} mm",
-                     name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
-                     decimal(known->low_mm), decimal(known->high_mm));
+  return fmt::format("standard uncertainty in {} (k = 1), {}; {:g} % lie within {} and {} {}",
+                     unit,
+                                         name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
+                     number(known->low_mm), number(known->high_mm), unit);
 }
 
 void add_measured(QifDraft& draft, const PlacedResult& placed) {
@@ -354,10 +376,10 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   if (has_reference(asked)) add_algorithm(node, asked.reference);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   if (!result.value || !std::isfinite(result.value->value_mm())) return;
-  pugi::xml_node value = add(node, "Value", decimal(shown_mm(*result.value)));
+  pugi::xml_node value = add(node, "Value", decimal(in_file_unit(asked, shown_mm(*result.value))));
   const evaluation::UncertaintyStatement* known = result.value->statement();
   if (known != nullptr && !known->at_most) {
-    set(value, "combinedUncertainty", decimal(known->standard_uncertainty_mm));
+    set(value, "combinedUncertainty", decimal(in_file_unit(asked, known->standard_uncertainty_mm)));
   }
   if (asked.reference != Reference::kMinimumZone) return;
   if (placed.family == Family::kCylindricity) add_cylinder_zone(node, placed);
