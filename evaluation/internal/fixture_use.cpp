@@ -103,6 +103,7 @@ FixtureFacts fixture_facts(const record::RunRecord& record) {
   }
   out.kinematics = fixture::compensated(out.kinematics, *calibration);
   out.use = std::move(use);
+  out.calibration = *calibration;
   return out;
 }
 

@@ -12,6 +12,7 @@ namespace rondure::evaluation {
 struct FixtureFacts {
   fixture::Kinematics kinematics;  ///< Nominal, or with the calibrated errors.
   std::optional<FixtureUse> use;   ///< The calibration; none: the fixture was treated as nominal.
+  std::optional<fixture::Calibration> calibration;  ///< As the record holds it, whole.
 };
 
 /// Reads axes and calibration from the settings of the record and checks again whether the run may

@@ -52,6 +52,7 @@ PoseMeans means_of(const RunRecord& record, int visit) {
     point.point = touch.point;
     point.repeats = fresh ? 1 : point.repeats + 1;
     point.tip_mm += (touch.tip_mm - point.tip_mm) / point.repeats;
+    point.time_s += (touch.time_s - point.time_s) / point.repeats;
   }
   for (const Touch* touch : touches) {
     const Eigen::Vector3d apart =
@@ -111,6 +112,7 @@ std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Fe
       out.points.push_back(point);
     }
     out.merged.poses.push_back(visit->reached);
+    out.merged.frames.push_back(pose.X_WB);
     out.merged.points.push_back(means.targets.size());
     poses.push_back(std::move(pose));
   }

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/SVD>
 
+#include "core/decompositions.h"
 #include "core/numbers.h"
 #include "core/units.h"
 #include "core/utc.h"
@@ -242,6 +244,40 @@ core::Result<std::shared_ptr<const fixture::StationMotion>> motion_of(
   return fixture::StationMotion::through(std::move(stations));
 }
 
+/// One mode for each direction in which the mean of the zero poses is uncertain. It turns with the
+/// body, and is the same for both axes, since both refer to these poses. The split of the
+/// covariance of the carried axis is turned to fit that of the base-fixed one.
+std::vector<fixture::CommonMode> zero_pose_modes(const RotaryResult& facts,
+                                                 const Vector3d& offset_mm) {
+  const fit::RotaryTable& of_alpha = facts.alpha.table;
+  const fit::RotaryTable& of_beta = facts.beta.table;
+  const Eigen::LLT<fit::Matrix6> alpha(of_alpha.reference_covariance);
+  const Eigen::LLT<fit::Matrix6> beta(of_beta.reference_covariance);
+  if (alpha.info() != Eigen::Success || beta.info() != Eigen::Success) return {};
+  const fit::Matrix6 alpha_root = alpha.matrixL();
+  fit::Matrix6 to_beta = fit::Matrix6::Identity();  // t + w x d
+  to_beta.topRightCorner<3, 3>() = -fit::cross_matrix(offset_mm);
+  const Eigen::MatrixXd alike = beta.matrixL().solve(to_beta * alpha_root);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> split(alike, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const fit::Matrix6 beta_root =
+      fit::Matrix6(beta.matrixL()) * split.matrixU() * split.matrixV().transpose();
+  const auto turned = [](const fit::RotaryTable& table, const fit::Vector6& mode) {
+    std::vector<fixture::ErrorVector> out;
+    for (const fit::RotaryTableRow& row : table.rows) {
+      const Eigen::Matrix3d turn = table.axis.turn(row.angle_rad - table.reference_rad);
+      fixture::ErrorVector& station = out.emplace_back();
+      station << turn * mode.head<3>(), turn * mode.tail<3>();
+    }
+    return out;
+  };
+  std::vector<fixture::CommonMode> out;
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    out.push_back({fmt::format("zero-poses-{}", k + 1), turned(of_alpha, alpha_root.col(k)),
+                   turned(of_beta, beta_root.col(k))});
+  }
+  return out;
+}
+
 /// Covariance of the motion (t; w) that a calibration predicts for a pose, about the base-fixed
 /// axis: the stations of both axes, and the readings of the pose.
 fit::Matrix6 predicted_covariance(const fixture::Calibration& c, const core::Pose& pose,
@@ -403,6 +439,7 @@ core::Result<void> identify(const Measurement& measured, const fixture::Kinemati
   facts.beta = *std::move(beta);
   facts.calibration.alpha = *std::move(alpha_motion);
   facts.calibration.beta = *std::move(beta_motion);
+  facts.calibration.common_modes = zero_pose_modes(facts, known.axis_offset_mm);
   return {};
 }
 
@@ -504,6 +541,11 @@ core::Result<void> weigh_combined(RotaryResult& facts) {
   if (!beta) return core::fail(beta.error());
   facts.calibration.alpha = *std::move(alpha);
   facts.calibration.beta = *std::move(beta);
+  for (fixture::CommonMode& mode : facts.calibration.common_modes) {
+    for (auto* const stations : {&mode.alpha, &mode.beta}) {
+      for (fixture::ErrorVector& station : *stations) station *= facts.scale;
+    }
+  }
   return {};
 }
 

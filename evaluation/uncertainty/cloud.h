@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
@@ -34,12 +34,16 @@ struct FormPoint {
 struct FormCloud {
   FormKind kind = FormKind::kCylindricity;
   record::Reference reference = record::Reference::kMinimumZone;  ///< Reference of the value.
-  fit::Axis axis;          ///< Machine frame; angles count from the first vector of fit::across().
+  fit::Axis axis;  ///< Machine frame, but see `frames`; angles count from the first vector of
+                   ///< fit::across().
   double radius_mm = 0.0;  ///< Radius of the tip centres, > 0.
   /// Number of passes over the layers, at places of their own.
   int passes = 1;
   bool outside = true;  ///< A shaft, touched towards the axis; false: a bore.
   std::vector<FormPoint> points;
+  /// Pose of the cloud's frame in the machine, by FormPoint::pose: of a cloud in the frame of the
+  /// part, touched in several poses. Empty: the cloud stands in the machine frame.
+  std::vector<Eigen::Isometry3d> frames;
 };
 
 /// The cloud of measured points about their least-squares axis, in the order they were touched:
@@ -53,10 +57,10 @@ struct FormCloud {
     FormKind kind, std::span<const Eigen::Vector3d> points_mm,
     const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
 
-/// The unit vector from the axis to a point, machine frame.
+/// The unit vector from the axis to a point, in the frame of the cloud.
 [[nodiscard]] Eigen::Vector3d outward_normal(const FormCloud& cloud, const FormPoint& point);
 
-/// Where the tip centre is, machine frame [mm].
+/// Where the tip centre is, in the frame of the cloud [mm].
 [[nodiscard]] Eigen::Vector3d position_mm(const FormCloud& cloud, const FormPoint& point);
 
 /// Effect of a shift, a tilt (cylinder only) and a change of radius on the deviations, to first

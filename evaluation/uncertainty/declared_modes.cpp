@@ -50,6 +50,7 @@ class ModeCollector {
   void machine(const MachineInfluences& machine);
   void thermal(const ThermalInfluences& thermal);
   void fixture(const FixtureInfluences& fixture);
+  void calibration(const CalibrationInfluences& used);
 
   DeclaredModes found;
 
@@ -250,16 +251,41 @@ void ModeCollector::fixture(const FixtureInfluences& fixture) {
   }
 }
 
+void ModeCollector::calibration(const CalibrationInfluences& used) {
+  const auto displacements = [&](Distribution distribution, const Eigen::MatrixXd& draws,
+                                 double scale) {
+    for (Index k = 0; k < draws.cols(); ++k) {
+      if (draws.col(k).isZero(0.0)) continue;
+      add_motion(distribution, [&](std::size_t i) -> Vector3d {
+        const Index first = 6 * static_cast<Index>(points_[i].pose);
+        if (first < 0 || first + 6 > draws.rows()) return Vector3d::Zero();  // reference sphere
+        const Vector3d turn = draws.block<3, 1>(first + 3, k);
+        return scale * (draws.block<3, 1>(first, k) + turn.cross(points_[i].position_mm));
+      });
+    }
+  };
+  begin("calibration-stations");
+  displacements(Distribution::kNormal, used.draws, 1.0);
+  if (!used.growth) return;
+  begin("calibration-temperature");
+  displacements(Distribution::kRectangular, *used.growth, 1.0 / std::sqrt(3.0));
+}
+
 }  // namespace
 
 std::vector<TouchedPoint> touched_points(const FormCloud& cloud) {
   std::vector<TouchedPoint> out;
   out.reserve(cloud.points.size());
   for (const FormPoint& point : cloud.points) {
-    const Vector3d normal = outward_normal(cloud, point);
-    out.push_back({position_mm(cloud, point), normal, cloud.outside ? Vector3d(-normal) : normal,
-                   cloud.radius_mm, cloud.radius_mm + point.deviation_mm, point.repeats, point.pose,
-                   point.time_1});
+    Vector3d normal = outward_normal(cloud, point);
+    Vector3d position = position_mm(cloud, point);
+    if (!cloud.frames.empty()) {
+      const Eigen::Isometry3d& frame = cloud.frames.at(static_cast<std::size_t>(point.pose));
+      normal = frame.linear() * normal;
+      position = frame * position;
+    }
+    out.push_back({position, normal, cloud.outside ? Vector3d(-normal) : normal, cloud.radius_mm,
+                   cloud.radius_mm + point.deviation_mm, point.repeats, point.pose, point.time_1});
   }
   return out;
 }
@@ -270,6 +296,7 @@ DeclaredModes declared_modes(std::span<const TouchedPoint> points, const Influen
   if (influences.machine) collect.machine(*influences.machine);
   if (influences.thermal) collect.thermal(*influences.thermal);
   if (influences.fixture) collect.fixture(*influences.fixture);
+  if (influences.calibration) collect.calibration(*influences.calibration);
   return std::move(collect.found);
 }
 

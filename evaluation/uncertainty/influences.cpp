@@ -216,6 +216,47 @@ void say_fixture(const std::optional<FixtureInfluences>& declared, Declaration& 
                         1e6 * fixture.creep_rad));
 }
 
+void say_calibration(const std::optional<CalibrationInfluences>& used, Declaration& out) {
+  if (!used) return;
+  out.group(true);
+  if (used->poses == 1) {
+    out.line(
+        "calibration-stations",
+        core::phrase("calibration {}: errors at its stations; one pose moves no form", used->id));
+    return;
+  }
+  out.line("calibration-stations",
+           core::phrase("calibration {}: errors at its stations with their covariance and what "
+                        "they share, normal, one draw for all {} poses",
+                        used->id, used->poses));
+  if (used->growth) {
+    out.line("calibration-temperature",
+             core::phrase("growth of the fixture by {:.2f} K since its calibration, rectangular",
+                          used->change_K));
+  } else {
+    out.never("calibration-temperature",
+              core::phrase("growth of the fixture since its calibration: its expansion or a "
+                           "temperature is not known"));
+  }
+  out.never("calibration-age",
+            used->age_days
+                ? core::phrase("wear and settling of the fixture in the {:.1f} days "
+                               "since its calibration",
+                               *used->age_days)
+                : core::phrase("wear and settling of the fixture since its calibration"));
+}
+
+core::Result<void> check_calibration_draws(const CalibrationInfluences& used) {
+  const auto fits = [&](const Eigen::MatrixXd& draws) {
+    return draws.rows() == 6 * used.poses && draws.allFinite();
+  };
+  if (used.poses >= 1 && fits(used.draws) && (!used.growth || fits(*used.growth))) return {};
+  return core::fail(Code::kBadOption,
+                    fmt::format("the draws of the calibration are not 6 finite rows for each of {} "
+                                "poses",
+                                used.poses));
+}
+
 }  // namespace
 
 core::Result<void> check_influences(const Influences& influences) {
@@ -231,6 +272,9 @@ core::Result<void> check_influences(const Influences& influences) {
   if (influences.fixture) {
     if (const auto good = check_fixture(*influences.fixture); !good) return good;
   }
+  if (influences.calibration) {
+    if (const auto good = check_calibration_draws(*influences.calibration); !good) return good;
+  }
   return {};
 }
 
@@ -240,6 +284,7 @@ std::vector<InfluenceStatement> influence_statements(const Influences& influence
   say_machine(influences.machine, out);
   say_thermal(influences.thermal, out);
   say_fixture(influences.fixture, out);
+  say_calibration(influences.calibration, out);
   out.never(
       "clamping",
       core::phrase("the part as clamped is what is measured; how clamping bends it is unknown"));

@@ -74,6 +74,22 @@ struct FixtureInfluences {
   std::optional<Eigen::Vector3d> pivot_mm;  ///< Machine frame; none: the centre of the points.
 };
 
+/// What the calibration of the fixture leaves in the poses of a cloud, as displacements of the
+/// body: fixture::calibration_draws(), growth_draws(). Poses share the draws, so that what is
+/// common to all of them moves no form.
+struct CalibrationInfluences {
+  std::string id;  ///< Of the calibration.
+  int poses = 1;   ///< Of the cloud.
+  /// Six rows for each pose, one column for each draw; normal. Columns may be absent of one pose,
+  /// which moves as a whole.
+  Eigen::MatrixXd draws = {};
+  /// The same for the temperature between calibration and use, half-widths; rectangular. None: the
+  /// temperature of either, or the expansion of the fixture, is not known.
+  std::optional<Eigen::MatrixXd> growth = {};
+  double change_K = 0.0;           ///< Temperature of use less that of the calibration.
+  std::optional<double> age_days;  ///< At the start of the run.
+};
+
 /// Declared uncertainty contributions of a measurement. A group that is absent was not declared:
 /// the result states that it is not covered. A zero in a group that is present means: known to be
 /// zero.
@@ -82,6 +98,7 @@ struct Influences {
   std::optional<MachineInfluences> machine;
   std::optional<ThermalInfluences> thermal;
   std::optional<FixtureInfluences> fixture;
+  std::optional<CalibrationInfluences> calibration;  ///< None: the run used none.
 };
 
 /// One line of the declaration according to ISO/TS 15530-4: whether the simulation covers an

@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include "core/noise.h"
 #include "core/units.h"
@@ -528,6 +529,72 @@ TEST(RotaryCalibration, UsedAtAnotherTemperatureNamesTheShiftOfTheAxes) {
   EXPECT_THAT(part.warnings[0].what, HasSubstr("50.370 um"));
   apply_calibration(use, merged);
   EXPECT_EQ(merged.characteristics[0].verdict, Verdict::kVoid);
+}
+
+// All zero poses are displaced by one rigid motion of the body. By hand: the errors at every other
+// station of both axes change by that motion, turned with the body, with the opposite sign. The
+// common modes must be able to say so with one number each.
+TEST(RotaryCalibration, NamesWhatAllStationsShareWithTheZeroPoses) {
+  const record::RunRecord run = calibration_run({});
+  record::RunRecord displaced = run;
+  const Vector3d shift(2e-3, -1e-3, 1.5e-3);  // at the base-fixed axis
+  const Vector3d turn(12e-6, -20e-6, 8e-6);
+  const Vector3d about(0.0, 0.0, 150.0);
+  for (record::Touch& touch : displaced.touches) {
+    if (touch.pose < 0) continue;
+    const core::Pose& at = displaced.poses[static_cast<std::size_t>(touch.pose)].commanded;
+    if (at.alpha_rad != 0.0 || at.beta_rad != 0.0) continue;
+    const Vector3d p = touch.tip_mm - about;
+    touch.tip_mm += shift + turn.cross(p);
+  }
+  const auto one = evaluate(run);
+  const auto other = evaluate(displaced);
+  ASSERT_TRUE(one && other);
+  const RotaryResult* before = result_of(one->features.at(0));
+  const RotaryResult* after = result_of(other->features.at(0));
+  ASSERT_NE(before, nullptr);
+  ASSERT_NE(after, nullptr);
+  const fixture::Calibration& c = before->calibration;
+  ASSERT_EQ(c.common_modes.size(), 6U);
+  std::vector<Eigen::Matrix<double, 6, 1>> changes;
+  std::vector<Eigen::Matrix<double, 6, 6>> modes;
+  for (const bool of_alpha : {true, false}) {
+    const auto& stations = (of_alpha ? c.alpha : c.beta)->stations();
+    const auto& moved = (of_alpha ? after->calibration.alpha : after->calibration.beta)->stations();
+    const Vector3d axis = of_alpha ? Vector3d::UnitX() : Vector3d::UnitY();
+    const Vector3d from_about = of_alpha ? Vector3d(0.0, 0.0, 0.0) : Vector3d(0.4, -0.3, 12.0);
+    for (std::size_t s = 0; s < stations.size(); ++s) {
+      if (std::abs(stations[s].angle_rad) < 0.1) continue;  // a zero pose itself
+      SCOPED_TRACE(stations[s].angle_rad);
+      Eigen::Matrix<double, 6, 1>& change = changes.emplace_back();
+      change << moved[s].errors.shift_mm - stations[s].errors.shift_mm,
+          moved[s].errors.tilt_rad - stations[s].errors.tilt_rad;
+      const Eigen::AngleAxisd by(stations[s].angle_rad, axis);
+      const Vector3d at_axis = shift + turn.cross(from_about);
+      EXPECT_LT((change.head<3>() + by * at_axis).norm(), 0.02 * at_axis.norm());
+      EXPECT_LT((change.tail<3>() + by * turn).norm(), 0.02 * turn.norm());
+      auto& columns = modes.emplace_back();
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        const fixture::CommonMode& mode = c.common_modes[static_cast<std::size_t>(k)];
+        columns.col(k) = (of_alpha ? mode.alpha : mode.beta)[s];
+      }
+    }
+  }
+  // Angles count as at 100 mm.
+  const auto rows = static_cast<Eigen::Index>(6 * changes.size());
+  Eigen::MatrixXd design(rows, 6);
+  Eigen::VectorXd wanted(rows);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto first = static_cast<Eigen::Index>(6 * i);
+    design.middleRows<6>(first) = modes[i];
+    wanted.segment<6>(first) = changes[i];
+    design.middleRows<3>(first + 3) *= 100.0;
+    wanted.segment<3>(first + 3) *= 100.0;
+  }
+  const Eigen::VectorXd numbers = design.colPivHouseholderQr().solve(wanted);
+  EXPECT_LT((design * numbers - wanted).norm(), 0.02 * wanted.norm());
+  // The stations hold more than what they share.
+  EXPECT_TRUE(fixture::parse_calibration(fixture::calibration_text(c), "file"));
 }
 
 TEST(RotaryCalibration, WithoutATemperatureIsNotWritten) {

@@ -596,7 +596,14 @@ TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWas
          f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
        }},
       {"it was not fitted", [](evaluation::FeatureResult& f) { f.ls_cylinder.reset(); }},
-      {"intervals of clouds merged from several poses are not computed",
+      {"the cloud is merged from several poses whose errors were solved for: no interval",
+       [](evaluation::FeatureResult& f) {
+         evaluation::MergedPoses merged;
+         merged.joint = true;
+         f.feature.strategy = record::Strategy::kMerged;
+         f.merged = std::make_shared<const evaluation::MergedPoses>(merged);
+       }},
+      {"merged from several poses and nothing is known of their errors",
        [](evaluation::FeatureResult& f) {
          f.feature.strategy = record::Strategy::kMerged;
          f.merged = std::make_shared<const evaluation::MergedPoses>();

@@ -1,10 +1,13 @@
 #include "evaluation/interval/internal/declared.h"
 
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/internal/fixture_use.h"
+#include "fixture/calibration_draws.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 #include "record/tasks/uncertainty.h"
@@ -100,6 +103,31 @@ FixtureInfluences influences_of(const record::FixtureInfluencesTask& said) {
   return out;
 }
 
+/// What the calibration of the fixture leaves in the poses of a feature; none where the run used
+/// none that holds, or nothing was touched.
+std::optional<CalibrationInfluences> calibration_influences(const record::RunRecord& record,
+                                                            const FeatureResult& result) {
+  if (result.feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
+  const FixtureFacts facts = fixture_facts(record);
+  if (!facts.calibration || !facts.use || facts.use->invalid) return std::nullopt;
+  const FixtureUse& use = *facts.use;
+  CalibrationInfluences out;
+  out.id = use.id;
+  out.age_days = use.age_days;
+  out.draws = Eigen::MatrixXd::Zero(6, 0);
+  if (!result.merged) return out;
+  const std::vector<core::Pose>& poses = result.merged->poses;
+  const Eigen::Isometry3d& X_WF = facts.kinematics.X_WF;
+  out.poses = static_cast<int>(poses.size());
+  out.draws = fixture::calibration_draws(*facts.calibration, poses, X_WF);
+  if (use.expansion_1_K && use.temperature_degC && result.temperatures) {
+    out.change_K = result.temperatures->mean_degC - *use.temperature_degC;
+    out.growth = fixture::growth_draws(*facts.calibration,
+                                       *use.expansion_1_K * std::abs(out.change_K), poses, X_WF);
+  }
+  return out;
+}
+
 /// "declared in the plan: 2 UPR 1.5 um, 0 UPR of degree 1 0.5 um; only their ratios count".
 core::Phrase source_text(const FormSpectrum& spectrum) {
   core::Phrase terms;
@@ -166,7 +194,14 @@ std::optional<Declared> declared_for(const record::RunRecord& record, const Feat
     out.influences.thermal =
         thermal_influences(*said.thermal, (*recorded)->expansion_per_K, result);
   }
-  if (said.fixture) out.influences.fixture = influences_of(*said.fixture);
+  if (said.fixture) {
+    out.influences.fixture = influences_of(*said.fixture);
+    const auto merged = record::task_of<record::MergedPosesSettings>(result.feature.settings);
+    if (result.merged && merged) {  // the axes cross there, as for the solution of the poses
+      out.influences.fixture->pivot_mm = Eigen::Vector3d::Map(merged->axis_point_mm.data());
+    }
+  }
+  out.influences.calibration = calibration_influences(record, result);
   out.options = options_of(said);
   if (said.form_spectrum) out.spectrum = spectrum_of(*said.form_spectrum);
   return out;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "evaluation/results/internal/deviation.h"
@@ -29,6 +31,24 @@ Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
   return out;
 }
 
+/// Hands on in which pose each point was touched, and where the part then was.
+void take_poses(const FeatureResult& result, const Rows& rows, FormCloud& cloud) {
+  cloud.frames = result.merged->frames;
+  std::map<int, std::pair<std::size_t, std::set<int>>> layers;  // points and targets of each
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const CloudPoint& point = result.cloud[rows.rows[i]];
+    cloud.points[i].pose = point.pose;
+    auto& [points, targets] = layers[point.layer];
+    ++points;
+    targets.insert(point.point);
+  }
+  // A target that several poses reach is one place of the form.
+  for (const auto& [layer, found] : layers) {
+    const auto targets = found.second.size();
+    cloud.passes = std::max(cloud.passes, static_cast<int>((found.first + targets - 1) / targets));
+  }
+}
+
 core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) {
   std::vector<Eigen::Vector3d> tips;
   for (const std::size_t row : rows.rows) tips.push_back(result.cloud[row].tip_mm);
@@ -39,6 +59,7 @@ core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) 
   if (!cloud) return cloud;
   cloud->outside = result.feature.side == record::Side::kOutside;
   cloud->passes = passes_of(result.cloud);
+  if (result.merged) take_poses(result, rows, *cloud);
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
   const auto [first, last] = std::minmax_element(
       result.cloud.begin(), result.cloud.end(),
@@ -51,6 +72,27 @@ core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) 
     cloud->points[i].time_1 = span_s > 0.0 ? (point.time_s - first->time_s) / span_s : 0.0;
   }
   return cloud;
+}
+
+/// Why the plan of a run lets nothing be stated; nothing where it declares influences.
+std::optional<core::Phrase> why_undeclared(const record::RunRecord& record) {
+  const auto recorded = record::recorded_uncertainty(record.settings);
+  if (!recorded) return recorded.error().said();
+  if (!*recorded) return core::phrase("the plan declares no uncertainty");
+  return std::nullopt;
+}
+
+/// Why the poses of a merged cloud allow no interval; nothing where their errors can be drawn.
+std::optional<core::Phrase> why_no_poses(const MergedPoses& merged, const Influences& declared) {
+  if (merged.joint) {
+    return core::phrase(
+        "the cloud is merged from several poses whose errors were solved for: no interval is "
+        "computed; what the fixture leaves in the value is told beside it");
+  }
+  if (declared.fixture || declared.calibration) return std::nullopt;
+  return core::phrase(
+      "the cloud is merged from several poses and nothing is known of their errors: use a "
+      "calibration of the fixture (fixture.calibration) or declare uncertainty.fixture");
 }
 
 }  // namespace
@@ -82,15 +124,13 @@ core::Result<FormCloud> surface_cloud(const FeatureResult& result) {
 
 std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
                                             const record::Feature& feature) {
-  const auto recorded = record::recorded_uncertainty(record.settings);
-  if (!recorded) return recorded.error().said();
-  if (!*recorded) return core::phrase("the plan declares no uncertainty");
-  // The influences act in the machine frame; a merged cloud stands in the frame of the part.
+  if (auto why = why_undeclared(record)) return why;
+  // The trials of a part move points in the machine frame; a merged cloud stands in that of the
+  // part.
   if (feature.strategy == record::Strategy::kMerged) {
     return core::phrase(
-        "intervals of clouds merged from several poses are not computed; what the fixture leaves "
-        "in "
-        "the value is told beside it");
+        "of a cloud merged from several poses only the run states an interval, and only of "
+        "unfiltered cylindricity and roundness");
   }
   return std::nullopt;
 }
@@ -106,8 +146,11 @@ tl::expected<UncertaintyQuestion, core::Phrase> uncertainty_question(
     const record::RunRecord& record, const FeatureResult& result,
     const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked) {
   const auto none = [](core::Phrase why) { return tl::unexpected(std::move(why)); };
-  if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
+  if (auto why = why_undeclared(record)) return none(*std::move(why));
   const auto declared = declared_for(record, result, probe);
+  if (result.merged) {
+    if (auto why = why_no_poses(*result.merged, declared->influences)) return none(*std::move(why));
+  }
   const Rows rows = rows_of(result, asked);
   if (auto why = too_many_points(rows.rows.size())) return none(*std::move(why));
   auto cloud = cloud_of(result, rows);

@@ -31,7 +31,8 @@ struct UncertaintyQuestion {
 [[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
                                                                     const Declared& declared);
 
-/// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
+/// Why no interval is predicted of a feature, or computed by the trials of the part, whatever its
+/// touches say; nothing where one is.
 [[nodiscard]] std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,
                                                           const record::Feature& feature);
 

@@ -107,6 +107,11 @@ core::Result<void> check_cloud(const FormCloud& cloud) {
           Code::kBadOption,
           fmt::format("point {} is the mean of {} touches; 1 at least", i, p.repeats));
     }
+    if (!cloud.frames.empty() &&
+        (p.pose < 0 || static_cast<std::size_t>(p.pose) >= cloud.frames.size())) {
+      return core::fail(Code::kBadOption, fmt::format("pose {} of point {} is none of {} frames",
+                                                      p.pose, i, cloud.frames.size()));
+    }
     if (!(p.time_1 >= 0.0 && p.time_1 <= 1.0)) {
       return core::fail(Code::kBadOption,
                         fmt::format("time {} of point {} is outside 0..1", p.time_1, i));
