@@ -50,8 +50,8 @@ core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expec
   if (!task) return core::fail(task.error());
   if (!task->uncertainty) {
     return no_residual(
-        "no influence is declared: state `uncertainty` of `rotary_axes`, with ball_um, "
-        "repeat_urad and reading_urad");
+        "no influence is declared: state `uncertainty` of `rotary_axes`, with `ball_um`, "
+        "`repeat_urad` and `reading_urad`");
   }
   if (combined.empty()) return no_residual("no combined pose is planned");
   const auto [sigma_mm, words] = touch_scatter(expected);

@@ -86,7 +86,7 @@ std::vector<UncertaintyStatus> intervals_of(const RotaryResult& result,
   if (!result.declared) {
     return none(
         core::phrase("no influence is declared: state `uncertainty` of `rotary_axes`, with "
-                     "ball_um, repeat_urad and reading_urad"));
+                     "`ball_um`, `repeat_urad` and `reading_urad`"));
   }
   std::vector<UncertaintyStatus> out;
   std::optional<ResidualTrials> residual;

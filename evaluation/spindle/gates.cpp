@@ -480,14 +480,15 @@ std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result) {
 
 std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings& readings,
                            std::span<const record::Characteristic> characteristics) {
-  std::vector<Gate> out = {first_harmonic_gate(result),
+  // The first that voids gives the reason: a bad reading is named before what it does to the rest.
+  std::vector<Gate> out = {disconnect_gate(readings),
+                           readings_gate(result),
+                           first_harmonic_gate(result),
                            blind_gate(result),
                            turns_gate(result),
                            small_scatter_gate(result),
                            weak_gate(result, characteristics),
-                           suppressed_gate(result),
-                           disconnect_gate(readings),
-                           readings_gate(result)};
+                           suppressed_gate(result)};
   if (result.probe_range_mm) out.push_back(range_gate(result));
   if (false_oval_mm(result)) out.push_back(quadratic_gate(result, characteristics));
   if (any_limit(characteristics, {Form::kRoundness, Form::kRoundnessRms})) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/analysis_result.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/prediction/predict_residual.h"
 #include "plans/forecast/expected_record.h"
 #include "plans/forecast/forecast.h"
@@ -151,9 +152,12 @@ TEST(ResidualPrediction, IsTheBudgetOfACalibrationThatFollows) {
   const auto told = evaluation::predict_residual(foretold_record(plan, 1), 0, balls);
   ASSERT_TRUE(told) << told.error().what;
   ASSERT_EQ(told->why, "");
-  const auto run = test::inspect(plan);
-  ASSERT_EQ(run.evaluation.features.size(), 1U);
-  const auto& found = run.evaluation.features[0];
+  auto run = test::inspect(plan);
+  run.record.header.started_utc = "2026-11-01T08:00:00Z";  // a calibration has a date
+  const auto evaluated = evaluation::evaluate(run.record);
+  ASSERT_TRUE(evaluated) << evaluated.error().what;
+  ASSERT_EQ(evaluated->features.size(), 1U);
+  const auto& found = evaluated->features[0];
   ASSERT_TRUE(found.analysis) << (found.failure ? found.failure->what : "");
   const auto& facts = std::get<evaluation::RotaryResult>(found.analysis->found);
   std::size_t centers = 0;

@@ -179,7 +179,7 @@ core::Phrase effective_radius_in_words(const evaluation::WheelResult& facts) {
   }
   const evaluation::UncertaintyStatement& s = known.result()->sampled;
   const auto mm = [&](double radius_mm) {
-    return core::length_in(core::LengthUnit::kMm, radius_mm,
+    return core::length_in(core::ValueUnit::kMm, radius_mm,
                            evaluation::decimals_for(s.expanded_mm()));
   };
   const double percent = 100.0 * known.coverage_1();
