@@ -400,21 +400,22 @@ UncertaintyStatus interval_of(const WheelResult& result, const Edge& edge, Quant
                 options);
 }
 
+bool is_flat(const Influence& influence) {
+  return influence && influence->distribution == DeclaredInfluence::Distribution::kRectangular;
+}
+
 /// The independent errors of the radius; where the feature declares its influences.
 std::vector<RadiusError> errors_of_radius(const WheelResult& result, const Edge& edge) {
   const WheelInfluencesTask& said = *result.declared;
   const fit::WheelMeasurement& m = result.evaluation.wheel;
   const Influences u = standard_of(said);
-  const auto flat = [](const Influence& influence) {
-    return influence && influence->distribution == DeclaredInfluence::Distribution::kRectangular;
-  };
   return {{"edge-points", "wheel.radius",
            record::u_of(said.point_um) * kMicrometre * m.factors.radius, false},
-          {"stage-scale", "stage.scale", u.scale_1 * m.radius_mm, flat(said.scale_ppm)},
-          {"edge-threshold", "wheel.threshold", u.threshold_mm, flat(said.threshold_um)},
-          {"wheel-wear", "wheel.wear", u.wear_mm, flat(said.wear_um)},
+          {"stage-scale", "stage.scale", u.scale_1 * m.radius_mm, is_flat(said.scale_ppm)},
+          {"edge-threshold", "wheel.threshold", u.threshold_mm, is_flat(said.threshold_um)},
+          {"wheel-wear", "wheel.wear", u.wear_mm, is_flat(said.wear_um)},
           {"stage-squareness", "stage.squareness", u.squareness_rad * edge.oval_in_radius_mm(),
-           flat(said.squareness_urad)}};
+           is_flat(said.squareness_urad)}};
 }
 
 /// Widens a statement by as much on either side: what form may move the value by has no
@@ -442,32 +443,29 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
   const auto& nominal_mm = result.task.wheel.nominal_radius_mm;
   if (!nominal_mm) return UncertaintyStatus::none(core::phrase("there is no nominal radius"));
   const double departure_mm = result.judged_radius_mm() - *nominal_mm;
-  const std::vector<RadiusError> errors = errors_of_radius(result, edge);
-  // Of the correction to 20 degC, for one standard uncertainty of each.
-  const double expansion_mm =
-      result.expansion_1_K
-          ? m.radius_mm * result.above_20_K.value_or(0.0) * record::u_of(said.expansion_per_K)
-          : 0.0;
-  const double temperature_mm =
-      m.radius_mm * result.expansion_1_K.value_or(0.0) * record::u_of(said.temperature_K);
+  const WheelInfluencesTask& said = *result.declared;
+  std::vector<RadiusError> errors = errors_of_radius(result, edge);
+  if (result.expansion_1_K) {  // of the correction to 20 degC
+    errors.push_back(
+        {"wheel-expansion", "wheel.expansion",
+         m.radius_mm * result.above_20_K.value_or(0.0) * record::u_of(said.expansion_per_K),
+         is_flat(said.expansion_per_K)});
+    errors.push_back({"wheel-temperature", "wheel.temperature",
+                      m.radius_mm * *result.expansion_1_K * record::u_of(said.temperature_K),
+                      is_flat(said.temperature_K)});
+  }
   const auto judged = [&](double value_mm) { return with_sign ? value_mm : std::abs(value_mm); };
   TrialValues trials;
   trials.signed_value = with_sign;
   trials.as_measured_mm = judged(departure_mm);
   for (int t = 0; t < options.least_trials; ++t) {
-    const double corrected =
-        expansion_mm * drawn(said.expansion_per_K, options.seed, "wheel.expansion", 0, t) +
-        temperature_mm * drawn(said.temperature_K, options.seed, "wheel.temperature", 0, t);
-    trials.values_mm.push_back(
-        judged(departure_mm + corrected + drawn_mm(errors, options.seed, t)));
+    trials.values_mm.push_back(judged(departure_mm + drawn_mm(errors, options.seed, t)));
   }
   std::vector<LinearTerm> terms;
   for (const RadiusError& error : errors) terms.push_back({std::string(error.name), error.u_mm});
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
   std::vector<InfluenceStatement> declaration = declaration_of(result, depends);
   if (result.expansion_1_K) {
-    terms.push_back({"wheel-expansion", expansion_mm});
-    terms.push_back({"wheel-temperature", temperature_mm});
     declaration.push_back(statement_of("wheel-expansion", said.expansion_per_K, "1/K"));
     declaration.push_back(statement_of("wheel-temperature", said.temperature_K, "K"));
   }
