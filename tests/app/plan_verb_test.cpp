@@ -109,7 +109,7 @@ TEST(PlanVerb, SaysOfEveryExampleWhatIsPredictedOrWhyNot) {
             HasSubstr("none; it is what differs from turn to turn, and only readings show")));
   EXPECT_THAT(told("06_wheel.json"),
               AllOf(HasSubstr("Predicted interval of analyses"),
-                    HasSubstr("run-out: none; the simulated data give no value that proves"))));
+                    HasSubstr("run-out: none; the simulated data give no value that proves")));
   EXPECT_THAT(told("07_crank_pin.json"),
               AllOf(HasSubstr("Predicted interval of analyses"),
                     HasSubstr("none; it is what differs from part to part")));

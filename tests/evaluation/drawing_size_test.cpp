@@ -21,8 +21,8 @@ using test::asked;
 using test::drawn;
 using test::DrawnSurface;
 using Indication = record::Indication;
-using Size = Indication::Size;
-using Rank = Indication::Rank;
+using SizeKind = Indication::Size;
+using RankKind = Indication::Rank;
 using record::Form;
 
 constexpr double kSizeDigits = 1e-10;
@@ -30,7 +30,7 @@ constexpr double kRocking = 1e-7;  // GN, GX of a tapered journal
 const fit::Material kShaft{false, 1.4987};
 const fit::Material kBore{true, 1.5};
 
-record::Characteristic size_asked(Size size,
+record::Characteristic size_asked(SizeKind size,
                                   Indication::Section section = Indication::Section::kAll) {
   record::Characteristic out = asked(Form::kDiameter);
   out.indication.size = size;
@@ -38,8 +38,8 @@ record::Characteristic size_asked(Size size,
   return out;
 }
 
-record::Characteristic rank_asked(Rank rank) {
-  record::Characteristic out = size_asked(Size::kLP);
+record::Characteristic rank_asked(RankKind rank) {
+  record::Characteristic out = size_asked(SizeKind::kLP);
   out.indication.rank = rank;
   return out;
 }
@@ -97,17 +97,17 @@ DrawnSurface w1_at_20_degC() {
 TEST(DrawingSize, OfW1HasEveryDigit) {
   for (const Proof proof : {Proof::kFull, Proof::kNone}) {
     const auto part = drawn(test::w1(), kShaft);
-    EXPECT_NEAR(value(part, size_asked(Size::kGG), proof), 24.990122662043, kSizeDigits);
-    EXPECT_NEAR(value(part, size_asked(Size::kGN), proof), 25.003379302565, kSizeDigits);
-    EXPECT_NEAR(value(part, size_asked(Size::kGX), proof), 24.977528966340, kSizeDigits);
-    EXPECT_NEAR(value(part, size_asked(Size::kGC), proof), 24.990454189110, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(SizeKind::kGG), proof), 24.990122662043, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(SizeKind::kGN), proof), 25.003379302565, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(SizeKind::kGX), proof), 24.977528966340, kSizeDigits);
+    EXPECT_NEAR(value(part, size_asked(SizeKind::kGC), proof), 24.990454189110, kSizeDigits);
   }
   const auto warm = w1_at_20_degC();
-  EXPECT_NEAR(value(warm, size_asked(Size::kGG)), 24.989652860704, kSizeDigits);
-  EXPECT_NEAR(value(warm, size_asked(Size::kGN)), 25.002909252007, kSizeDigits);
-  EXPECT_NEAR(value(warm, size_asked(Size::kGX)), 24.977059401755, kSizeDigits);
-  EXPECT_NEAR(value(warm, rank_asked(Rank::kSX)), 24.991825191661, kSizeDigits);
-  EXPECT_NEAR(value(warm, rank_asked(Rank::kSN)), 24.987345108986, kSizeDigits);
+  EXPECT_NEAR(value(warm, size_asked(SizeKind::kGG)), 24.989652860704, kSizeDigits);
+  EXPECT_NEAR(value(warm, size_asked(SizeKind::kGN)), 25.002909252007, kSizeDigits);
+  EXPECT_NEAR(value(warm, size_asked(SizeKind::kGX)), 24.977059401755, kSizeDigits);
+  EXPECT_NEAR(value(warm, rank_asked(RankKind::kSX)), 24.991825191661, kSizeDigits);
+  EXPECT_NEAR(value(warm, rank_asked(RankKind::kSN)), 24.987345108986, kSizeDigits);
 }
 
 TEST(DrawingSize, OfW1HasEveryDigitOfItsRanks) {
@@ -115,9 +115,9 @@ TEST(DrawingSize, OfW1HasEveryDigitOfItsRanks) {
   const double expected[] = {24.992295033840, 24.987814866940, 24.990122662068, 24.990321456530,
                              24.990054950390, 0.004480166900,  0.001499276509};
   for (std::size_t i = 0; i < std::size(expected); ++i) {
-    EXPECT_NEAR(value(part, rank_asked(static_cast<Rank>(i))), expected[i], kSizeDigits) << i;
+    EXPECT_NEAR(value(part, rank_asked(static_cast<RankKind>(i))), expected[i], kSizeDigits) << i;
   }
-  const Finding all = found(part, size_asked(Size::kLP));
+  const Finding all = found(part, size_asked(SizeKind::kLP));
   ASSERT_EQ(all.judged.size(), 2U);
   EXPECT_EQ(all.judged[0].symbol, "d LP SX");
   EXPECT_EQ(all.judged[1].symbol, "d LP SN");
@@ -132,7 +132,7 @@ TEST(DrawingSize, OfW1HasEveryDigitOfItsRanks) {
 
 TEST(DrawingSize, WithoutARankIsTheGreatestAgainstTheUpperTheLeastAgainstTheLowerLimit) {
   const auto part = drawn(test::w1(), kShaft);
-  auto asked = size_asked(Size::kLP);
+  auto asked = size_asked(SizeKind::kLP);
   asked.lower_mm = 24.98;
   asked.tolerance_mm = 25.0;
   const Finding both = found(part, asked);
@@ -151,7 +151,7 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
   const auto part = drawn(test::w1(), kShaft);
   const double gg[] = {24.988230605498, 24.990304803404, 24.991832577303};
   const double gn[] = {24.998545665996, 25.001440240767, 25.003379412312};
-  auto asked = size_asked(Size::kGG, Indication::Section::kACS);
+  auto asked = size_asked(SizeKind::kGG, Indication::Section::kACS);
   asked.lower_mm = 24.989;
   asked.tolerance_mm = 25.0;
   const Finding sections = found(part, asked);
@@ -164,11 +164,11 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
   EXPECT_NEAR(sections.judged[0].value_mm, gg[2], kSizeDigits);
   EXPECT_NEAR(sections.judged[1].value_mm, gg[0], kSizeDigits);
   EXPECT_EQ(sections.worst, 0U);  // below the lower limit
-  const Finding circumscribed = found(part, size_asked(Size::kGN, Indication::Section::kACS));
+  const Finding circumscribed = found(part, size_asked(SizeKind::kGN, Indication::Section::kACS));
   for (std::size_t j = 0; j < 3; ++j) {
     EXPECT_NEAR(circumscribed.local[j].value_mm, gn[j], kSizeDigits);
   }
-  auto second = size_asked(Size::kGG, Indication::Section::kSCS);
+  auto second = size_asked(SizeKind::kGG, Indication::Section::kSCS);
   second.indication.section_layers = {2.0};
   EXPECT_NEAR(value(part, second), gg[1], kSizeDigits);
   second.indication.section_layers = {4.0};
@@ -178,13 +178,13 @@ TEST(DrawingSize, OfTheSectionsOfW1HasEveryDigit) {
 TEST(DrawingRefusals, OfALayerOfOnePointNameItOnce) {
   auto layers = test::turned_layers(3, 12, [](int, double) { return 12.0; });
   layers[2].resize(1);
-  EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(Size::kLP)).what,
+  EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(SizeKind::kLP)).what,
             "layer 3 has 1 points, and a circle needs at least 3: touch more");
 }
 
 TEST(DrawingRefusals, OfLayersUpsideDownNameNoSection) {
   auto layers = test::turned_layers(3, 12, [](int j, double) { return 12.0 + 0.1 * j; });
-  record::Characteristic lowest = size_asked(Size::kGG, Indication::Section::kSCS);
+  record::Characteristic lowest = size_asked(SizeKind::kGG, Indication::Section::kSCS);
   lowest.indication.section_layers = {1.0};
   EXPECT_NEAR(value(drawn(layers, {false, 0.0}), lowest), 24.0, 1e-6);
   std::reverse(layers.begin(), layers.end());
@@ -197,8 +197,8 @@ TEST(DrawingRefusals, OfLayersUpsideDownNameNoSection) {
 
 TEST(DrawingSize, OfAnySectionListsItsGreatestAndItsLeast) {
   const auto part = drawn(test::w1(), kShaft);
-  const Finding whole = found(part, size_asked(Size::kLP));
-  const Finding sections = found(part, size_asked(Size::kLP, Indication::Section::kACS));
+  const Finding whole = found(part, size_asked(SizeKind::kLP));
+  const Finding sections = found(part, size_asked(SizeKind::kLP, Indication::Section::kACS));
   ASSERT_EQ(sections.local.size(), 3U);
   double greatest = 0.0;
   double least = 100.0;
@@ -216,20 +216,20 @@ TEST(DrawingSize, OfAnySectionListsItsGreatestAndItsLeast) {
 
 TEST(DrawingSize, OfW2HasEveryDigit) {
   const auto part = drawn(test::w2(), {false, 0.0});
-  EXPECT_NEAR(value(part, size_asked(Size::kGG)), 39.998642923760, kSizeDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGN)), 40.007007118519, kRocking);
-  EXPECT_NEAR(value(part, size_asked(Size::kGX)), 39.984416299395, kRocking);
-  EXPECT_NEAR(value(part, size_asked(Size::kGC)), 39.996674586266, kSizeDigits);
-  EXPECT_NEAR(value(part, rank_asked(Rank::kSX)), 40.007007314984, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGG)), 39.998642923760, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGN)), 40.007007118519, kRocking);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGX)), 39.984416299395, kRocking);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGC)), 39.996674586266, kSizeDigits);
+  EXPECT_NEAR(value(part, rank_asked(RankKind::kSX)), 40.007007314984, kSizeDigits);
 }
 
 TEST(DrawingSize, OfW6HasEveryDigit) {
   const auto part = drawn(test::w6(), kBore, {4});
-  EXPECT_NEAR(value(part, size_asked(Size::kGG)), 39.999953257850, kSizeDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGN)), 40.005130693014, kSizeDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGX)), 39.994130396679, kSizeDigits);
-  EXPECT_NEAR(value(part, size_asked(Size::kGC)), 39.999630265339, kSizeDigits);
-  const Finding local = found(part, size_asked(Size::kLP));
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGG)), 39.999953257850, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGN)), 40.005130693014, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGX)), 39.994130396679, kSizeDigits);
+  EXPECT_NEAR(value(part, size_asked(SizeKind::kGC)), 39.999630265339, kSizeDigits);
+  const Finding local = found(part, size_asked(SizeKind::kLP));
   EXPECT_EQ(number(local, "pairs"), 14.0);
   EXPECT_EQ(number(local, "lost pairs"), 2.0);
   EXPECT_NEAR(number(local, "SX"), 40.005130701989, kSizeDigits);
@@ -237,10 +237,10 @@ TEST(DrawingSize, OfW6HasEveryDigit) {
   EXPECT_NEAR(number(local, "SA"), 39.999972416259, kSizeDigits);
   EXPECT_NEAR(number(local, "SQ"), 0.003750924192, kSizeDigits);
   const auto forgotten = drawn(test::w6(), kBore);
-  EXPECT_NEAR(value(forgotten, size_asked(Size::kGG)), 40.378788150630, kSizeDigits);
-  EXPECT_NEAR(value(forgotten, size_asked(Size::kGN)), 42.999503191355, kSizeDigits);
-  EXPECT_NEAR(value(forgotten, size_asked(Size::kGX)), 39.994130396679, kSizeDigits);
-  const Finding spoilt = found(forgotten, size_asked(Size::kLP));
+  EXPECT_NEAR(value(forgotten, size_asked(SizeKind::kGG)), 40.378788150630, kSizeDigits);
+  EXPECT_NEAR(value(forgotten, size_asked(SizeKind::kGN)), 42.999503191355, kSizeDigits);
+  EXPECT_NEAR(value(forgotten, size_asked(SizeKind::kGX)), 39.994130396679, kSizeDigits);
+  const Finding spoilt = found(forgotten, size_asked(SizeKind::kLP));
   EXPECT_EQ(number(spoilt, "pairs"), 2.0);
   EXPECT_NEAR(number(spoilt, "SX"), 42.999503198979, kSizeDigits);
 }
@@ -284,7 +284,7 @@ record::Characteristic filtered(record::Characteristic asked) {
 
 TEST(DrawingSize, OfW8HasEveryDigit) {
   const auto part = w8({20.0});
-  const Finding local = found(part, filtered(size_asked(Size::kLP)));
+  const Finding local = found(part, filtered(size_asked(SizeKind::kLP)));
   EXPECT_EQ(number(local, "pairs"), 180.0);
   EXPECT_NEAR(number(local, "SX"), 38.009035157494, kSizeDigits);
   EXPECT_NEAR(number(local, "SN"), 37.991094644894, kSizeDigits);
@@ -293,10 +293,10 @@ TEST(DrawingSize, OfW8HasEveryDigit) {
   EXPECT_NEAR(number(local, "SD"), 38.000064901194, kSizeDigits);
   EXPECT_NEAR(number(local, "SR"), 0.017940512600, kSizeDigits);
   EXPECT_NEAR(number(local, "SQ"), 0.005697049139, kSizeDigits);
-  EXPECT_NEAR(value(part, filtered(size_asked(Size::kCC))), 38.000016866345, kSizeDigits);
-  EXPECT_NEAR(value(part, filtered(size_asked(Size::kCA))), 37.999999832642, kSizeDigits);
-  EXPECT_NEAR(value(part, filtered(size_asked(Size::kGG))), 38.000000000000, kSizeDigits);
-  EXPECT_NEAR(value(w8({20.0, 20.004, 20.001}), filtered(size_asked(Size::kCV))), 38.004599991166,
+  EXPECT_NEAR(value(part, filtered(size_asked(SizeKind::kCC))), 38.000016866345, kSizeDigits);
+  EXPECT_NEAR(value(part, filtered(size_asked(SizeKind::kCA))), 37.999999832642, kSizeDigits);
+  EXPECT_NEAR(value(part, filtered(size_asked(SizeKind::kGG))), 38.000000000000, kSizeDigits);
+  EXPECT_NEAR(value(w8({20.0, 20.004, 20.001}), filtered(size_asked(SizeKind::kCV))), 38.004599991166,
               kSizeDigits);
 }
 
@@ -308,7 +308,7 @@ TEST(DrawingSize, OfADenseSectionWithoutOppositeSamplesIsOfItsSeries) {
   const auto ranks = [&](int points) {
     auto part = drawn(test::turned_layers(2, points, radius), {false, 1.0});
     for (auto& section : part.surface.sections) section.dense = true;
-    return found(part, filtered(size_asked(Size::kLP)));
+    return found(part, filtered(size_asked(SizeKind::kLP)));
   };
   const Finding series = ranks(359);
   EXPECT_EQ(number(series, "pairs"), 3600.0);
@@ -329,7 +329,7 @@ TEST(DrawingSize, OfAPerfectCircleTouchedBesideItsCentreIsItsDiameter) {
       layer.emplace_back(off + r * std::cos(t), r * std::sin(t), 10.0 * j);
     }
   }
-  const Finding local = found(drawn(layers, {false, 0.0}), size_asked(Size::kLP));
+  const Finding local = found(drawn(layers, {false, 0.0}), size_asked(SizeKind::kLP));
   EXPECT_EQ(number(local, "pairs"), 12.0);
   EXPECT_NEAR(number(local, "SX"), 24.0, 1e-11);
   EXPECT_NEAR(number(local, "SN"), 24.0, 1e-11);
@@ -339,18 +339,18 @@ double round_12(int /*layer*/, double /*angle*/) { return 12.0; }
 
 TEST(DrawingSize, OfOddLayersSaysToPlanAnEvenNumber) {
   const auto odd = drawn(test::turned_layers(2, 7, round_12), kShaft);
-  const core::Error why = refusal(odd, size_asked(Size::kLP));
+  const core::Error why = refusal(odd, size_asked(SizeKind::kLP));
   EXPECT_EQ(why.code, core::Code::kSampling);
   EXPECT_EQ(why.what, "7 points a layer have no opposite ones; plan an even number, or a scan");
   const auto even = drawn(test::turned_layers(2, 8, round_12, 15.0, 0.0, 0.3), kShaft);
-  EXPECT_EQ(number(found(even, size_asked(Size::kLP)), "pairs"), 8.0);
+  EXPECT_EQ(number(found(even, size_asked(SizeKind::kLP)), "pairs"), 8.0);
   const auto one_out = drawn(test::turned_layers(1, 12, round_12), kShaft, {3});
   one_out.of->feature.shape = record::Shape::kCircle;
-  const Finding less = found(one_out, size_asked(Size::kLP));
+  const Finding less = found(one_out, size_asked(SizeKind::kLP));
   EXPECT_EQ(number(less, "pairs"), 5.0);
   EXPECT_EQ(number(less, "lost pairs"), 1.0);
   const auto spoilt = drawn(test::turned_layers(2, 6, round_12), kShaft, {0, 1, 2});
-  EXPECT_EQ(refusal(spoilt, size_asked(Size::kLP)).what,
+  EXPECT_EQ(refusal(spoilt, size_asked(SizeKind::kLP)).what,
             "the windows leave no opposite points in layer 1; turn sampling.start_deg, or plan "
             "more points");
 }
@@ -367,7 +367,7 @@ TEST(DrawingSize, OfTooFewPairsHasNoVerdictAndOfLostOnesAWarning) {
     }
     return drawn(layers, {false, 0.0});
   };
-  record::Characteristic size = size_asked(Size::kLP);
+  record::Characteristic size = size_asked(SizeKind::kLP);
   size.lower_mm = 23.9;
   size.tolerance_mm = 24.1;
   const Finding inside = found(one_pair(12.0), size);
@@ -420,11 +420,11 @@ TEST(DrawingEnvelope, FailsWhereLocalSizeIsUndefinedAndIsVoidWhereItHolds) {
 TEST(DrawingSides, ShaftAndBoreDifferByFourTipRadii) {
   const auto shaft = drawn(test::w1(), {false, 1.5});
   const auto bore = drawn(test::w1(), {true, 1.5});
-  EXPECT_NEAR(value(bore, size_asked(Size::kGG)) - value(shaft, size_asked(Size::kGG)), 6.0, 1e-12);
-  EXPECT_EQ(found(shaft, size_asked(Size::kGN)).reference.english(), "GN");
-  EXPECT_EQ(found(shaft, size_asked(Size::kGX)).reference.english(), "GX, as felt by the tip");
-  EXPECT_EQ(found(bore, size_asked(Size::kGX)).reference.english(), "GX");
-  EXPECT_EQ(found(bore, size_asked(Size::kGN)).reference.english(), "GN, as felt by the tip");
+  EXPECT_NEAR(value(bore, size_asked(SizeKind::kGG)) - value(shaft, size_asked(SizeKind::kGG)), 6.0, 1e-12);
+  EXPECT_EQ(found(shaft, size_asked(SizeKind::kGN)).reference.english(), "GN");
+  EXPECT_EQ(found(shaft, size_asked(SizeKind::kGX)).reference.english(), "GX, as felt by the tip");
+  EXPECT_EQ(found(bore, size_asked(SizeKind::kGX)).reference.english(), "GX");
+  EXPECT_EQ(found(bore, size_asked(SizeKind::kGN)).reference.english(), "GN, as felt by the tip");
 }
 
 TEST(DrawingTip, EnvelopeSizesDoNotDependOnIt) {
@@ -443,7 +443,7 @@ TEST(DrawingTip, EnvelopeSizesDoNotDependOnIt) {
         layers[j].emplace_back(p.x(), p.y(), 20.0 * static_cast<double>(j));
       }
     }
-    return value(drawn(layers, {false, rho}), size_asked(Size::kGN), Proof::kNone);
+    return value(drawn(layers, {false, rho}), size_asked(SizeKind::kGN), Proof::kNone);
   };
   const double half = size_with(0.5);
   EXPECT_NEAR(half, 25.012, 1e-6);
@@ -454,7 +454,7 @@ TEST(DrawingTip, EnvelopeSizesDoNotDependOnIt) {
 TEST(DrawingTip, OfUnknownRadiusGivesNoSize) {
   auto part = drawn(test::w1(), {false, 0.0});
   part.surface.tip_known = false;
-  EXPECT_EQ(refusal(part, size_asked(Size::kGG)).what,
+  EXPECT_EQ(refusal(part, size_asked(SizeKind::kGG)).what,
             "the tip radius is not known: give source.tip_diameter_mm; a size needs it");
 }
 
@@ -466,12 +466,12 @@ TEST(DrawingRelations, OfSizesHoldWithTheirSlack) {
     const auto layers = test::turned_layers(
         3, 12, [&](int j, double t) { return 15.0 + lean * j * std::cos(t) + rough(engine); });
     const auto part = drawn(layers, {false, 0.0});
-    const double gn = value(part, size_asked(Size::kGN), Proof::kNone);
-    const double gx = value(part, size_asked(Size::kGX), Proof::kNone);
-    const double gg = value(part, size_asked(Size::kGG), Proof::kNone);
+    const double gn = value(part, size_asked(SizeKind::kGN), Proof::kNone);
+    const double gx = value(part, size_asked(SizeKind::kGX), Proof::kNone);
+    const double gg = value(part, size_asked(SizeKind::kGG), Proof::kNone);
     EXPECT_LE(gx, gg);
     EXPECT_LE(gg, gn);
-    const Finding local = found(part, size_asked(Size::kLP));
+    const Finding local = found(part, size_asked(SizeKind::kLP));
     EXPECT_LE(number(local, "SN"), number(local, "SM"));
     EXPECT_LE(number(local, "SM"), number(local, "SX"));
     // Angle of the GN and GX axis to the least-squares axis, misalignment of a pair.
@@ -485,7 +485,7 @@ TEST(DrawingRelations, OfSizesHoldWithTheirSlack) {
     const auto& points = part.surface.points_mm;
     EXPECT_LE(number(local, "SX"), gn + slack(*fit::min_circumscribed_cylinder(points)));
     EXPECT_GE(number(local, "SN"), gx - slack(*fit::max_inscribed_cylinder(points)));
-    const Finding sections = found(part, size_asked(Size::kGN, Indication::Section::kACS));
+    const Finding sections = found(part, size_asked(SizeKind::kGN, Indication::Section::kACS));
     const auto outer = fit::min_circumscribed_cylinder(points);
     const double t = outer->axis.direction.cross(part.surface.axis.direction).norm();
     // The layers are square to z: their points differ in height along the least-squares axis.
@@ -500,19 +500,19 @@ TEST(DrawingSize, OfPointsThatHideAPartOfTheTurnHasNoVerdict) {
   auto layers = test::turned_layers(3, 12, round_12);
   for (auto& layer : layers) layer.resize(8);  // 150 deg without a point
   const auto arc = drawn(layers, {false, 0.0});
-  EXPECT_TRUE(found(arc, size_asked(Size::kGG)).no_verdict);
+  EXPECT_TRUE(found(arc, size_asked(SizeKind::kGG)).no_verdict);
   // A window over the same points is known.
   const auto window = drawn(test::turned_layers(3, 12, round_12), {false, 0.0}, {8, 9, 10, 11});
-  EXPECT_FALSE(found(window, size_asked(Size::kGG)).no_verdict);
+  EXPECT_FALSE(found(window, size_asked(SizeKind::kGG)).no_verdict);
   const auto half = drawn(test::turned_layers(3, 12, round_12), {false, 0.0}, {6, 7, 8, 9, 10, 11});
-  EXPECT_TRUE(found(half, size_asked(Size::kGG, Indication::Section::kACS)).no_verdict);
+  EXPECT_TRUE(found(half, size_asked(SizeKind::kGG, Indication::Section::kACS)).no_verdict);
   auto one = test::turned_layers(4, 12, round_12);
   one[3].resize(1);
-  for (const Size size : {Size::kGG, Size::kGN, Size::kGX, Size::kGC}) {
+  for (const SizeKind size : {SizeKind::kGG, SizeKind::kGN, SizeKind::kGX, SizeKind::kGC}) {
     EXPECT_TRUE(found(drawn(one, {false, 0.0}), size_asked(size)).no_verdict);
   }
   for (auto& layer : layers) layer.resize(6);
-  EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(Size::kGG)).code,
+  EXPECT_EQ(refusal(drawn(layers, {false, 0.0}), size_asked(SizeKind::kGG)).code,
             core::Code::kReferenceAbsent);
 }
 
@@ -531,13 +531,13 @@ record::Characteristic with(record::Characteristic asked, auto change) {
 TEST(DrawingRefusals, OfSizesSayWhatToPlanInstead) {
   const auto touched = drawn(test::w1(), kShaft);
   const std::vector<Refused> cases = {
-      {"spherical", size_asked(Size::kLS), core::Code::kMeaning, "ask for size LP or GX"},
-      {"unfiltered CC", size_asked(Size::kCC), core::Code::kMeaning, "give filter and cutoff_upr"},
-      {"touched CC", filtered(size_asked(Size::kCC)), core::Code::kSampling,
+      {"spherical", size_asked(SizeKind::kLS), core::Code::kMeaning, "ask for size LP or GX"},
+      {"unfiltered CC", size_asked(SizeKind::kCC), core::Code::kMeaning, "give filter and cutoff_upr"},
+      {"touched CC", filtered(size_asked(SizeKind::kCC)), core::Code::kSampling,
        "350 are needed for 50 UPR; scan, or ask for size GG"},
-      {"CV of sections", filtered(size_asked(Size::kCV, Indication::Section::kACS)),
+      {"CV of sections", filtered(size_asked(SizeKind::kCV, Indication::Section::kACS)),
        core::Code::kMeaning, "section \"all\""},
-      {"rank of GG", with(size_asked(Size::kGG), [](Indication& i) { i.rank = Rank::kSA; }),
+      {"rank of GG", with(size_asked(SizeKind::kGG), [](Indication& i) { i.rank = RankKind::kSA; }),
        core::Code::kMeaning, "leave rank out"},
       {"envelope of a section",
        with(envelope_asked(24.0, 26.0),
@@ -550,15 +550,15 @@ TEST(DrawingRefusals, OfSizesSayWhatToPlanInstead) {
     EXPECT_NE(why.what.find(one.words), std::string::npos) << one.name << ": " << why.what;
   }
   const auto one_layer = drawn({test::w1().front()}, kShaft);
-  EXPECT_EQ(refusal(one_layer, size_asked(Size::kGN)).code, core::Code::kRank);
+  EXPECT_EQ(refusal(one_layer, size_asked(SizeKind::kGN)).code, core::Code::kRank);
   const auto few = drawn(test::turned_layers(2, 2, round_12), kShaft);
-  EXPECT_EQ(refusal(few, size_asked(Size::kGG)).code, core::Code::kTooFewPoints);
+  EXPECT_EQ(refusal(few, size_asked(SizeKind::kGG)).code, core::Code::kTooFewPoints);
   auto gap = w8({20.0});
   gap.surface.sections.front().gap = true;
-  EXPECT_EQ(refusal(gap, filtered(size_asked(Size::kCA))).code, core::Code::kSampling);
+  EXPECT_EQ(refusal(gap, filtered(size_asked(SizeKind::kCA))).code, core::Code::kSampling);
   auto unsorted = drawn(test::w1(), kShaft);
   unsorted.surface.sections.clear();
-  EXPECT_NE(refusal(unsorted, size_asked(Size::kLP)).what.find("column layer"), std::string::npos);
+  EXPECT_NE(refusal(unsorted, size_asked(SizeKind::kLP)).what.find("column layer"), std::string::npos);
 }
 
 }  // namespace
