@@ -116,7 +116,7 @@ TEST(PlanVerb, SaysOfEveryExampleWhatIsPredictedOrWhyNot) {
   EXPECT_THAT(told("03_calibrate_fixture.json"),
               AllOf(HasSubstr("before the first touch: none"),
                     HasSubstr("none; no influence is declared: state `uncertainty`")));
-  EXPECT_THAT(told("04_part_in_two_poses.json"), HasSubstr("intervals of clouds merged"));
+  EXPECT_THAT(told("04_part_in_two_poses.json"), HasSubstr("of a cloud merged from several poses"));
   EXPECT_THAT(told("09_axle_points_file.json"), HasSubstr("its points come from a file"));
   EXPECT_THAT(told("14_bore_simulated.json"), HasSubstr("the plan declares no uncertainty"));
 }
@@ -260,7 +260,7 @@ TEST(PlanVerb, SaysWhatLimitsATargetThatNoSamplingMeets) {
   const Outcome merged =
       rondure({"plan", example("04_part_in_two_poses.json"), "--target-U", "1um"});
   EXPECT_EQ(merged.status, 2);
-  EXPECT_THAT(merged.out, HasSubstr("intervals of clouds merged"));
+  EXPECT_THAT(merged.out, HasSubstr("of a cloud merged from several poses"));
   const Outcome file = rondure({"plan", example("09_axle_points_file.json"), "--target-U", "1um"});
   EXPECT_EQ(file.status, 2);
   EXPECT_THAT(file.out, HasSubstr("No feature is touched"));

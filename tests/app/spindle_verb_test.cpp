@@ -201,7 +201,7 @@ TEST_F(SpindlePlan, VoidsWhatReadingsContradict) {
         changed_readings([](std::size_t row, double h) { return row == 517 ? h + 30.0 : h; }));
   verdicts("probe 1 row 517");
   write(file, changed_readings([](std::size_t, double h) { return 1.01 * h; }));
-  verdicts("a probe gain");
+  verdicts("calibrate gains and angles of the probes");
 }
 
 TEST_F(SpindlePlan, IsRefusedWhenItGuesses) {

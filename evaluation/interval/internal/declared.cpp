@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "evaluation/internal/fixture_use.h"
-#include "fixture/calibration_draws.h"
+#include "fixture/error_model.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 #include "record/tasks/uncertainty.h"

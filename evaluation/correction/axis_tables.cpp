@@ -1,4 +1,4 @@
-#include "evaluation/rotary/correction.h"
+#include "evaluation/correction/axis_tables.h"
 
 #include <algorithm>
 #include <cmath>

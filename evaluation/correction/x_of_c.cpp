@@ -1,4 +1,4 @@
-#include "evaluation/contour/correction.h"
+#include "evaluation/correction/x_of_c.h"
 
 #include <algorithm>
 #include <cmath>
