@@ -68,7 +68,12 @@ std::vector<evaluation::BallTouches> combined_touches(const plans::Forecast& for
   return out;
 }
 
-/// Predicts the uncertainties of the residuals of a calibration.
+bool is_residual(record::Form form) {
+  return form == record::Form::kFixtureResidual || form == record::Form::kFixtureResidualRms;
+}
+
+/// Predicts the uncertainties of the residuals of a calibration; of errors of an axis it gives the
+/// reason why there is none.
 core::Result<Predictions> predict_calibration(const plans::Plan& plan,
                                               const plans::Forecast& forecast,
                                               const record::RunRecord& expected,
@@ -82,7 +87,7 @@ core::Result<Predictions> predict_calibration(const plans::Plan& plan,
     std::string why = evaluation::why_not_foretold(asked.form).value_or("");
     if (!found->why.empty()) why = found->why;
     PredictedCharacteristic& one = out.emplace_back(not_predicted(feature, asked, std::move(why)));
-    if (found->why.empty()) one.residual = *found;
+    if (found->why.empty() && is_residual(asked.form)) one.residual = *found;
   }
   return out;
 }

@@ -58,6 +58,8 @@ std::optional<std::string> why_not_foretold(record::Form form) {
     case record::Form::kFixtureResidualRms:
       return "it is what the axes do together beyond their calibration, and only the fixture shows "
              "that";
+    case record::Form::kAxisError:
+      return "it is an error of the axis itself, and only measured balls show that";
     default:
       return std::nullopt;
   }

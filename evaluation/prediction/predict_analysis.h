@@ -28,8 +28,8 @@ struct AnalysisPrediction {
   [[nodiscard]] double expanded_mm() const { return 0.5 * (below_mm + above_mm); }
 };
 
-/// Why the value of a characteristic cannot be foretold, whatever is declared: it is the scatter of
-/// what is measured, which only readings show. None of the others.
+/// Why the value of a characteristic cannot be foretold, whatever is declared: it is the scatter or
+/// the error of what is measured, which only readings show. None of the others.
 [[nodiscard]] std::optional<std::string> why_not_foretold(record::Form form);
 
 /// Predicts the intervals of the characteristics of an analysis before its first reading, in their

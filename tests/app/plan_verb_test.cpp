@@ -176,6 +176,29 @@ TEST(PlanVerb, PredictsTheUncertaintyOfACalibration) {
   }
 }
 
+// The uncertainty of a residual is not that of an error of an axis.
+TEST(PlanVerb, PredictsNoErrorOfAnAxis) {
+  const TemporaryFolder folder;
+  auto plan = nlohmann::json::parse(read(example("03_calibrate_fixture.json")));
+  plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", 0.1}, {"repeat_urad", 1}};
+  for (const char* error : {"EX", "EB"}) {
+    plan["features"][0]["characteristics"].push_back(
+        {{"id", error}, {"form", "axis-error"}, {"axis", "alpha"}, {"error", error}});
+  }
+  write(folder / "plan.json", plan.dump());
+  const Outcome told = rondure({"plan", folder / "plan.json"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(unbroken(told.out), HasSubstr("EX, EB: none; it is an error of the axis itself"));
+  const Outcome as_json = rondure({"plan", folder / "plan.json", "--json"});
+  ASSERT_EQ(as_json.status, 0) << as_json.err;
+  const auto document = nlohmann::json::parse(as_json.out);
+  ASSERT_EQ(document["prediction"].size(), 4U);
+  for (const std::size_t c : {2U, 3U}) {
+    EXPECT_TRUE(document["prediction"][c].contains("none"));
+    EXPECT_FALSE(document["prediction"][c].contains("linear_standard_uncertainty_um"));
+  }
+}
+
 TEST(PlanVerb, SaysThatNoSamplingOfAnAnalysisIsSearched) {
   const Outcome told = rondure({"plan", example("06_wheel.json"), "--target-U", "1um"});
   EXPECT_EQ(told.status, 2);
@@ -183,7 +206,8 @@ TEST(PlanVerb, SaysThatNoSamplingOfAnAnalysisIsSearched) {
               AllOf(HasSubstr("No feature is touched"),
                     HasSubstr("proposes samplings of touched surfaces only, and none for wheel.")));
   EXPECT_LE(longest_line(told.out), 80U);
-  const Outcome as_json = rondure({"plan", example("06_wheel.json"), "--target-U", "1um", "--json"});
+  const Outcome as_json =
+      rondure({"plan", example("06_wheel.json"), "--target-U", "1um", "--json"});
   const auto document = nlohmann::json::parse(as_json.out);
   EXPECT_EQ(document["target"]["not_searched"], nlohmann::json::array({"wheel"}));
 }

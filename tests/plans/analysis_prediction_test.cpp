@@ -121,6 +121,7 @@ TEST(AnalysisPrediction, SaysWhyThereIsNone) {
   }
   EXPECT_TRUE(evaluation::why_not_foretold(record::Form::kMotionAsynchronous));
   EXPECT_TRUE(evaluation::why_not_foretold(record::Form::kContourSpread));
+  EXPECT_TRUE(evaluation::why_not_foretold(record::Form::kAxisError));
   EXPECT_FALSE(evaluation::why_not_foretold(record::Form::kMotionSynchronous));
 }
 
