@@ -319,6 +319,37 @@ TEST(RotaryCalibration, TakesAFixtureHeldByFriction) {
   EXPECT_LT(found->calibration.verification.rms_mm, 8e-3);
 }
 
+// Section 13, F-2, sizes: touches whose balls have a centre of 0.35 um each.
+TEST(RotaryCalibration, LeavesResidualsOfTheSizeOfTheWorkedCase) {
+  const auto left_um = [](double setting_rad, double reading_rad, double dead_band_deg) {
+    double rms = 0.0;
+    double largest = 0.0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      Bench bench;
+      bench.seed = seed;
+      bench.noise_mm = 0.7e-3;
+      bench.setting_rad = setting_rad;
+      bench.reading_rad = reading_rad;
+      bench.setting_uncertainty_deg = dead_band_deg;
+      const auto evaluation = evaluate(calibration_run(bench));
+      const RotaryResult* found =
+          evaluation ? result_of(evaluation->features.at(0)) : nullptr;
+      EXPECT_NE(found, nullptr);
+      if (found == nullptr) return std::pair(0.0, 0.0);
+      if (getenv("SHOW")) printf("u %.4f rms %.4f max %.4f\n", found->center_u_mm*1e3, found->calibration.verification.rms_mm*1e3, found->calibration.verification.max_mm*1e3);
+      rms += 0.25 * found->calibration.verification.rms_mm / kMicrometre;
+      largest += 0.25 * found->calibration.verification.max_mm / kMicrometre;
+    }
+    return std::pair(rms, largest);
+  };
+  const auto stage = left_um(9.09e-6, 2.62e-6, 0.0);
+  EXPECT_GT(stage.first, 0.606);  // noise alone
+  EXPECT_NEAR(stage.first, 1.054, 0.5);
+  EXPECT_NEAR(stage.second, 1.639, 0.8);
+  const auto friction = left_um(0.05 * kDegree, 20e-6, 0.12);
+  EXPECT_NEAR(friction.first, 3.38, 1.7);
+}
+
 // Touches without noise explain nothing; their digits leave a residual all the same. A residual of
 // some um that nothing explains is no such thing.
 TEST(RotaryCalibration, DigitsOfTouchesDependOnNoAngle) {
