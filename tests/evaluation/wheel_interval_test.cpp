@@ -281,8 +281,8 @@ TEST(WheelInterval, ARadiusIsJudgedAt20DegC) {
   ASSERT_TRUE(corrected.value);
   EXPECT_NEAR(corrected.value->value_mm() * 1e3, 49983.123 * (1.0 - 1.0 / 1.00008), 2e-3);
   EXPECT_EQ(judged(30.0, 5.0).characteristics.at(0).verdict, Verdict::kConforms);
-  const FeatureResult without = evaluated_wheel(
-      run_of(wheel.points_mm, task, {asked(record::Form::kRadius, 3.0)}, kSimple));
+  const FeatureResult without =
+      evaluated_wheel(run_of(wheel.points_mm, task, {asked(record::Form::kRadius, 3.0)}, kSimple));
   EXPECT_EQ(without.characteristics.at(0).verdict, Verdict::kVoid);
   EXPECT_THAT(without.characteristics.at(0).reason.english(), HasSubstr("was not recorded"));
 }

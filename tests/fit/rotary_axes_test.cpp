@@ -313,8 +313,8 @@ TEST(RotaryAxes, StatedIntervalsHoldTheTrueErrorsOfSimulatedAxes) {
 
 // ---- The worked cases, analyses_uncertainty 13.
 
-/// four setups of a rectangle. Each is clamped with a tool length set wrong, and the axis comes
-/// back to every station anew: errors that no ball shows.
+/// four setups of a rectangle. Each is clamped with a tool length set wrong, and the axis
+/// comes back to every station anew: errors that no ball shows.
 RotaryMeasurement rectangle_with_all_influences() {
   constexpr double kNoise_mm = 0.5 * kUm;
   constexpr double kTool_mm = 0.3 * kUm;
@@ -374,7 +374,8 @@ TEST(RotaryAxes, TheRectangleOfFourSetupsReadsAsTheWorkedCase) {
     const double unit = k < 3 ? kUm : kUrad;
     EXPECT_NEAR(station_at(*linear, 45.0).errors.values()(k) / unit, printed(k), 5.1e-4) << k;
     EXPECT_NEAR(station_at(*whole, 45.0).errors.values()(k) / unit, printed(k),
-                k < 3 ? 0.0017 : 0.005) << k;
+                k < 3 ? 0.0017 : 0.005)
+        << k;
     EXPECT_NEAR(exact(k) / unit, truth(k), 5.1e-4) << k;
   }
 }
@@ -418,10 +419,10 @@ TEST(RotaryAxes, TwoAxesInAChainErrAsTheWorkedCase) {
     const Vector3d at = head.nominal() * row.p0;
     EXPECT_LT(((head.actual() * row.p0 - at) / kUm - row.dp_um).cwiseAbs().maxCoeff(), 5.1e-5);
     // What the commands leave, the linear axes moved as printed.
-    const Vector3d left_um =
-        (head.actual(dc_rad, da_rad) * row.p0 - at) / kUm + row.linear_um;
+    const Vector3d left_um = (head.actual(dc_rad, da_rad) * row.p0 - at) / kUm + row.linear_um;
     EXPECT_LT((left_um - Vector3d(-0.0010, 0.0002, 0.0011)).cwiseAbs().maxCoeff(),
-              row.p0.y() == 0.0 ? 5.1e-4 : 5e-3) << left_um.transpose();
+              row.p0.y() == 0.0 ? 5.1e-4 : 5e-3)
+        << left_um.transpose();
   }
   // To first order, of A.
   const Vector3d q = head.nominal() * Vector3d(0, 0, -200);
@@ -433,7 +434,8 @@ TEST(RotaryAxes, TwoAxesInAChainErrAsTheWorkedCase) {
   EXPECT_NEAR(-head.of_a.w_rad.x(), da_rad, 1e-10);
   const Matrix3d left = head.actual(dc_rad, da_rad).linear() * head.nominal().linear().transpose();
   EXPECT_LT((rotation_vector(left) / kUrad - Vector3d(3.06, -72.35, 12.00)).cwiseAbs().maxCoeff(),
-            0.0051) << rotation_vector(left).transpose() / kUrad;
+            0.0051)
+      << rotation_vector(left).transpose() / kUrad;
   const Vector3d n = head.nominal().linear() * -Vector3d::UnitZ();
   EXPECT_LT(((left * n - n) / kUrad - Vector3d(66.90, 6.89, 24.50)).cwiseAbs().maxCoeff(), 0.0051)
       << ((left * n - n) / kUrad).transpose();
