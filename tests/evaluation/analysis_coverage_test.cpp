@@ -169,26 +169,34 @@ void expect_judged_by_it(Inspection made) {
 }
 
 /// Gains and places of the probes and the phases of all harmonics, drawn.
-SimulatedSpindle drawn_spindle(Normals& draws) {
-  SimulatedSpindle out = worked_spindle(SpindleTask::Layout::kReference);
+/// What the rows of the specification differ in.
+struct SpindleRow {
+  SpindleTask::Layout layout = SpindleTask::Layout::kReference;
+  double gain_1 = 0.003;
+  double angle_deg = 0.05;
+  double noise_um = 0.05;
+};
+
+SimulatedSpindle drawn_spindle(Normals& draws, const SpindleRow& row = {}) {
+  SimulatedSpindle out = worked_spindle(row.layout);
   for (std::size_t i = 0; i < 3; ++i) {
-    out.gains_1[i] += 0.003 * draws.normal();
-    out.places_rad[i] += 0.05 * kDegree * draws.normal();
+    out.gains_1[i] += row.gain_1 * draws.normal();
+    out.places_rad[i] += row.angle_deg * kDegree * draws.normal();
   }
   for (auto* waves : {&out.profile, &out.motion_x, &out.motion_y}) {
     for (Wave& wave : *waves) wave.phase_rad = draws.phase_rad();
   }
   out.eccentricity_rad = draws.phase_rad();
-  out.noise_um = 0.05;
+  out.noise_um = row.noise_um;
   return out;
 }
 
-SpindleTask declared_task(const SimulatedSpindle& world) {
-  SpindleTask out = spindle_task(SpindleTask::Layout::kReference, world);
+SpindleTask declared_task(const SimulatedSpindle& world, const SpindleRow& row = {}) {
+  SpindleTask out = spindle_task(row.layout, world);
   auto& influences = out.uncertainty.emplace();
   influences.noise_um = declared(world.noise_um);
-  influences.gain_1 = declared(0.003);
-  influences.angle_deg = declared(0.05);
+  influences.gain_1 = declared(row.gain_1);
+  influences.angle_deg = declared(row.angle_deg);
   return out;
 }
 
@@ -202,6 +210,18 @@ Inspection spindle_inspection(std::uint64_t k) {
   third.harmonic_limits = {{3, 3, 3.0 * kMicrometre}};
   out.run.features[0].characteristics = {asked(Form::kRoundness), asked(Form::kRoundnessRms),
                                          asked(Form::kMotionSynchronous), third};
+  return out;
+}
+
+/// Roundness, its root mean square and synchronous motion.
+Inspection inspection_of_row(std::uint64_t k, const SpindleRow& row) {
+  Normals draws(5'000'000 + k);
+  const SimulatedSpindle world = drawn_spindle(draws, row);
+  Inspection out{
+      spindle_run(world, declared_task(world, row), draws),
+      {true_roundness_um(world), true_roundness_rms_um(world), true_synchronous_um(world)}};
+  out.run.features[0].characteristics = {asked(Form::kRoundness), asked(Form::kRoundnessRms),
+                                         asked(Form::kMotionSynchronous)};
   return out;
 }
 
@@ -313,6 +333,25 @@ TEST(SpindleCoverage, HoldsRoundnessHarmonicAndSynchronousMotion) {
                   {"synchronous motion", 0.953, 0.118},
                   {"amplitude of harmonic 3", 0.950, 0.015}},
                  spindle_inspection);
+}
+
+TEST(SpindleCoverage, HoldsRoundnessAndMotionOfTwiceTheNoise) {
+  expect_covered({{"RONt of s 0.1 um", 0.939, 0.176}, {"RONq"}, {"motion of it", 0.936, 0.191}},
+                 [](std::uint64_t k) { return inspection_of_row(k, {.noise_um = 0.1}); });
+}
+
+TEST(SpindleCoverage, HoldsRoundnessAndMotionOfLayoutA) {
+  const SpindleRow row{SpindleTask::Layout::kPublishedA, 0.002, 0.02};
+  expect_covered({{"RONt of layout A", 0.948, 0.694},
+                  {"RONq of layout A", 0.945, 0.124},
+                  {"motion of layout A", 0.901, 0.616}},
+                 [&](std::uint64_t k) { return inspection_of_row(k, row); });
+}
+
+TEST(SpindleCoverage, HoldsRoundnessAndMotionOfProbesThatTheFirstHarmonicShows) {
+  const SpindleRow row{.gain_1 = 0.01, .angle_deg = 0.5};
+  expect_covered({{"RONt of 1 %", 0.933, 0.433}, {"RONq of 1 %"}, {"motion of 1 %", 0.957, 0.654}},
+                 [&](std::uint64_t k) { return inspection_of_row(k, row); });
 }
 
 TEST(SpindleCoverage, HoldsTheAsynchronousMotionOfEightTurns) {

@@ -319,6 +319,39 @@ TEST(RotaryCalibration, TakesAFixtureHeldByFriction) {
   EXPECT_LT(found->calibration.verification.rms_mm, 8e-3);
 }
 
+// Section 13, F-2, sizes: touches whose balls have a centre of 0.35 um each.
+TEST(RotaryCalibration, LeavesResidualsOfTheSizeOfTheWorkedCase) {
+  const auto left_um = [](double setting_rad, double reading_rad, double dead_band_deg) {
+    double rms = 0.0;
+    double largest = 0.0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      Bench bench;
+      bench.seed = seed;
+      bench.noise_mm = 0.6e-3;
+      bench.setting_rad = setting_rad;
+      bench.reading_rad = reading_rad;
+      bench.setting_uncertainty_deg = dead_band_deg;
+      const auto evaluation = evaluate(calibration_run(bench));
+      const RotaryResult* found = evaluation ? result_of(evaluation->features.at(0)) : nullptr;
+      EXPECT_NE(found, nullptr);
+      if (found == nullptr) return std::pair(0.0, 0.0);
+      EXPECT_NEAR(found->center_u_mm / kMicrometre, 0.35, 0.03);
+      rms += 0.25 * found->calibration.verification.rms_mm / kMicrometre;
+      largest += 0.25 * found->calibration.verification.max_mm / kMicrometre;
+    }
+    return std::pair(rms, largest);
+  };
+  const auto stage = left_um(9.09e-6, 2.62e-6, 0.0);
+  const auto factor = [](double found_um, double printed_um) {
+    return std::abs(std::log(found_um / printed_um));
+  };
+  EXPECT_GT(stage.first, 0.606);  // noise alone
+  EXPECT_LT(factor(stage.first, 1.054), std::log(1.5));
+  EXPECT_LT(factor(stage.second, 1.639), std::log(1.5));
+  const auto friction = left_um(0.05 * kDegree, 20e-6, 0.12);
+  EXPECT_LT(factor(friction.first, 3.38), std::log(1.5)) << friction.first;
+}
+
 // Touches without noise explain nothing; their digits leave a residual all the same. A residual of
 // some um that nothing explains is no such thing.
 TEST(RotaryCalibration, DigitsOfTouchesDependOnNoAngle) {
@@ -868,8 +901,8 @@ TEST(AxisError, ErrorsOfNoiseAloneAreTurned) {
 TEST(AxisError, OfAnAngleIsThatOfALengthOfTheSameNumbers) {
   const RotaryResult found =
       of_stations([](double rad) { return -10e-3 * std::cos(rad) - 2e-3; }, 0.3e-3, 3);
-  record::Characteristic asked = axis_error_of(
-      record::Indication::Axis::kAlpha, record::Indication::AxisError::kX, -20e-3, 20e-3);
+  record::Characteristic asked = axis_error_of(record::Indication::Axis::kAlpha,
+                                               record::Indication::AxisError::kX, -20e-3, 20e-3);
   const auto shift = value_of(found, asked);
   const auto of_shift = intervals_of(found, std::vector{asked}, {});
   asked.indication.error = record::Indication::AxisError::kC;

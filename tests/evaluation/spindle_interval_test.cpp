@@ -21,6 +21,7 @@
 #include "record/run_record.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/spindle.h"
+#include "tests/fit/specified_normals.h"
 #include "tests/fit/three_probe_cases.h"
 
 namespace rondure::evaluation {
@@ -43,6 +44,7 @@ struct World {
   int turns = 1;
   int samples = 1024;
   std::uint64_t seed = 2;
+  bool specified = false;  ///< Noise as the specification draws it: turn, probe, sample.
 };
 
 double x_um(double a) {
@@ -74,6 +76,18 @@ double exact_um(const World& world, std::size_t i, double alpha) {
   return reading * (1.0 + world.gain[i]) + world.zero_um[i];
 }
 
+void add_specified_noise(const World& world, fit::ProbeReadings& readings) {
+  test::SpecifiedNormals normals(world.seed);
+  const auto samples = static_cast<std::size_t>(world.samples);
+  for (std::size_t turn = 0; turn < static_cast<std::size_t>(world.turns); ++turn) {
+    for (auto& h : readings.h_mm) {
+      for (std::size_t m = 0; m < samples; ++m) {
+        h[turn * samples + m] += world.noise_um * normals.next() * kMicrometre;
+      }
+    }
+  }
+}
+
 fit::ProbeReadings readings_of(const World& world) {
   fit::ProbeReadings out;
   core::KeyedNoise noise(world.seed, {1});
@@ -81,10 +95,12 @@ fit::ProbeReadings readings_of(const World& world) {
     const double alpha = core::kTwoPi * m / world.samples;
     out.alpha_rad.push_back(alpha);
     for (std::size_t i = 0; i < 3; ++i) {
-      const double drawn = world.noise_um > 0.0 ? world.noise_um * noise.normal() : 0.0;
+      const bool here = world.noise_um > 0.0 && !world.specified;
+      const double drawn = here ? world.noise_um * noise.normal() : 0.0;
       out.h_mm[i].push_back((exact_um(world, i, alpha) + drawn) * kMicrometre);
     }
   }
+  if (world.specified) add_specified_noise(world, out);
   return out;
 }
 
@@ -136,12 +152,28 @@ TEST(FirstHarmonic, HasTheReadingsOfTheWorkedCase) {
   }
 }
 
+// The truth of all worked cases, on 512 samples.
+TEST(SeparationModel, FindsTheTruthOfTheWorkedCasesWithExactProbes) {
+  World world;
+  world.layout = fit::reference_layout();
+  const auto model = fit::SeparationModel::of(separation_of(world, 1e-4));
+  ASSERT_TRUE(model);
+  const SpindleFound found = found_at(*model, fit::ProbeErrors::Zero());
+  const double second_order_um = 36.0 / 24.56e3;  // c^2 / 2R at each end, in the readings
+  EXPECT_NEAR(found.ront_um, 12.3125, second_order_um);
+  EXPECT_NEAR(found.ronq_um, 2.6825, second_order_um);
+  EXPECT_NEAR(found.sync_um, 2.9490, second_order_um);
+}
+
 // S-1: one gain 1 % off, one angle 0.5 deg off, layout A.
 TEST(FirstHarmonic, TellsAWrongGainAndAWrongAngleByTheEccentricity) {
   World gain;
   gain.gain = {0.0, 0.01, 0.0};
   const auto wrong_gain = separation_of(gain, 1e-4);
   EXPECT_NEAR(wrong_gain.first_harmonic_mm / kMicrometre, 0.04306, 2e-5);
+  const fit::ProbeLayout& a = gain.layout;
+  EXPECT_NEAR(6.0 * 0.01 * std::abs(a.weights()[1]) / a.weight_norm(), 0.042419, 5e-7);
+  EXPECT_NEAR(wrong_gain.eccentricity_mm / kMicrometre, 6.042, 5e-4);
   const auto chi2 = [](const fit::ThreeProbeResult& result, double u_gain, double u_angle_deg) {
     return fit::observe_first_harmonic(result, prior_of(u_gain, u_angle_deg)).chi2;
   };
@@ -169,6 +201,10 @@ TEST(FirstHarmonic, TellsAWrongGainAndAWrongAngleByTheEccentricity) {
   EXPECT_NEAR(estimate.sync_um, 2.927, 0.008);
   const auto other = fit::SeparationModel::of(wrong_angle);
   ASSERT_TRUE(other);
+  const SpindleFound turned = found_at(*other, fit::ProbeErrors::Zero());
+  EXPECT_NEAR(turned.ront_um, 10.388, 0.006);
+  EXPECT_NEAR(turned.ronq_um, 2.385, 0.001);
+  EXPECT_NEAR(turned.sync_um, 4.390, 0.006);
   const SpindleFound corrected =
       found_at(*other, fit::observe_first_harmonic(wrong_angle, prior_of(0.005, 0.25)).mean);
   EXPECT_NEAR(corrected.ront_um, 12.309, 0.008);
@@ -184,7 +220,9 @@ TEST(FirstHarmonic, IsBlindWithoutEccentricity) {
   const auto prior = prior_of(0.002, 0.02);
   EXPECT_FALSE(fit::observe_first_harmonic(separation_of(world, 0.02), prior).blind());
   world.eccentricity_um = 0.0;
-  EXPECT_TRUE(fit::observe_first_harmonic(separation_of(world, 0.02), prior).blind());
+  const auto centred = separation_of(world, 0.02);
+  EXPECT_TRUE(fit::observe_first_harmonic(centred, prior).blind());
+  EXPECT_LT(centred.first_harmonic_mm, centred.first_harmonic_limit_mm);
 }
 
 // The trials replace whole separations by this model.
@@ -245,6 +283,7 @@ TEST(SeparationModel, IsLinearInTheErrorsOfTheProbes) {
 // S-2: change of the value as measured for +1 u of gain 0.2 %, angle 0.02 deg. The printed table
 // has no column of P1's angle, which is the largest of layout B.
 TEST(SeparationModel, HasTheBudgetOfTheWorkedCase) {
+  const double kNotPrinted = std::nan("");
   struct Row {
     fit::ProbeLayout layout;
     std::array<double, 6> ront_um;  ///< Gains of P1..P3, angles of P1..P3.
@@ -255,7 +294,10 @@ TEST(SeparationModel, HasTheBudgetOfTheWorkedCase) {
                                   {0.022, 0.108, -0.113, 0.000, 0.025, -0.022}},
                                  {fit::published_layout_b(),
                                   {0.018, 0.009, -0.003, -0.046, 0.001, 0.045},
-                                  {0.015, -0.014, 0.005, 0.017, -0.007, -0.012}}};
+                                  {0.015, -0.014, 0.005, 0.017, -0.007, -0.012}},
+                                 {fit::reference_layout(),
+                                  {0.011, 0.006, 0.007, kNotPrinted, -0.002, -0.002},
+                                  {0.016, 0.005, -0.015, kNotPrinted, 0.000, 0.003}}};
   for (const Row& row : rows) {
     World world;
     world.layout = row.layout;
@@ -266,11 +308,30 @@ TEST(SeparationModel, HasTheBudgetOfTheWorkedCase) {
       const double u = i < 3 ? 0.002 : 0.02 * kDegree;
       const SpindleFound up = found_at(*model, -u * fit::ProbeErrors::Unit(i));
       const SpindleFound down = found_at(*model, u * fit::ProbeErrors::Unit(i));
-      EXPECT_NEAR(0.5 * (up.ront_um - down.ront_um), row.ront_um[static_cast<std::size_t>(i)],
-                  0.004);
-      EXPECT_NEAR(0.5 * (up.sync_um - down.sync_um), row.sync_um[static_cast<std::size_t>(i)],
-                  0.008);
+      const auto at = static_cast<std::size_t>(i);
+      if (std::isnan(row.ront_um[at])) continue;
+      EXPECT_NEAR(0.5 * (up.ront_um - down.ront_um), row.ront_um[at], 5.1e-4);
+      EXPECT_NEAR(0.5 * (up.sync_um - down.sync_um), row.sync_um[at], 5e-3);
     }
+  }
+}
+
+// S-2: s 0.02 um, 4096 readings of a probe.
+TEST(SeparationModel, HasTheNoiseOfTheBudgetOfTheWorkedCase) {
+  struct Row {
+    fit::ProbeLayout layout;
+    double third_um;
+    double fifth_um;
+  };
+  for (const Row& row : {Row{fit::published_layout_a(), 0.0085, 0.0085},
+                         Row{fit::published_layout_b(), 0.0003, 0.0083},
+                         Row{fit::reference_layout(), 0.0003, 0.0009}}) {
+    World world;
+    world.layout = row.layout;
+    world.turns = 4;
+    const auto result = separation_of(world, 0.02);
+    EXPECT_NEAR(result.harmonics.at(1).sigma_mm / kMicrometre, row.third_um, 5e-5);
+    EXPECT_NEAR(result.harmonics.at(3).sigma_mm / kMicrometre, row.fifth_um, 5e-5);
   }
 }
 
@@ -462,8 +523,9 @@ record::RunRecord with_range(record::RunRecord run, double range_um) {
   return run;
 }
 
-// A reading above 90 % of the range voids. Eccentricity, form and zero of the worked case stay below
-// 30 um; one reading is brought to 46 um: 45 um is the limit of a range of 100 um, 54 of one of 120.
+// A reading above 90 % of the range voids. Eccentricity, form and zero of the worked case stay
+// below 30 um; one reading is brought to 46 um: 45 um is the limit of a range of 100 um, 54 of one
+// of 120.
 TEST(SpindleGates, VoidAReadingNearTheEndOfTheRange) {
   World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
@@ -598,6 +660,83 @@ TEST(SpindleGates, VoidAHarmonicWhoseNoiseHidesItsLimit) {
   EXPECT_EQ(result.characteristics.at(1).verdict, Verdict::kConforms)
       << result.characteristics.at(1).reason;
   EXPECT_EQ(gate(result, "weak-harmonic").outcome, Gate::Outcome::kVoids);
+}
+
+/// Ends of an interval as printed [um].
+struct PrintedEnds {
+  double low;
+  double high;
+};
+
+/// Holds the ends of the intervals against the printed ones, in the mean of four seeds: those of
+/// 2000 trials scatter by a tenth of u.
+void expect_ends(record::RunRecord run, const std::array<PrintedEnds, 3>& ends,
+                 const std::array<double, 3>& tolerance_um) {
+  std::array<PrintedEnds, 3> found = {};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    run.header.seed = seed;
+    const FeatureResult result = result_of(run);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const CharacteristicResult& one = result.characteristics.at(c);
+      ASSERT_TRUE(one.value && one.value->statement() != nullptr) << one.reason;
+      found[c].low += 0.25 * one.value->statement()->low_mm / kMicrometre;
+      found[c].high += 0.25 * one.value->statement()->high_mm / kMicrometre;
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(found[c].low, ends[c].low, tolerance_um[c]) << c;
+    EXPECT_NEAR(found[c].high, ends[c].high, tolerance_um[c]) << c;
+  }
+}
+
+// S-1: the trials about the estimate, ends +-0.02 um; whether the certificate is contradicted.
+TEST(SpindleInterval, HasTheEndsOfTheWorkedCaseOfAWrongGain) {
+  World world;
+  world.gain = {0.0, 0.01, 0.0};
+  const auto run_with = [&](double gain, double angle_deg) {
+    auto influences = probes(gain, angle_deg);
+    influences.noise_um = declared_probe(1e-4);
+    return run_of(world, influences);
+  };
+  const auto outcome = [&](double gain, double angle_deg) {
+    return gate(result_of(run_with(gain, angle_deg)), "first-harmonic").outcome;
+  };
+  expect_ends(run_with(0.005, 0.25), {{{12.278, 12.420}, {2.676, 2.706}, {2.71, 3.12}}},
+              {0.02, 0.02, 0.02});
+  EXPECT_EQ(outcome(0.005, 0.25), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(0.002, 0.02), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(0.001, 0.01), Gate::Outcome::kVoids);
+  world.gain = {0.0, 0.0, 0.0};
+  world.angle_deg = {0.0, 0.5, 0.0};
+  EXPECT_EQ(outcome(0.005, 0.25), Gate::Outcome::kPassed);
+  EXPECT_EQ(outcome(0.002, 0.02), Gate::Outcome::kVoids);
+}
+
+/// S-4, as printed to the noise.
+World fourth_worked_case() {
+  World world;
+  world.layout = fit::reference_layout();
+  world.gain = {0.002, -0.003, 0.004};
+  world.angle_deg = {0.03, -0.05, 0.02};
+  world.noise_um = 0.05;
+  world.turns = 4;
+  world.samples = 512;
+  world.specified = true;
+  return world;
+}
+
+TEST(SpindleInterval, ReadsTheNoisyWorkedCase) {
+  const World world = fourth_worked_case();
+  const auto readings = readings_of(world);
+  const std::array<double, 3> row = {13.254159, 4.441832, -2.186343};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(readings.h_mm[i][0] / kMicrometre, row[i], 1e-6);
+  const auto result = separation_of(world, 0.05);
+  // How the readings come to even samples moves what the noise leaves here: u is 0.0016 um.
+  EXPECT_NEAR(result.first_harmonic_mm / kMicrometre, 0.02531, 4e-4);
+  EXPECT_NEAR(fit::observe_first_harmonic(result, prior_of(0.003, 0.05)).chi2, 3.97, 0.1);
+  const auto run = run_of(world, probes(0.003, 0.05));
+  EXPECT_NEAR(*result_of(run).characteristics.at(0).value_mm() / kMicrometre, 12.321, 5e-4);
+  expect_ends(run, {{{12.267, 12.371}, {2.6752, 2.6941}, {2.940, 3.009}}}, {0.02, 0.002, 0.02});
 }
 
 // S-4: interval of RONt 0.104 um wide, of RONq 0.019, of the synchronous motion 0.069.

@@ -112,6 +112,19 @@ TEST(WheelInterval, TheGeneratorGivesThePointsThatTheSpecificationPrints) {
   EXPECT_NEAR(wheel.axis_mm.y(), -7.0003755, 1e-7);
 }
 
+// W-1 and W-2: the truth at the points and of the body, without noise.
+TEST(WheelInterval, TheTruthIsThatOfTheSpecification) {
+  const auto run_out_um = [](const std::vector<double>& degrees) {
+    const auto wheel = test::specified_wheel(1, degrees);
+    fit::WheelOptions options;
+    options.axis_mm = wheel.true_axis_mm;
+    const auto found = fit::measure_wheel(wheel.true_points_mm, options);
+    return found ? found->runout->fim_mm * 1e3 : 0.0;
+  };
+  EXPECT_NEAR(run_out_um(kAllRound), 11.557, 5e-4);
+  EXPECT_NEAR(run_out_um(test::even_degrees(720, 0.0, 0.5)), 11.732, 1e-3);
+}
+
 TEST(WheelInterval, W1SixteenPointsAllRound) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   const WheelTask task = task_of(wheel);
@@ -268,8 +281,8 @@ TEST(WheelInterval, ARadiusIsJudgedAt20DegC) {
   ASSERT_TRUE(corrected.value);
   EXPECT_NEAR(corrected.value->value_mm() * 1e3, 49983.123 * (1.0 - 1.0 / 1.00008), 2e-3);
   EXPECT_EQ(judged(30.0, 5.0).characteristics.at(0).verdict, Verdict::kConforms);
-  const FeatureResult without = evaluated_wheel(
-      run_of(wheel.points_mm, task, {asked(record::Form::kRadius, 3.0)}, kSimple));
+  const FeatureResult without =
+      evaluated_wheel(run_of(wheel.points_mm, task, {asked(record::Form::kRadius, 3.0)}, kSimple));
   EXPECT_EQ(without.characteristics.at(0).verdict, Verdict::kVoid);
   EXPECT_THAT(without.characteristics.at(0).reason.english(), HasSubstr("was not recorded"));
 }

@@ -18,6 +18,7 @@
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"
+#include "tests/fit/specified_normals.h"
 
 namespace rondure::fit {
 namespace {
@@ -308,6 +309,136 @@ TEST(RotaryAxes, StatedIntervalsHoldTheTrueErrorsOfSimulatedAxes) {
       "%llu axes: inside 95 %% intervals: stations %.2f %%, between them %.2f %%, place of "
       "the axis (full circles) %.2f %%\n",
       static_cast<unsigned long long>(axes), stations.share(), between.share(), place.share());
+}
+
+// ---- The worked cases, analyses_uncertainty 13.
+
+/// four setups of a rectangle. Each is clamped with a tool length set wrong, and the axis
+/// comes back to every station anew: errors that no ball shows.
+RotaryMeasurement rectangle_with_all_influences() {
+  constexpr double kNoise_mm = 0.5 * kUm;
+  constexpr double kTool_mm = 0.3 * kUm;
+  constexpr double kRepeat_rad = 1.0 * kUrad;
+  const auto p0 = hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
+  test::SpecifiedNormals normals(1);
+  const auto three = [&] {
+    const double x = normals.next();
+    const double y = normals.next();
+    return Vector3d(x, y, normals.next());
+  };
+  std::array<Vector3d, 4> references;
+  std::array<Vector3d, 4> tools;
+  for (Vector3d& one : references) one = kNoise_mm / std::sqrt(3.0) * three();
+  for (Vector3d& one : tools) one = kTool_mm * three().cwiseProduct(Vector3d(0.0, 1.0, 1.0));
+  for (int spare = 0; spare < 24; ++spare) static_cast<void>(normals.next());
+  RotaryMeasurement out;
+  out.axis = kC;
+  const auto names = test::letters(4);
+  out.references.emplace_back();
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.references.back().push_back(
+        {names[i], p0[i] + references[i], Vector3d::Constant(kNoise_mm / std::sqrt(3.0))});
+  }
+  for (const double angle : circle_of(24)) {
+    RotaryPose& pose = out.stations.emplace_back();
+    pose.angle_rad = angle;
+    const Vector6 x = example_errors(angle);
+    const Matrix3d turn = kC.turn(angle);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double repeat = kRepeat_rad * normals.next();
+      const Vector3d noise = kNoise_mm * three();
+      const Vector3d p = turn * p0[i];
+      pose.balls.push_back({names[i],
+                            error_motion(x.head<3>(), x.tail<3>()) * p +
+                                (turn - Matrix3d::Identity()) * tools[i] +
+                                repeat * Vector3d::UnitZ().cross(p) + noise,
+                            Vector3d::Constant(kNoise_mm)});
+    }
+  }
+  return out;
+}
+
+// Printed of the linear solution of exact data; the exact one is off by what that neglects.
+TEST(RotaryAxes, TheRectangleOfFourSetupsReadsAsTheWorkedCase) {
+  const RotaryMeasurement m = rectangle_with_all_influences();
+  const auto linear = identify_rotary_axis(m, {.solver = RotaryOptions::Solver::kLinear});
+  ASSERT_TRUE(linear) << linear.error().what;
+  const auto whole = identify_rotary_axis(m);
+  ASSERT_TRUE(whole) << whole.error().what;
+  Vector6 printed;
+  printed << -10.670, -12.924, 0.385, -10.173, -55.566, 8.951;
+  Vector6 truth;
+  truth << -11.617, -13.502, 0.463, -11.082, -58.205, 4.265;
+  const Vector6 exact = example_errors(kDeg45);
+  for (int k = 0; k < 6; ++k) {
+    const double unit = k < 3 ? kUm : kUrad;
+    EXPECT_NEAR(station_at(*linear, 45.0).errors.values()(k) / unit, printed(k), 5.1e-4) << k;
+    EXPECT_NEAR(station_at(*whole, 45.0).errors.values()(k) / unit, printed(k),
+                k < 3 ? 0.0017 : 0.005)
+        << k;
+    EXPECT_NEAR(exact(k) / unit, truth(k), 5.1e-4) << k;
+  }
+}
+
+/// C carries A, each with its six errors, the tool p0 in the frame of A. The chain is written
+/// here, of the motions of single axes: the program has no head.
+struct Head {
+  RotaryErrors of_c;
+  RotaryErrors of_a;
+  double c_rad = 45.0 * kDegree;
+  double a_rad = -30.0 * kDegree;
+
+  Head() {
+    of_c.t_mm = Vector3d(-11.617, -13.502, 0.463) * kUm;
+    of_c.w_rad = Vector3d(-11.082, -58.205, 4.265) * kUrad;
+    of_a.t_mm = Vector3d(6.0, -9.0, 14.0) * kUm;
+    of_a.w_rad = Vector3d(35.0, -20.0, 12.0) * kUrad;
+  }
+  /// With commands besides the nominal angles.
+  [[nodiscard]] Eigen::Isometry3d actual(double dc_rad = 0.0, double da_rad = 0.0) const {
+    return rotary_motion(kC, c_rad + dc_rad, of_c) * rotary_motion(kA, a_rad + da_rad, of_a);
+  }
+  [[nodiscard]] Eigen::Isometry3d nominal() const {
+    return rotary_motion(kC, c_rad, {}) * rotary_motion(kA, a_rad, {});
+  }
+};
+
+TEST(RotaryAxes, TwoAxesInAChainErrAsTheWorkedCase) {
+  const Head head;
+  struct Row {
+    Vector3d p0;
+    Vector3d dp_um;
+    Vector3d linear_um;
+  };
+  const double dc_rad = -0.00024437 * kDegree;
+  const double da_rad = -0.00200535 * kDegree;
+  for (const Row& row :
+       {Row{{0, 0, -200}, {8.3832, -9.6563, 15.8633}, {-12.369, 14.2448, -19.3623}},
+        Row{{0, 60, -250}, {11.5621, -7.9280, 15.4861}, {-17.4434, 14.2492, -18.0414}}}) {
+    SCOPED_TRACE(row.p0.y());
+    const Vector3d at = head.nominal() * row.p0;
+    EXPECT_LT(((head.actual() * row.p0 - at) / kUm - row.dp_um).cwiseAbs().maxCoeff(), 5.1e-5);
+    // What the commands leave, the linear axes moved as printed.
+    const Vector3d left_um = (head.actual(dc_rad, da_rad) * row.p0 - at) / kUm + row.linear_um;
+    EXPECT_LT((left_um - Vector3d(-0.0010, 0.0002, 0.0011)).cwiseAbs().maxCoeff(),
+              row.p0.y() == 0.0 ? 5.1e-4 : 5e-3)
+        << left_um.transpose();
+  }
+  // To first order, of A.
+  const Vector3d q = head.nominal() * Vector3d(0, 0, -200);
+  const Vector3d arm = kA.turn(head.a_rad) * Vector3d(0, 0, -200);
+  const Vector3d first = head.of_c.t_mm + head.of_c.w_rad.cross(q) +
+                         kC.turn(head.c_rad) * (head.of_a.t_mm + head.of_a.w_rad.cross(arm));
+  EXPECT_LT((first / kUm - Vector3d(8.3840, -9.6566, 15.8623)).cwiseAbs().maxCoeff(), 5.1e-5);
+  EXPECT_NEAR(-head.of_c.w_rad.z(), dc_rad, 1e-10);
+  EXPECT_NEAR(-head.of_a.w_rad.x(), da_rad, 1e-10);
+  const Matrix3d left = head.actual(dc_rad, da_rad).linear() * head.nominal().linear().transpose();
+  EXPECT_LT((rotation_vector(left) / kUrad - Vector3d(3.06, -72.35, 12.00)).cwiseAbs().maxCoeff(),
+            0.0051)
+      << rotation_vector(left).transpose() / kUrad;
+  const Vector3d n = head.nominal().linear() * -Vector3d::UnitZ();
+  EXPECT_LT(((left * n - n) / kUrad - Vector3d(66.90, 6.89, 24.50)).cwiseAbs().maxCoeff(), 0.0051)
+      << ((left * n - n) / kUrad).transpose();
 }
 
 // ---- Bad input.

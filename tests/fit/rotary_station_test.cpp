@@ -234,6 +234,14 @@ TEST(BallSetup, GivesTheTableOfTheSpecification) {
   }
 }
 
+// R-1 of analyses_uncertainty 13.
+TEST(BallSetup, RectangleHasTheDigitsOfTheWorkedCase) {
+  const Vector6 u = u_per_u(solved(hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}})));
+  Vector6 printed;
+  printed << 2.291288, 1.5, 0.866025, 7.071068, 10.0, 10.0;
+  EXPECT_LT((u - printed).cwiseAbs().maxCoeff(), 5.1e-7) << u.transpose();
+}
+
 TEST(BallSetup, OfTheAAxisGivesTheNumbersOfTheWorkedExample) {
   const auto balls = hanging({{150, 50}, {150, 150}, {250, 150}});
   for (const double angle : angles_deg(0, 90, 10))

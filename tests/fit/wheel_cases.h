@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +11,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "tests/fit/specified_normals.h"
 
 namespace rondure::test {
 
@@ -46,22 +46,6 @@ inline Points2 arc_points(std::size_t n, double arc_deg, double radius, double s
   }
   return out;
 }
-
-/// Normals of the worked cases of the specification: splitmix64 from the seed, Box-Muller, two
-/// draws a normal.
-class SpecifiedNormals {
- public:
-  explicit SpecifiedNormals(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    const double u1 = uniform();
-    const double u2 = uniform();
-    return std::sqrt(-2.0 * std::log(1.0 - u1)) * std::cos(2.0 * std::numbers::pi * u2);
-  }
-
- private:
-  double uniform() { return static_cast<double>(core::splitmix64(state_) >> 11U) * 0x1.0p-53; }
-  std::uint64_t state_;
-};
 
 /// The wheel of the worked cases W-1 to W-3: points, and the axis as stated.
 struct SpecifiedWheel {
