@@ -57,7 +57,7 @@ struct EvaluatedRun {
 core::Result<void> require_sound(const record::ReadJournal& read, const fs::path& directory) {
   const std::vector<std::string> faults = record::faults_of(read);
   if (!faults.empty()) return core::fail(core::Code::kJournal, faults.front(), directory.string());
-  auto checked = plans::check_record(read.record);
+  auto checked = plans::check_record(read);
   if (!checked) return core::fail(checked.error().at(directory.string()));
   return {};
 }
@@ -193,7 +193,7 @@ std::optional<record::RunRecord> read_sound_record(const std::string& directory)
   const std::vector<std::string> faults = record::faults_of(*read);
   for (const std::string& fault : faults) tell(fmt::format("rondure: {}: {}\n", directory, fault));
   if (!faults.empty()) return std::nullopt;
-  if (const auto checked = plans::check_record(read->record); !checked) {
+  if (const auto checked = plans::check_record(*read); !checked) {
     print_error(checked.error().at(directory));
     return std::nullopt;
   }

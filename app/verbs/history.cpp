@@ -206,7 +206,7 @@ core::Result<record::ArchiveRun> finished_run(const fs::path& directory) {
                                   faults.empty() ? "the run did not finish" : faults.front()),
                       directory.string());
   }
-  if (auto checked = plans::check_record(read->record); !checked) {
+  if (auto checked = plans::check_record(*read); !checked) {
     return core::fail(checked.error().at(directory.string()));
   }
   const auto evaluation = evaluation::evaluate(read->record);

@@ -465,8 +465,10 @@ core::Result<void> refused(const std::string& place, const std::string& fault) {
 
 }  // namespace
 
-core::Result<void> check_record(const RunRecord& record) {
-  const bool strict = record.header.version == core::kVersion;
+core::Result<void> check_record(const record::ReadJournal& read) {
+  const RunRecord& record = read.record;
+  constexpr int kAllSettings = 5;  // tables of this version on name every setting of a task
+  const bool strict = record.header.version == core::kVersion && read.version >= kAllSettings;
   if (auto fault = check_run_settings(record.settings, strict)) {
     return refused("the run", *fault);
   }

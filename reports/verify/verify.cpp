@@ -350,7 +350,7 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
     return out;
   }
 
-  if (const auto checked = options.check ? options.check(record) : core::Result<void>(); !checked) {
+  if (const auto checked = options.check ? options.check(*read) : core::Result<void>(); !checked) {
     out.differences.push_back(checked.error().what);
     return out;
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "record/run_record.h"
+#include "record/journal/journal.h"
 
 namespace rondure::reports {
 
@@ -16,7 +16,7 @@ struct VerifyOptions {
   std::string processor;  ///< Processor of this machine, spelled as in the journal.
   std::optional<std::string> public_key_pem;  ///< If given, the signature is checked too.
   /// Whether a record can be evaluated: plans::check_record(), which this room does not see.
-  std::function<core::Result<void>(const record::RunRecord&)> check = {};
+  std::function<core::Result<void>(const record::ReadJournal&)> check = {};
 };
 
 /// Result of verify_run().

@@ -38,7 +38,7 @@ std::string wrong_with_reports(const record::RunRecord& record,
 std::string try_run(const std::filesystem::path& directory, unsigned seed) {
   const auto read = record::read_journal(directory);
   if (!read) return read.error().what.empty() ? "refused without a word" : "";
-  if (const auto known = plans::check_record(read->record); !known) {
+  if (const auto known = plans::check_record(*read); !known) {
     return known.error().what.empty() ? "refused without a word" : "";
   }
   const auto checked = evaluation::evaluate_checked(read->record);
@@ -68,7 +68,7 @@ TEST(JournalFuzz, TheUndamagedRunsAreEvaluated) {
   for (const auto& run : sample_runs()) {
     const auto read = record::read_journal(run);
     ASSERT_TRUE(read) << run << read.error().what;
-    const auto known = plans::check_record(read->record);
+    const auto known = plans::check_record(*read);
     EXPECT_TRUE(known) << run << known.error().what;
     EXPECT_EQ(try_run(run, 0), "") << run;
   }
