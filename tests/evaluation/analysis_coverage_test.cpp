@@ -336,22 +336,11 @@ TEST(SpindleCoverage, HoldsRoundnessHarmonicAndSynchronousMotion) {
                  spindle_inspection);
 }
 
-TEST(SpindleCoverage, HoldsRoundnessAndMotionOfTwiceTheNoise) {
-  expect_covered({{"RONt of s 0.1 um", 0.939, 0.176}, {"RONq"}, {"motion of it", 0.936, 0.191}},
-                 [](std::uint64_t k) { return inspection_of_row(k, {.noise_um = 0.1}); });
-}
-
 TEST(SpindleCoverage, HoldsRoundnessAndMotionOfLayoutA) {
   const SpindleRow row{SpindleTask::Layout::kPublishedA, 0.002, 0.02};
   expect_covered({{"RONt of layout A", 0.948, 0.694},
                   {"RONq of layout A", 0.945, 0.124},
                   {"motion of layout A", 0.901, 0.616}},
-                 [&](std::uint64_t k) { return inspection_of_row(k, row); });
-}
-
-TEST(SpindleCoverage, HoldsRoundnessAndMotionOfProbesThatTheFirstHarmonicShows) {
-  const SpindleRow row{.gain_1 = 0.01, .angle_deg = 0.5};
-  expect_covered({{"RONt of 1 %", 0.933, 0.433}, {"RONq of 1 %"}, {"motion of 1 %", 0.957, 0.654}},
                  [&](std::uint64_t k) { return inspection_of_row(k, row); });
 }
 
