@@ -59,7 +59,8 @@ core::Result<std::vector<Checksum>> read_checksums(const fs::path& directory) {
   return list;
 }
 
-core::Result<void> update_checksums(const fs::path& directory, const std::vector<Checksum>& files) {
+core::Result<void> update_checksums(const fs::path& directory, const std::vector<Checksum>& files,
+                                    const std::vector<std::string>& gone) {
   std::vector<Checksum> list;
   std::error_code unknown;  // a list that cannot be examined cannot be written either
   if (fs::exists(directory / kChecksumsName, unknown)) {
@@ -67,6 +68,9 @@ core::Result<void> update_checksums(const fs::path& directory, const std::vector
     if (!present) return core::fail(present.error());
     list = *std::move(present);
   }
+  std::erase_if(list, [&](const Checksum& c) {
+    return std::find(gone.begin(), gone.end(), c.file) != gone.end();
+  });
   for (const Checksum& file : files) {
     const auto line = std::find_if(list.begin(), list.end(),
                                    [&](const Checksum& c) { return c.file == file.file; });

@@ -24,9 +24,10 @@ struct Checksum {
     const std::filesystem::path& directory);
 
 /// Updates `directory`/SHA256SUMS: a line replaces that of the same file or is appended; other
-/// lines stay. Creates the list when there is none. Errors as read_checksums(); kFile when it
-/// cannot be written.
+/// lines stay, except those of the files in `gone`. Creates the list when there is none. Errors as
+/// read_checksums(); kFile when it cannot be written.
 [[nodiscard]] core::Result<void> update_checksums(const std::filesystem::path& directory,
-                                                  const std::vector<Checksum>& files);
+                                                  const std::vector<Checksum>& files,
+                                                  const std::vector<std::string>& gone = {});
 
 }  // namespace rondure::record

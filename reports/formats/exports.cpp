@@ -83,6 +83,34 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
   return record::Checksum{what.file, record::sha256_hex(bytes)};
 }
 
+/// Removes tables for machines that an earlier report wrote and that no longer follow: a machine
+/// would still take them. A table that was changed since, or that no report wrote, stays.
+/// @return Those removed.
+core::Result<std::vector<std::string>> remove_old_tables(const std::filesystem::path& directory,
+                                                         const std::vector<Rendered>& current) {
+  std::vector<std::string> removed;
+  const auto list = record::read_checksums(directory);
+  if (!list) return removed;  // nothing was written, or the update of the list tells what is wrong
+  for (const record::Checksum& line : *list) {
+    if (!line.file.starts_with(std::string(kCorrectionsFolder) + "/")) continue;
+    if (std::any_of(current.begin(), current.end(),
+                    [&](const Rendered& made) { return made.what.file == line.file; })) {
+      continue;
+    }
+    const auto bytes = record::read_file(directory / line.file);
+    if (!bytes || record::sha256_hex(*bytes) != line.sha256) continue;
+    std::error_code failure;
+    if (!std::filesystem::remove(directory / line.file, failure)) {
+      return core::fail(core::Code::kFile,
+                        fmt::format("the correction no longer follows and cannot be removed: {}",
+                                    failure.message()),
+                        line.file);
+    }
+    removed.push_back(line.file);
+  }
+  return removed;
+}
+
 }  // namespace
 
 const std::vector<Export>& exports() {
@@ -196,11 +224,21 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   if (!earlier) return core::fail(earlier.error());
   std::vector<std::filesystem::path> written;
   std::vector<record::Checksum> sums;
+  std::vector<std::string> gone;
   core::Result<void> done;
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) continue;
-    for (Rendered& made : render_all(e, record, evaluation, language, *earlier)) {
+    std::vector<Rendered> files = render_all(e, record, evaluation, language, *earlier);
+    if (e.format == Format::kCorrections) {
+      auto removed = remove_old_tables(directory, files);
+      if (!removed) {
+        done = core::fail(removed.error());
+        break;
+      }
+      gone = *std::move(removed);
+    }
+    for (Rendered& made : files) {
       auto sum = write_one(made.what, directory / made.what.file, record.header,
                            std::move(made.bytes), paper);
       if (!sum) {
@@ -213,7 +251,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     if (!done) break;
   }
   // Also lists those written before one failed: an old digest would mark them as changed.
-  const auto listed = record::update_checksums(directory, sums);
+  const auto listed = record::update_checksums(directory, sums, gone);
   if (!done) return core::fail(done.error());
   if (!listed) return core::fail(listed.error());
   return written;

@@ -422,6 +422,23 @@ TEST_F(CorrectionFiles, AreListedAndVerified) {
                                    "correction"));
 }
 
+TEST_F(CorrectionFiles, OfAFeatureThatBecameVoidGoAway) {
+  write(GroundPins().record());
+  const std::string good = *record::read_file(directory / kTable);
+  GroundPins pins;
+  pins.task.uncertainty->skew_ms.reset();
+  write(pins.record());
+  EXPECT_FALSE(std::filesystem::exists(directory / kTable));
+  EXPECT_THAT(*record::read_file(directory / "SHA256SUMS"), testing::Not(HasSubstr(kTable)));
+  EXPECT_THAT(differences(), testing::IsEmpty());
+  // What somebody changed is his, and `verify` names it.
+  write(GroundPins().record());
+  ASSERT_TRUE(record::write_file(directory / kTable, good + "\n"));
+  write(pins.record());
+  EXPECT_EQ(*record::read_file(directory / kTable), good + "\n");
+  EXPECT_THAT(differences(), testing::Contains(testing::StartsWith(kTable)));
+}
+
 TEST_F(CorrectionFiles, OfAVoidFeatureAreATextThatSaysWhy) {
   GroundPins pins;
   pins.task.uncertainty->skew_ms.reset();
