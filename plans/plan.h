@@ -246,9 +246,9 @@ struct SourcePlan {
   std::optional<double>
       tip_diameter_mm;  ///< Diameter of the probe tip used; none: radii stay tip-centre radii.
   std::vector<ColumnPlan> columns;  ///< For series whose file uses other names.
-  std::string feature;   ///< Only the rows whose column `feature` says this; empty: all rows.
-  std::string clamping;  ///< Files of one name were measured in one clamping.
-  std::string measured_utc;              ///< When the data were measured; may be empty.
+  std::string feature;       ///< Only the rows whose column `feature` says this; empty: all rows.
+  std::string clamping;      ///< Files of one name were measured in one clamping.
+  std::string measured_utc;  ///< When the data were measured; may be empty.
   std::optional<double> valid_for_days;  ///< How long they stand; needs `measured_utc`.
 };
 

@@ -30,7 +30,7 @@ struct Indication {
   enum class Association { kOneSided, kEqualised, kLs, kZone };
   enum class Filter { kNone, kGaussian, kRobustGaussian, kSpline };
   enum class Outliers { kNone, kFiveScales };
-  enum class Axis { kAlpha, kBeta };    ///< Of a fixture.
+  enum class Axis { kAlpha, kBeta };  ///< Of a fixture.
   /// Of a rotary axis: the shifts EX, EY, EZ, then the tilts EA, EB, EC.
   enum class AxisError { kX, kY, kZ, kA, kB, kC };
 
@@ -128,9 +128,12 @@ constexpr auto words_of(Indication::Axis) {
 }
 constexpr auto words_of(Indication::AxisError) {
   using AxisError = Indication::AxisError;
-  return std::to_array<Word<AxisError>>(
-      {{AxisError::kX, "EX"}, {AxisError::kY, "EY"}, {AxisError::kZ, "EZ"},
-       {AxisError::kA, "EA"}, {AxisError::kB, "EB"}, {AxisError::kC, "EC"}});
+  return std::to_array<Word<AxisError>>({{AxisError::kX, "EX"},
+                                         {AxisError::kY, "EY"},
+                                         {AxisError::kZ, "EZ"},
+                                         {AxisError::kA, "EA"},
+                                         {AxisError::kB, "EB"},
+                                         {AxisError::kC, "EC"}});
 }
 [[nodiscard]] constexpr bool is_angle(Indication::AxisError error) {
   return error >= Indication::AxisError::kA;
@@ -202,9 +205,10 @@ void describe(Visitor& v, Indication& p) {
   v.text("axis", p.axis,
          {.meaning = "Of an axis-error: alpha, the base-fixed axis of the fixture, or beta, the "
                      "carried one."});
-  v.text("error", p.error,
-         {.meaning = "Of an axis-error: EX, EY or EZ, the shift along this axis of the machine; EA, "
-                     "EB or EC, the tilt about its x, y or z, an angle in urad."});
+  v.text(
+      "error", p.error,
+      {.meaning = "Of an axis-error: EX, EY or EZ, the shift along this axis of the machine; EA, "
+                  "EB or EC, the tilt about its x, y or z, an angle in urad."});
   v.texts("datum", p.datum,
           {.empty_allowed = false,
            .meaning = "Datums in their order, each the letter or id of a feature, or a common "

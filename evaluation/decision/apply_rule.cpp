@@ -239,16 +239,14 @@ core::Phrase guarded_sentence(const KnownValue& known, const Limits& limits, con
   const std::string acceptance = with_unit(known, limit.acceptance_mm);
   const std::string rejection = with_unit(known, limit.rejection_mm);
   if (verdict == Verdict::kConforms) {
-    return core::phrase(
-        "{} is within the acceptance limit of {} (tolerance {}, guard band {})",
-        value, acceptance, tolerance_text(known, limit.limit_mm),
-        difference(known, limit.limit_mm - limit.acceptance_mm));
+    return core::phrase("{} is within the acceptance limit of {} (tolerance {}, guard band {})",
+                        value, acceptance, tolerance_text(known, limit.limit_mm),
+                        difference(known, limit.limit_mm - limit.acceptance_mm));
   }
   if (verdict == Verdict::kDoesNotConform) {
-    return core::phrase(
-        "{} is above the rejection limit of {} (tolerance {}, guard band {})",
-        value, rejection, tolerance_text(known, limit.limit_mm),
-        difference(known, limit.rejection_mm - limit.limit_mm));
+    return core::phrase("{} is above the rejection limit of {} (tolerance {}, guard band {})",
+                        value, rejection, tolerance_text(known, limit.limit_mm),
+                        difference(known, limit.rejection_mm - limit.limit_mm));
   }
   return core::phrase(
       "{} lies between the acceptance limit of {} and the rejection limit of {} about the "

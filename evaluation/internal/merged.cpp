@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "evaluation/internal/fixture_use.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/internal/fixture_use.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 

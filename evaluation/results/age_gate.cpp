@@ -42,10 +42,10 @@ std::optional<Gate> age_gate(const record::RunRecord& record, const record::Feat
         *stated->measured_utc, record.header.started_utc));
   }
   if (!out.limit || *out.found <= *out.limit) return out;
-  return refuse(core::phrase(
-      "the data were measured at {} and are {:.4g} days old, they stand for {:g} days "
-      "(valid_for_days): measure again",
-      *stated->measured_utc, *out.found, *out.limit));
+  return refuse(
+      core::phrase("the data were measured at {} and are {:.4g} days old, they stand for {:g} days "
+                   "(valid_for_days): measure again",
+                   *stated->measured_utc, *out.found, *out.limit));
 }
 
 std::optional<core::Phrase> age_fault(const record::RunRecord& record,

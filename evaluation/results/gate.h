@@ -17,8 +17,8 @@ struct Gate {
     kVoids,   ///< Some values prove nothing.
   };
 
-  std::string code;           ///< Stable, kebab-case: "first-harmonic".
-  core::Phrase condition;     ///< What is compared: "chi2 of the first harmonic".
+  std::string code;             ///< Stable, kebab-case: "first-harmonic".
+  core::Phrase condition;       ///< What is compared: "chi2 of the first harmonic".
   std::optional<double> found;  ///< None where it could not be computed.
   std::optional<double> limit;
   std::string unit;  ///< Of both: "um", "deg"; empty of a plain number.

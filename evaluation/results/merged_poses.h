@@ -16,8 +16,8 @@ namespace rondure::evaluation {
 
 /// Combination of the clouds of several poses.
 struct MergedPoses {
-  bool joint = false;               ///< The errors of the poses were solved for and removed.
-  std::vector<core::Pose> poses;    ///< As read from the fixture, in the order measured.
+  bool joint = false;             ///< The errors of the poses were solved for and removed.
+  std::vector<core::Pose> poses;  ///< As read from the fixture, in the order measured.
   /// Body frame in the machine in each pose, by which a merge by kinematics combined the touches.
   std::vector<Eigen::Isometry3d> frames;
   std::vector<std::size_t> points;  ///< Number of targets touched in each pose.

@@ -103,8 +103,8 @@ struct TrialValues {
   /// Of a convex value (peak to valley, rms, amplitude, largest of many): the values of the core
   /// alone, for the same trials. Empty: the value is linear and is not turned.
   std::vector<double> core_mm = {};
-  double core_center_mm = 0.0;  ///< The value of CurveDraws::core_mm().
-  bool signed_value = false;    ///< false: values are cut at 0.
+  double core_center_mm = 0.0;                  ///< The value of CurveDraws::core_mm().
+  bool signed_value = false;                    ///< false: values are cut at 0.
   core::ValueUnit unit = core::ValueUnit::kUm;  ///< In notes; of kUrad the values are in mrad.
 };
 

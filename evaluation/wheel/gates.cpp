@@ -14,7 +14,7 @@ namespace {
 using core::kDegree;
 using core::um;
 
-constexpr double kLossShare = 0.1;   ///< Of the tolerance; more makes a bound.
+constexpr double kLossShare = 0.1;  ///< Of the tolerance; more makes a bound.
 /// Of the tolerance; what may move a radius by more voids it: form on an arc, temperature.
 constexpr double kFormShare = 0.25;
 constexpr double kUsualExpansion_1_K = 8e-6;  ///< Of a vitrified wheel, where none is stated.

@@ -194,8 +194,8 @@ struct SignedLimits {
 
 SignedLimits signed_limits(const record::CharacteristicTask& c) {
   if (record::is_angle(c.form, c.indication)) {
-    return {"tolerance_urad", "lower_urad", "upper_urad", "symmetric_urad",
-            c.lower_urad,     c.upper_urad};
+    return {"tolerance_urad", "lower_urad", "upper_urad",
+            "symmetric_urad", c.lower_urad, c.upper_urad};
   }
   return {"tolerance_um", "lower_um", "upper_um", "symmetric_um", c.lower_um, c.upper_um};
 }
@@ -218,9 +218,10 @@ void check_signed_limits(const Asked& asked) {
       asked.refuse(key, fmt::format("{} holds both limits; remove one", keys.symmetric));
     }
   } else if (lower != upper) {
-    asked.refuse(lower ? keys.lower : keys.upper,
-                 fmt::format("one limit leaves the other side open; add {}, or give {} in its place",
-                             lower ? keys.upper : keys.lower, keys.symmetric));
+    asked.refuse(
+        lower ? keys.lower : keys.upper,
+        fmt::format("one limit leaves the other side open; add {}, or give {} in its place",
+                    lower ? keys.upper : keys.lower, keys.symmetric));
   } else if (keys.low && keys.high && *keys.low >= *keys.high) {
     asked.refuse(keys.lower, fmt::format("{} {} is not below {} {}; exchange them", keys.lower,
                                          plain(*keys.low), keys.upper, plain(*keys.high)));
@@ -245,8 +246,9 @@ void check_unit_of_limits(const Asked& asked) {
   for (const std::string_view key : {"tolerance", "lower", "upper", "symmetric"}) {
     const std::string wrong = fmt::format("{}_{}", key, angle ? "um" : "urad");
     if (!asked.given(wrong)) continue;
-    asked.refuse(wrong, angle ? fmt::format("{} is an angle; give {}_urad", what, key)
-                              : fmt::format("{} is a length, no angle; give its limits in um", what));
+    asked.refuse(wrong, angle
+                            ? fmt::format("{} is an angle; give {}_urad", what, key)
+                            : fmt::format("{} is a length, no angle; give its limits in um", what));
   }
 }
 

@@ -78,9 +78,9 @@ struct WheelInfluencesTask {
   Influence point_um;  ///< Of one point, along the radius.
   Influence scale_ppm;
   Influence squareness_urad;
-  Influence threshold_um;  ///< Bias of the edge detection; moves the radius only.
-  Influence axis_um;       ///< Of each coordinate of the axis.
-  Influence wear_um;       ///< Since the measurement.
+  Influence threshold_um;     ///< Bias of the edge detection; moves the radius only.
+  Influence axis_um;          ///< Of each coordinate of the axis.
+  Influence wear_um;          ///< Since the measurement.
   Influence expansion_per_K;  ///< Of the expansion coefficient of the wheel.
   Influence temperature_K;    ///< Of its temperature.
 };
@@ -160,8 +160,9 @@ void describe(Visitor& v, WheelInfluencesTask& p) {
   v.influence("expansion_per_K", p.expansion_per_K,
               range(0.0, 1e-4, "Expansion coefficient of the wheel: error of the stated one."));
   v.influence("temperature_K", p.temperature_K,
-              range(0.0, 100.0, "Temperature of the wheel, where its radius is brought to 20 "
-                                "degC."));
+              range(0.0, 100.0,
+                    "Temperature of the wheel, where its radius is brought to 20 "
+                    "degC."));
 }
 
 }  // namespace rondure::record

@@ -139,8 +139,9 @@ void describe(Visitor& v, CharacteristicTask& p) {
 }
 
 /// The characteristic that a journal keeps: limits in mm, those of a size absolute, those of an
-/// angle in mrad (core::ValueUnit), and what the levels above say where it says nothing. A filter comes with the cut-offs of its level and of
-/// those below it. What the form does not take is left out.
+/// angle in mrad (core::ValueUnit), and what the levels above say where it says nothing. A filter
+/// comes with the cut-offs of its level and of those below it. What the form does not take is left
+/// out.
 /// @param levels  The nearest first: feature, plan.
 [[nodiscard]] Characteristic characteristic_of(const CharacteristicTask& task,
                                                double nominal_diameter_mm = 0.0,

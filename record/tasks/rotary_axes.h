@@ -97,9 +97,10 @@ void describe(Visitor& v, RotaryTask& p) {
                  "of the touches."));
   v.number("valid_for_days", p.valid_for_days,
            above(0.0, 36'500.0, "How long other runs may use the calibration."));
-  v.object("uncertainty", p.uncertainty,
-           {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
-                       "Without them there is no interval."});
+  v.object(
+      "uncertainty", p.uncertainty,
+      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                  "Without them there is no interval."});
 }
 
 }  // namespace rondure::record

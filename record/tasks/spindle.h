@@ -156,9 +156,10 @@ void describe(Visitor& v, SpindleTask& p) {
                      "only."});
   v.text("filter", p.filter, {.meaning = "Filter of the profile before its roundness."});
   v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
-  v.object("uncertainty", p.uncertainty,
-           {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
-                       "Without them there is no interval."});
+  v.object(
+      "uncertainty", p.uncertainty,
+      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
+                  "Without them there is no interval."});
 }
 
 }  // namespace rondure::record

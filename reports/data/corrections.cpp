@@ -11,8 +11,8 @@
 #include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/correction/x_of_c.h"
 #include "evaluation/correction/axis_tables.h"
+#include "evaluation/correction/x_of_c.h"
 #include "record/sha256.h"
 
 namespace rondure::reports {

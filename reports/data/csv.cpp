@@ -49,9 +49,8 @@ bool has_two_limits(const record::Characteristic& asked) {
 bool any_of(const evaluation::Evaluation& evaluation,
             bool (*holds)(const record::Characteristic& asked)) {
   return std::ranges::any_of(evaluation.features, [&](const evaluation::FeatureResult& feature) {
-    return std::ranges::any_of(feature.characteristics, [&](const auto& result) {
-      return holds(result.characteristic);
-    });
+    return std::ranges::any_of(feature.characteristics,
+                               [&](const auto& result) { return holds(result.characteristic); });
   });
 }
 
@@ -140,19 +139,20 @@ std::string write_results_csv(const record::RunRecord& record,
   const bool angles = any_of(evaluation, is_angle);
   const bool rules = any_of(evaluation, has_own_rule);
   if (sizes) text += ",lower_limit_mm,upper_limit_mm";
-  if (angles) text += ",value_urad,quoted_urad,low_urad,high_urad,lower_limit_urad,upper_limit_urad";
+  if (angles)
+    text += ",value_urad,quoted_urad,low_urad,high_urad,lower_limit_urad,upper_limit_urad";
   text += rules ? ",decision_rule\n" : "\n";
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
       const bool angle = is_angle(asked);
-      text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{}{}", head, text_field(feature.feature.id),
-          text_field(asked.id), evaluation::symbol_of(asked), evaluation::reference_of(asked),
-          angle ? "" : um_field(result.value_mm()), tolerance_field(feature.feature, asked),
-          name_of(result.verdict), text_field(result.reason.english()),
-          text_field(result.value ? result.value->operator_text().english() : ""),
-          angle ? ",,," : interval_fields(result));
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}{}", head, text_field(feature.feature.id),
+                          text_field(asked.id), evaluation::symbol_of(asked),
+                          evaluation::reference_of(asked), angle ? "" : um_field(result.value_mm()),
+                          tolerance_field(feature.feature, asked), name_of(result.verdict),
+                          text_field(result.reason.english()),
+                          text_field(result.value ? result.value->operator_text().english() : ""),
+                          angle ? ",,," : interval_fields(result));
       if (sizes) text += size_fields(asked);
       if (angles) text += angle_fields(result);
       if (rules) text += fmt::format(",{}", rule_field(evaluation, asked));

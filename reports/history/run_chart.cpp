@@ -241,16 +241,15 @@ core::Phrase capability_in_words(const RunChart& chart) {
   const core::Phrase model_words =
       model ? core::phrase("fitted log-normal distribution") : core::phrase("results themselves");
   if (c.lower_point_mm) {
-    const core::Phrase between =
-        core::phrase("0.135 % point {}, median {}, 99.865 % point {} of the {}",
-                     number(*c.lower_point_mm), number(c.median_mm), number(c.upper_point_mm),
-                     model_words);
+    const core::Phrase between = core::phrase(
+        "0.135 % point {}, median {}, 99.865 % point {} of the {}", number(*c.lower_point_mm),
+        number(c.median_mm), number(c.upper_point_mm), model_words);
     return core::phrase("{} ({})", joined(index, between),
                         core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
   }
-  const core::Phrase percentiles = core::phrase(
-      "median {}, 99.865 % point {} of the {}", number(c.median_mm), number(c.upper_point_mm),
-      model_words);
+  const core::Phrase percentiles =
+      core::phrase("median {}, 99.865 % point {} of the {}", number(c.median_mm),
+                   number(c.upper_point_mm), model_words);
   return core::phrase("{} ({})", joined(index, percentiles),
                       core::phrase("Anderson-Darling p = {:.2g}", c.fit_p));
 }

@@ -50,9 +50,9 @@ void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
   for (const double value : core::round_ticks(axes.y.low, axes.y.high, 6)) {
     tick_beside(svg, kRunLeft, axes.y.at(value), tick_label(value), 9.0);
   }
-  svg.upward_text(16.0, 0.5 * (kRunTop + kRunBottom), "title",
-                  fmt::format("{} / {}", chart.results.back().result.symbol,
-                              core::sign_of(unit_of(chart))));
+  svg.upward_text(
+      16.0, 0.5 * (kRunTop + kRunBottom), "title",
+      fmt::format("{} / {}", chart.results.back().result.symbol, core::sign_of(unit_of(chart))));
   for (const double number : core::round_ticks(1.0, axes.x.high - 1.0, 8)) {
     if (number != std::floor(number)) continue;
     tick_below(svg, axes.x.at(number), kRunBottom, tick_label(number));

@@ -225,11 +225,11 @@ std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget, core:
     const std::string size = with_sign(um(line->standard_uncertainty_mm));
     const std::string share = fixed(100.0 * line->share_1, 0);
     // Linear propagation knows no shift, but how the value changes.
-    svg.text(end + 8.0, y + 16.0, "start", "label",
-             line->per_u_mm
-                 ? trf("{}, {} %; {} for +1 u", size, share, with_sign(signed_um(*line->per_u_mm)))
-                 : trf("{}, {} %; mean shift {}", size, share,
-                       with_sign(signed_um(line->shift_mm))));
+    svg.text(
+        end + 8.0, y + 16.0, "start", "label",
+        line->per_u_mm
+            ? trf("{}, {} %; {} for +1 u", size, share, with_sign(signed_um(*line->per_u_mm)))
+            : trf("{}, {} %; mean shift {}", size, share, with_sign(signed_um(line->shift_mm))));
     y += kRow;
   }
   return svg.str();

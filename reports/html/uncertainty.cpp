@@ -50,13 +50,13 @@ std::string statement_entry(const std::string& name, const evaluation::Uncertain
     return fmt::format("{} {}", text, core::sign_of(core::unit_of_difference(unit)));
   };
   if (s.at_most) {
-    return entry(name,
-                 with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
-                           trf("upper end of the {:g} % interval; noise and influences make up too "
-                               "much of the value for more. Numbers stable to {}",
-                               100.0 * coverage_1,
-                               with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
-                 "lead");
+    return entry(
+        name,
+        with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
+                  trf("upper end of the {:g} % interval; noise and influences make up too "
+                      "much of the value for more. Numbers stable to {}",
+                      100.0 * coverage_1, with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
+        "lead");
   }
   return entry(name,
                with_note(fmt::format("{} {} [{}, {}]", value(s.estimate_mm), sign, value(s.low_mm),
@@ -156,7 +156,8 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
                                      tr("value as measured minus the corrected value")));
   html += "</dl>";
   if (!of_cloud) html += note_list(u.notes);
-  if (const std::string bars = budget_bars(u.budget, core::unit_of_difference(unit)); !bars.empty()) {
+  if (const std::string bars = budget_bars(u.budget, core::unit_of_difference(unit));
+      !bars.empty()) {
     html += fmt::format(
         R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", bars,
         of_cloud

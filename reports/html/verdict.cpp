@@ -33,11 +33,10 @@ bool has_sides(const record::Characteristic& asked) {
 /// A limit, which is the sum of a nominal size and a deviation.
 std::string limit_text(core::ValueUnit unit, double limit_mm) {
   constexpr double kSteps = 1e6;  // of a nanometre
-  return fmt::format("{} {}",
-                     unit == core::ValueUnit::kMm
-                         ? core::decimal(core::on_grid(limit_mm, kSteps))
-                         : um(limit_mm),
-                     core::sign_of(unit));
+  return fmt::format(
+      "{} {}",
+      unit == core::ValueUnit::kMm ? core::decimal(core::on_grid(limit_mm, kSteps)) : um(limit_mm),
+      core::sign_of(unit));
 }
 
 /// "&le; 30 mm, &ge; 29.987 mm".
@@ -76,8 +75,8 @@ std::string sentence(const evaluation::Evaluation& evaluation) {
     return trf("{} {}, limits {}.", tr(evaluation::symbol_of(only->characteristic)),
                in_sentence(only->value->value_text()), limits_of(only->characteristic, tr(", ")));
   }
-  const std::string limit = limit_text(evaluation::unit_of(only->characteristic),
-                                       *only->characteristic.tolerance_mm);
+  const std::string limit =
+      limit_text(evaluation::unit_of(only->characteristic), *only->characteristic.tolerance_mm);
   if (!only->value) return trf("There is no value to hold against {}.", limit);
   return trf("{} {}, limit {}.", tr(evaluation::symbol_of(only->characteristic)),
              in_sentence(only->value->value_text()), limit);

@@ -213,9 +213,8 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   };
   line("    " + tr("corrected"), u.sampled);
   if (u.whole) line("", *u.whole);
-  std::string bias =
-      trf("noise {}", fmt::format("{} {}", signed_um(u.noise_inflation_mm),
-                                  name_of(core::unit_of_difference(value.unit()))));
+  std::string bias = trf("noise {}", fmt::format("{} {}", signed_um(u.noise_inflation_mm),
+                                                 name_of(core::unit_of_difference(value.unit()))));
   if (u.sampling_loss_mm) bias += trf(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
   const auto most = std::find_if(
       u.budget.begin(), u.budget.end(),

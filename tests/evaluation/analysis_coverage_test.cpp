@@ -176,6 +176,7 @@ struct SpindleRow {
   double gain_1 = 0.003;
   double angle_deg = 0.05;
   double noise_um = 0.05;
+  std::uint64_t first_seed = 5'000'000;  ///< Every row has draws of its own.
 };
 
 SimulatedSpindle drawn_spindle(Normals& draws, const SpindleRow& row = {}) {
@@ -216,7 +217,7 @@ Inspection spindle_inspection(std::uint64_t k) {
 
 /// Roundness, its root mean square and synchronous motion.
 Inspection inspection_of_row(std::uint64_t k, const SpindleRow& row) {
-  Normals draws(5'000'000 + k);
+  Normals draws(row.first_seed + k);
   const SimulatedSpindle world = drawn_spindle(draws, row);
   Inspection out{
       spindle_run(world, declared_task(world, row), draws),
@@ -341,6 +342,22 @@ TEST(SpindleCoverage, HoldsRoundnessAndMotionOfLayoutA) {
   expect_covered({{"RONt of layout A", 0.948, 0.694},
                   {"RONq of layout A", 0.945, 0.124},
                   {"motion of layout A", 0.901, 0.616}},
+                 [&](std::uint64_t k) { return inspection_of_row(k, row); });
+}
+
+TEST(SpindleCoverage, HoldsRoundnessAndMotionOfTwiceTheNoise) {
+  const SpindleRow row{SpindleTask::Layout::kReference, 0.003, 0.05, 0.1, 6'000'000};
+  expect_covered({{"RONt of 0.1 um noise", 0.939, 0.176},
+                  {"RONq of 0.1 um noise", 0.95, 0.0},
+                  {"motion of 0.1 um noise", 0.936, 0.191}},
+                 [&](std::uint64_t k) { return inspection_of_row(k, row); });
+}
+
+TEST(SpindleCoverage, HoldsRoundnessAndMotionOfPoorProbes) {
+  const SpindleRow row{SpindleTask::Layout::kReference, 0.01, 0.5, 0.05, 7'000'000};
+  expect_covered({{"RONt of poor probes", 0.933, 0.433},
+                  {"RONq of poor probes", 0.95, 0.0},
+                  {"motion of poor probes", 0.957, 0.654}},
                  [&](std::uint64_t k) { return inspection_of_row(k, row); });
 }
 

@@ -380,8 +380,7 @@ TEST(DecisionRule, OfAnAngleSpeaksOfMicroradians) {
           if (of_length) {
             EXPECT_EQ(of_length->verdict, of_angle->verdict);
           }
-          std::string said =
-              of_length ? of_length->sentence.english() : of_length.error().what;
+          std::string said = of_length ? of_length->sentence.english() : of_length.error().what;
           for (std::size_t at = said.find(" um"); at != std::string::npos; at = said.find(" um")) {
             said.replace(at, 3, " urad");
           }

@@ -296,8 +296,8 @@ TEST(DrawingSize, OfW8HasEveryDigit) {
   EXPECT_NEAR(value(part, filtered(size_asked(SizeKind::kCC))), 38.000016866345, kSizeDigits);
   EXPECT_NEAR(value(part, filtered(size_asked(SizeKind::kCA))), 37.999999832642, kSizeDigits);
   EXPECT_NEAR(value(part, filtered(size_asked(SizeKind::kGG))), 38.000000000000, kSizeDigits);
-  EXPECT_NEAR(value(w8({20.0, 20.004, 20.001}), filtered(size_asked(SizeKind::kCV))), 38.004599991166,
-              kSizeDigits);
+  EXPECT_NEAR(value(w8({20.0, 20.004, 20.001}), filtered(size_asked(SizeKind::kCV))),
+              38.004599991166, kSizeDigits);
 }
 
 TEST(DrawingSize, OfADenseSectionWithoutOppositeSamplesIsOfItsSeries) {
@@ -420,7 +420,8 @@ TEST(DrawingEnvelope, FailsWhereLocalSizeIsUndefinedAndIsVoidWhereItHolds) {
 TEST(DrawingSides, ShaftAndBoreDifferByFourTipRadii) {
   const auto shaft = drawn(test::w1(), {false, 1.5});
   const auto bore = drawn(test::w1(), {true, 1.5});
-  EXPECT_NEAR(value(bore, size_asked(SizeKind::kGG)) - value(shaft, size_asked(SizeKind::kGG)), 6.0, 1e-12);
+  EXPECT_NEAR(value(bore, size_asked(SizeKind::kGG)) - value(shaft, size_asked(SizeKind::kGG)), 6.0,
+              1e-12);
   EXPECT_EQ(found(shaft, size_asked(SizeKind::kGN)).reference.english(), "GN");
   EXPECT_EQ(found(shaft, size_asked(SizeKind::kGX)).reference.english(), "GX, as felt by the tip");
   EXPECT_EQ(found(bore, size_asked(SizeKind::kGX)).reference.english(), "GX");
@@ -532,7 +533,8 @@ TEST(DrawingRefusals, OfSizesSayWhatToPlanInstead) {
   const auto touched = drawn(test::w1(), kShaft);
   const std::vector<Refused> cases = {
       {"spherical", size_asked(SizeKind::kLS), core::Code::kMeaning, "ask for size LP or GX"},
-      {"unfiltered CC", size_asked(SizeKind::kCC), core::Code::kMeaning, "give filter and cutoff_upr"},
+      {"unfiltered CC", size_asked(SizeKind::kCC), core::Code::kMeaning,
+       "give filter and cutoff_upr"},
       {"touched CC", filtered(size_asked(SizeKind::kCC)), core::Code::kSampling,
        "350 are needed for 50 UPR; scan, or ask for size GG"},
       {"CV of sections", filtered(size_asked(SizeKind::kCV, Indication::Section::kACS)),
@@ -558,7 +560,8 @@ TEST(DrawingRefusals, OfSizesSayWhatToPlanInstead) {
   EXPECT_EQ(refusal(gap, filtered(size_asked(SizeKind::kCA))).code, core::Code::kSampling);
   auto unsorted = drawn(test::w1(), kShaft);
   unsorted.surface.sections.clear();
-  EXPECT_NE(refusal(unsorted, size_asked(SizeKind::kLP)).what.find("column layer"), std::string::npos);
+  EXPECT_NE(refusal(unsorted, size_asked(SizeKind::kLP)).what.find("column layer"),
+            std::string::npos);
 }
 
 }  // namespace

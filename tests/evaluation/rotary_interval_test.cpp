@@ -15,7 +15,7 @@
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/internal/fixture_use.h"
+#include "evaluation/results/internal/fixture_use.h"
 #include "evaluation/rotary/internal/axis_extreme.h"
 #include "evaluation/rotary/internal/combined_field.h"
 #include "evaluation/rotary/internal/gates.h"

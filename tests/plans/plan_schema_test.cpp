@@ -26,9 +26,9 @@ TEST(PlanSchema, HasTheDefaultsOfTheTask) {
     }
     ++found;
   }
-  EXPECT_EQ(found + 7, keys.size())
-      << "seven keys have no default: three angles, the noise, the range of the probes, the feature "
-         "that gives the wheel radius and the declared influences";
+  EXPECT_EQ(found + 7, keys.size()) << "seven keys have no default: three angles, the noise, the "
+                                       "range of the probes, the feature "
+                                       "that gives the wheel radius and the declared influences";
 }
 
 // Both committed texts come from plan_table.h; RONDURE_REWRITE=1 writes them again.

@@ -417,14 +417,15 @@ TEST(Characteristics, OfTheRadiusOfAWheelHaveLimitsWithTheirSigns) {
   EXPECT_EQ(characteristic_of(asked, 30.0).tolerance_mm, -5.0 * core::kMicrometre);
 }
 
-// Lengths are held in mm, angles in mrad: 20 urad are 0.02 mrad. Keys of the other unit say nothing.
+// Lengths are held in mm, angles in mrad: 20 urad are 0.02 mrad. Keys of the other unit say
+// nothing.
 TEST(Characteristics, OfAnglesHaveLimitsInMicroradians) {
   CharacteristicTask asked;
   asked.form = Form::kAxisError;
   asked.symmetric_um = 7.0;
   asked.symmetric_urad = 20.0;
-  for (const auto error : {Indication::AxisError::kA, Indication::AxisError::kB,
-                           Indication::AxisError::kC}) {
+  for (const auto error :
+       {Indication::AxisError::kA, Indication::AxisError::kB, Indication::AxisError::kC}) {
     asked.indication.error = error;
     EXPECT_DOUBLE_EQ(characteristic_of(asked).lower_mm.value(), -0.020);
     EXPECT_DOUBLE_EQ(characteristic_of(asked).tolerance_mm.value(), 0.020);

@@ -237,15 +237,16 @@ TEST(AnalysisInterval, OfAnAngleIsInMicroradiansInEveryWriter) {
   EXPECT_THAT(qif, AllOf(HasSubstr("<UserDefinedAngularCharacteristicMeasurement"),
                          HasSubstr("<MaxValue>0.000286478"), HasSubstr("<MinValue>-0.000286478"),
                          HasSubstr(">0.0000916732"), Not(HasSubstr("UserDefinedLinear"))));
-  EXPECT_THAT(analysis_summary(made), AllOf(HasSubstr("1.6 urad"), HasSubstr("-5.000 to 5.000 urad"),
-                                            HasSubstr("[0.1, 3.2] urad"),
-                                            HasSubstr("noise +1.500 urad")));
+  EXPECT_THAT(analysis_summary(made),
+              AllOf(HasSubstr("1.6 urad"), HasSubstr("-5.000 to 5.000 urad"),
+                    HasSubstr("[0.1, 3.2] urad"), HasSubstr("noise +1.500 urad")));
   const std::string page = page_of(made);
   EXPECT_EQ(testing::first_unbalanced_tag(page), "");
   EXPECT_THAT(page, AllOf(HasSubstr("<span class=\"value\">1.6</span> \u00b5rad"),
-                          HasSubstr("\u2264 5.000 \u00b5rad"),
-                          HasSubstr("\u2265 -5.000 \u00b5rad"), HasSubstr("0.700 \u00b5rad")));
-  const record::ArchiveResult kept = archive_entry(made.record, made.evaluation, "").results.front();
+                          HasSubstr("\u2264 5.000 \u00b5rad"), HasSubstr("\u2265 -5.000 \u00b5rad"),
+                          HasSubstr("0.700 \u00b5rad")));
+  const record::ArchiveResult kept =
+      archive_entry(made.record, made.evaluation, "").results.front();
   EXPECT_EQ(kept.unit, "mrad");
   EXPECT_EQ(kept.value, 0.0016);
 }

@@ -36,10 +36,11 @@ std::string unescaped(std::string_view text) {
 bool has_english(std::string_view html, const std::vector<std::string>& names) {
   // Keys of a plan stay as a plan spells them: `words`, and words_with_lines.
   static const std::regex kKeys("`[a-z_0-9/]+`|[a-z0-9]+(_[a-z0-9]+)+", std::regex::optimize);
-  std::string text = std::regex_replace(unescaped(html), kKeys, " ");
+  std::string text = unescaped(html);
   for (const std::string& name : names) {
     if (!name.empty()) replace_all(text, name, " ");
   }
+  text = std::regex_replace(text, kKeys, " ");
   for (auto at = text.begin(); at != text.end();) {
     const auto first = std::find_if(at, text.end(), is_small);
     at = std::find_if_not(first, text.end(), is_small);

@@ -28,8 +28,9 @@ TEST(Exports, AnUnknownFormatIsRefusedWithThoseThatAreKnown) {
   const Case made = cylinder_case(4, 7, 3);
   const auto written = write_exports("/nowhere", {"docx"}, made.record, made.evaluation);
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().what,
-            "format 'docx' is unknown; html, json, csv, qif, dmis, corrections and pdf can be written");
+  EXPECT_EQ(
+      written.error().what,
+      "format 'docx' is unknown; html, json, csv, qif, dmis, corrections and pdf can be written");
 }
 
 TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {

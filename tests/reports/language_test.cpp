@@ -251,9 +251,9 @@ TEST(LanguageScope, LastsAsLongAsItsObjectInItsThreadOnly) {
 
 TEST(Phrase, IsMadeInTheLanguageOfTheReport) {
   const core::Phrase value = core::phrase("the corrected value {}", "5.169 um");
-  const core::Phrase sentence = core::phrase(
-      "{} is within the acceptance limit of {} (tolerance {}, guard band {})", value, "11.691 um",
-      "12 um", "0.309 um");
+  const core::Phrase sentence =
+      core::phrase("{} is within the acceptance limit of {} (tolerance {}, guard band {})", value,
+                   "11.691 um", "12 um", "0.309 um");
   const std::string english =
       "the corrected value 5.169 um is within the acceptance limit of 11.691 um (tolerance 12 um, "
       "guard band 0.309 um)";

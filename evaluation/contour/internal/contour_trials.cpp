@@ -33,8 +33,7 @@ std::function<double(double)> over_turn(std::vector<double> values) {
     alpha[i] = core::kTwoPi * static_cast<double>(i) / static_cast<double>(alpha.size());
   }
   return [spline = fit::PeriodicSpline(std::move(alpha), std::move(values))](double at) {
-    return spline(
-        std::clamp(at - core::kTwoPi * std::floor(at / core::kTwoPi), 0.0, core::kTwoPi));
+    return spline(std::clamp(at - core::kTwoPi * std::floor(at / core::kTwoPi), 0.0, core::kTwoPi));
   };
 }
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/internal/fixture_use.h"
+#include "evaluation/results/internal/fixture_use.h"
 #include "fixture/error_model.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"

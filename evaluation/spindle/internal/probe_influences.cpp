@@ -1,5 +1,6 @@
 #include "evaluation/spindle/internal/probe_influences.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -21,11 +22,12 @@ bool is_rectangular(const Influence& influence) {
 }
 
 /// One source for each probe.
-void add_of_each(std::string_view what, const Influence& influence, double unit, int first,
+void add_of_each(const std::array<const char*, 3>& names, std::string_view id,
+                 const Influence& influence, double unit, int first,
                  std::vector<ProbeSource>& out) {
   if (!influence) return;
   for (int i = 0; i < 3; ++i) {
-    ProbeSource source{fmt::format("probe-{}-{}", i + 1, what), fmt::format("probe.{}", what),
+    ProbeSource source{names[static_cast<std::size_t>(i)], std::string(id),
                        static_cast<std::uint64_t>(i)};
     source.per_u[first + i] = influence->standard_uncertainty() * unit;
     source.rectangular = is_rectangular(influence);
@@ -67,11 +69,13 @@ std::vector<ProbeSource> probe_sources(const record::SpindleInfluencesTask& decl
                                        const fit::SwingArm& arm, const fit::ProbeLayout& layout,
                                        const std::optional<MeasuredRadius>& radius) {
   std::vector<ProbeSource> out;
-  add_of_each("gain", declared.gain_1, 1.0, fit::kFirstGain, out);
-  add_of_each("angle", declared.angle_deg, core::kDegree, fit::kFirstAngle, out);
+  add_of_each({"probe-1-gain", "probe-2-gain", "probe-3-gain"}, "probe.gain", declared.gain_1, 1.0,
+              fit::kFirstGain, out);
+  add_of_each({"probe-1-angle", "probe-2-angle", "probe-3-angle"}, "probe.angle",
+              declared.angle_deg, core::kDegree, fit::kFirstAngle, out);
   if (arm.pin_radius_mm > 0.0) {
-    add_of_each("line", declared.line_um, core::kMicrometre / arm.pin_radius_mm, fit::kFirstAngle,
-                out);
+    add_of_each({"probe-1-line", "probe-2-line", "probe-3-line"}, "probe.line", declared.line_um,
+                core::kMicrometre / arm.pin_radius_mm, fit::kFirstAngle, out);
   }
   if (declared.arm_mm && arm.swings() && arm.pin_radius_mm > 0.0) {
     ProbeSource source{"arm", "probe.arm"};
@@ -88,7 +92,8 @@ std::vector<ProbeSource> probe_sources(const record::SpindleInfluencesTask& decl
     };
     out.push_back(std::move(source));
   }
-  add_of_each("drift", declared.drift_um_per_turn, core::kMicrometre, fit::kFirstDrift, out);
+  add_of_each({"probe-1-drift", "probe-2-drift", "probe-3-drift"}, "probe.drift",
+              declared.drift_um_per_turn, core::kMicrometre, fit::kFirstDrift, out);
   if (declared.encoder_urad) {
     for (int i = 0; i < 2; ++i) {
       ProbeSource source{i == 0 ? "encoder-cosine" : "encoder-sine", "encoder",

@@ -42,7 +42,7 @@ struct BetweenPoints {
 
 /// Why a radius is void by its temperature: the plan states no expansion and it may differ from
 /// that at 20 degC by more than a quarter of its tolerance, or an expansion and no temperature.
-[[nodiscard]] std::optional<core::Phrase> not_at_20_degC(
-    const WheelResult& facts, const record::Characteristic& asked);
+[[nodiscard]] std::optional<core::Phrase> not_at_20_degC(const WheelResult& facts,
+                                                         const record::Characteristic& asked);
 
 }  // namespace rondure::evaluation

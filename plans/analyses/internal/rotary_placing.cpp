@@ -18,8 +18,10 @@ using core::kMicroradian;
 
 double station_gate_rad(const Plan& plan, const record::RotaryTask& rotary) {
   std::vector<Eigen::Vector3d> balls;
-  for (const record::BallTask& ball : rotary.balls) balls.emplace_back(Eigen::Vector3d::Map(ball.center_mm.data()));
-  return fit::station_gate_rad(fit::largest_lever_mm(balls, Eigen::Vector3d::Map(plan.fixture->axis_offset_mm.data())));
+  for (const record::BallTask& ball : rotary.balls)
+    balls.emplace_back(Eigen::Vector3d::Map(ball.center_mm.data()));
+  return fit::station_gate_rad(
+      fit::largest_lever_mm(balls, Eigen::Vector3d::Map(plan.fixture->axis_offset_mm.data())));
 }
 
 double repeatability_rad(const record::RotaryTask& rotary) {

@@ -274,9 +274,9 @@ void check_age(const FeaturePlan& feature, const std::string& where, Findings& f
                      "were measured");
   }
   if (!measured.empty() && !core::parse_utc(measured)) {
-    findings.meaning(Code::kMeaning, where + "/source/measured_utc",
-                     fmt::format("{} is no time in UTC such as \"2026-11-21T02:33:02Z\"",
-                                 in_quotes(measured)));
+    findings.meaning(
+        Code::kMeaning, where + "/source/measured_utc",
+        fmt::format("{} is no time in UTC such as \"2026-11-21T02:33:02Z\"", in_quotes(measured)));
   }
 }
 

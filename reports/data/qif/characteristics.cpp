@@ -80,8 +80,8 @@ Family family_of(const record::Characteristic& asked) {
 /// "CylindricityCharacteristicItem", ...
 std::string element(Family family, const char* kind) {
   constexpr std::array<const char*, 14> kNames = {
-      "UserDefinedLinear", "UserDefinedAngular", "Cylindricity",  "Circularity", "Diameter",
-      "Straightness",      "Flatness",           "Coaxiality",    "Concentricity", "Parallelism",
+      "UserDefinedLinear", "UserDefinedAngular", "Cylindricity",   "Circularity",   "Diameter",
+      "Straightness",      "Flatness",           "Coaxiality",     "Concentricity", "Parallelism",
       "Perpendicularity",  "Angularity",         "CircularRunout", "TotalRunout"};
   return fmt::format("{}Characteristic{}", kNames[static_cast<std::size_t>(family)], kind);
 }
@@ -350,9 +350,8 @@ std::string uncertainty_words(const record::Feature& feature,
                        50.0 * (1.0 + result.value->uncertainty().coverage_1()),
                        number(known->high_mm), unit);
   }
-  return fmt::format("standard uncertainty in {} (k = 1), {}; {:g} % lie within {} and {} {}",
-                     unit,
-                                         name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
+  return fmt::format("standard uncertainty in {} (k = 1), {}; {:g} % lie within {} and {} {}", unit,
+                     name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
                      number(known->low_mm), number(known->high_mm), unit);
 }
 

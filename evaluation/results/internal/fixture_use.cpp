@@ -1,4 +1,4 @@
-#include "evaluation/internal/fixture_use.h"
+#include "evaluation/results/internal/fixture_use.h"
 
 #include <cmath>
 #include <utility>
