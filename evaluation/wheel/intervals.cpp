@@ -138,8 +138,9 @@ class Edge {
     // what stands out decides for the whole curve.
     const bool all = n < 4 * kEccentric;
     for (std::size_t j = 0; j < n; ++j) {
+      // Columns over scattered angles are judged alone: parts of one order are not parts of one
+      // wave there, and two lobes among six orders would make the whole octave their core.
       out.group.push_back(group_of(j));
-      out.order.push_back(order_of(j));
       out.always_core.push_back(all || j < kEccentric);
     }
     return out;
@@ -205,15 +206,10 @@ class Edge {
  private:
   static constexpr std::size_t kEccentric = 3;  ///< Columns of the mean, cosine and sine.
 
-  /// Cosine and sine of an order belong together; what the orders leave stands alone.
-  [[nodiscard]] static int order_of(std::size_t column) {
-    const bool has_order = static_cast<Eigen::Index>(column) < kMostColumns;
-    return static_cast<int>(has_order ? (column + 1) / 2 : column);
-  }
   /// Octaves of the orders: 2 to 7, 8 to 15, 16 to 30; then the columns without an order.
   [[nodiscard]] static int group_of(std::size_t column) {
     if (static_cast<Eigen::Index>(column) >= kMostColumns) return 3;
-    const int order = order_of(column);
+    const std::size_t order = (column + 1) / 2;
     return order < 8 ? 0 : order < 16 ? 1 : 2;
   }
 
