@@ -75,10 +75,4 @@ std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections) {
   return out;
 }
 
-std::vector<Eigen::Vector3d> all_points(Layers layers_mm) {
-  std::vector<Eigen::Vector3d> out;
-  for (const auto& layer : layers_mm) out.insert(out.end(), layer.begin(), layer.end());
-  return out;
-}
-
 }  // namespace rondure::fit

@@ -44,7 +44,4 @@ struct Section {
 /// The centres of sections.
 [[nodiscard]] std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections);
 
-/// All points of the layers in order.
-[[nodiscard]] std::vector<Eigen::Vector3d> all_points(Layers layers_mm);
-
 }  // namespace rondure::fit

@@ -10,7 +10,6 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sections.h"
-#include "fit/profiles/form_terms.h"
 #include "fit/references/min_zone_line.h"
 #include "tests/fit/drawing_cases.h"
 
@@ -93,44 +92,6 @@ TEST_F(TaperedJournal, HasNoGeneratricesIfItsLayersAreStaggered) {
   auto one = *generatrices(layers_, axis_);
   one.resize(2);
   EXPECT_EQ(opposite_generatrices(one, length_).error().code, core::Code::kSampling);
-}
-
-TEST_F(TaperedJournal, SeparatesIntoTaperBarrelBendAndLobes) {
-  const auto form = form_terms(layers_, *ls_cylinder(points_));
-  ASSERT_TRUE(form.has_value()) << form.error().what;
-  ASSERT_EQ(form->highest_axial, 2);
-  ASSERT_EQ(form->highest_undulation, 3);
-  EXPECT_NEAR(form->at(0, 0).cosine_mm, 0.000702170452, kDigits);
-  EXPECT_NEAR(form->at(1, 0).cosine_mm, 0.004467259978, kDigits);
-  EXPECT_NEAR(form->at(2, 0).cosine_mm, -0.002106516590, kDigits);
-  const double amplitudes[3][3] = {{0.000584183735, 0.001402152013, 0.000037066204},
-                                   {0.000000131190, 0.000128466070, 0.000071383419},
-                                   {0.001752559593, 0.000098138081, 0.000053445435}};
-  for (int p = 0; p <= 2; ++p) {
-    for (int k = 1; k <= 3; ++k) {
-      EXPECT_NEAR(form->at(p, k).amplitude_mm(), amplitudes[p][k - 1], kDigits) << p << k;
-    }
-  }
-  EXPECT_NEAR(form->rms_mm, 0.000136373477, kDigits);
-  // As planted: taper 4 x 0.0045, barrel 1.5 x 0.0021, bow 1.5 x 0.0017, with noise of 0.0003.
-  EXPECT_NEAR(form->taper_mm(), 0.018, 3e-4);
-  EXPECT_NEAR(form->saddle_mm(), -0.00315, 3e-4);
-  EXPECT_NEAR(form->bend_mm(), 0.00255, 3e-4);
-}
-
-TEST(FormTerms, AreAsManyAsTheSectionsDetermine) {
-  const auto cylinder = ls_cylinder(test::all_of(test::w2()));
-  auto layers = test::w2();
-  layers.resize(2);
-  const auto two = form_terms(layers, *cylinder);
-  ASSERT_TRUE(two.has_value()) << two.error().what;
-  EXPECT_EQ(two->highest_axial, 1);
-  EXPECT_EQ(two->highest_undulation, 3);
-  // Six points carry two undulations, but not across a gap of 135 deg.
-  layers[1].erase(layers[1].begin(), layers[1].begin() + 2);
-  EXPECT_EQ(form_terms(layers, *cylinder)->highest_undulation, 1);
-  layers.resize(1);
-  EXPECT_EQ(form_terms(layers, *cylinder).error().code, core::Code::kRank);
 }
 
 /// A section with lobes about a centre beside the axis.

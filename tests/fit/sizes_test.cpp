@@ -13,7 +13,6 @@
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/sizes/calculated_sizes.h"
-#include "fit/sizes/envelope.h"
 #include "fit/sizes/global_sizes.h"
 #include "fit/sizes/local_sizes.h"
 #include "tests/fit/drawing_cases.h"
@@ -330,38 +329,6 @@ TEST(CalculatedSizes, OfAVolumeFollowFromTheAreas) {
   EXPECT_EQ(
       volume_size_mm(std::vector<double>{1.0, 1.0}, std::vector<double>{1.0, 1.0}).error().code,
       core::Code::kBadOption);
-}
-
-TEST(Envelope, OfTheShaftFailsThoughEveryTwoPointSizeIsInside) {
-  const double factor = 0.999981200518866;
-  const auto layers = scaled(test::w1(), factor);
-  const Material material{false, 1.4987 * factor};
-  const RankSizes local = ranks(layers, material);
-  const auto sizes = envelope_sizes(*global_sizes(all_of(layers), material), local, false);
-  ASSERT_TRUE(sizes.has_value());
-  EXPECT_GE(local.sn_mm, 24.979);
-  EXPECT_LE(local.sx_mm, 25.0);
-  EXPECT_EQ(envelope_answer(*sizes, false, 24.979, 25.0), EnvelopeAnswer::kFails);
-  EXPECT_EQ(envelope_answer(*sizes, false, 24.979, 25.003), EnvelopeAnswer::kHolds);
-  EXPECT_EQ(envelope_answer(*sizes, false, 24.988, 25.003), EnvelopeAnswer::kFails);
-}
-
-TEST(Envelope, OfTheBoreFailsByItsInscribedCylinder) {
-  const auto layers = without_row(test::w6(), 4);
-  const auto sizes =
-      envelope_sizes(*global_sizes(all_of(layers), kBore), ranks(layers, kBore), true);
-  ASSERT_TRUE(sizes.has_value());
-  EXPECT_LE(*sizes->local_mm, 40.010);
-  EXPECT_EQ(envelope_answer(*sizes, true, 39.995, 40.010), EnvelopeAnswer::kFails);
-  EXPECT_EQ(envelope_answer(*sizes, true, 39.994, 40.010), EnvelopeAnswer::kHolds);
-}
-
-TEST(Envelope, IsOpenOnlyWhereItsOwnSideHoldsAndTwoPointSizesAreMissing) {
-  const core::Result<RankSizes> none = core::fail(core::Code::kSampling, "no pairs");
-  const auto sizes = envelope_sizes(*global_sizes(all_of(test::w1()), kShaft), none, false);
-  ASSERT_TRUE(sizes.has_value());
-  EXPECT_EQ(envelope_answer(*sizes, false, 24.9, 25.01), EnvelopeAnswer::kOpen);
-  EXPECT_EQ(envelope_answer(*sizes, false, 24.9, 25.0), EnvelopeAnswer::kFails);
 }
 
 TEST(Sections, OfAFileWithoutLayersBeginWhereHeightsAreMoreThanHalfAMillimetreApart) {

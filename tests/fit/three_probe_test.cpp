@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "fit/profiles/periodic_spline.h"
+#include "fit/spindle/axis_motion.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/three_probe_cases.h"
 
@@ -701,6 +702,25 @@ TEST(ThreeProbe, WarnsOfThinSamplingGapsAndAForeignSwing) {
   auto swung = readings_at(c, layout, uniform_alpha(512));
   for (const double a : swung.alpha_rad) swung.beta_rad.push_back(c.arm.beta_rad(a) + 0.002);
   EXPECT_THAT(codes(swung), ::testing::Contains(Code::kInconsistent));
+}
+
+TEST(AxisMotion, GivesTheValuesOfThePolarPlot) {
+  const auto alpha = uniform_alpha(360);
+  std::vector<std::vector<double>> turns(3);
+  for (int j = 0; j < 3; ++j) {
+    for (const double a : alpha)
+      turns[static_cast<std::size_t>(j)].push_back(5.0 + 2.0 * std::cos(a - 0.4) + std::cos(2 * a) +
+                                                   0.1 * (j - 1));
+  }
+  const AxisMotion m = axis_motion(alpha, turns);
+  EXPECT_NEAR(m.fundamental_mm, 2.0, 1e-12);
+  EXPECT_NEAR(m.synchronous_mm, 2.0, 1e-12);
+  ASSERT_TRUE(m.asynchronous_mm);
+  EXPECT_NEAR(*m.asynchronous_mm, 0.2, 1e-12);
+  EXPECT_NEAR(m.total_mm, 2.2, 1e-12);
+  const AxisMotion single = axis_motion(alpha, std::span(turns).first(1));
+  EXPECT_FALSE(single.asynchronous_mm);
+  EXPECT_NEAR(single.total_mm, 2.0, 1e-12);
 }
 
 }  // namespace
