@@ -9,7 +9,6 @@
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
-#include "fit/datums/datum.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"
 #include "record/tasks/form_facts.h"

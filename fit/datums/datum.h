@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -20,48 +17,6 @@ namespace rondure::fit {
 ///                   the two ends of a fitted axis.
 /// @return kNoPoints, kNotFinite (row).
 [[nodiscard]] core::Result<double> coaxiality_mm(SpacePoints median_mm, const Axis& datum);
-
-/// Circular run-out in every section.
-struct RunOut {
-  std::vector<double> sections_mm;  ///< Run-out of each section [mm].
-  std::size_t greatest = 0;         ///< Index of the section with the greatest run-out.
-
-  [[nodiscard]] double deviation_mm() const { return sections_mm[greatest]; }
-};
-
-/// Circular radial run-out (ISO 1101): in each section the greatest minus the least distance from
-/// the datum axis. The deviation is that of the worst section.
-/// @return kNoPoints (no section, or an empty one), kNotFinite; `what` names section and row.
-[[nodiscard]] core::Result<RunOut> radial_run_out(
-    std::span<const std::vector<Eigen::Vector3d>> sections_mm, const Axis& datum);
-
-/// Total radial run-out (ISO 1101): gap between the two cylinders about the datum axis that enclose
-/// the whole surface = greatest minus least distance of all points.
-/// @return kNoPoints, kNotFinite (row).
-[[nodiscard]] core::Result<double> total_radial_run_out_mm(SpacePoints points_mm,
-                                                           const Axis& datum);
-
-/// Total axial run-out (ISO 1101): distance between the two planes perpendicular to the datum axis
-/// that enclose a face. For points at one radius it is the circular axial run-out there.
-/// @return kNoPoints, kNotFinite (row).
-[[nodiscard]] core::Result<double> axial_run_out_mm(SpacePoints points_mm, const Axis& datum);
-
-/// Circular axial run-out (ISO 1101): at each radius the range of the heights along the datum axis,
-/// over the points whose distance from it is that radius to `near_mm`.
-/// @param radii_mm  One or more stated radii of circles on the face; > 0.
-/// @return The run-out of each radius; kNoPoints (no radius, no point), kNotFinite (row), kSampling
-///         for a radius with fewer than 3 points.
-/// Source: methods, drawing section 5.
-[[nodiscard]] core::Result<RunOut> circular_axial_run_out(SpacePoints points_mm, const Axis& datum,
-                                                          std::span<const double> radii_mm,
-                                                          double near_mm = 0.1);
-
-/// Circular run-out normal to the surface of a cone: the radial one times the cosine of the nominal
-/// half angle (ISO 1101).
-/// @return as radial_run_out(); kBadOption for an angle outside 0..90 deg.
-[[nodiscard]] core::Result<RunOut> conical_run_out(
-    std::span<const std::vector<Eigen::Vector3d>> sections_mm, const Axis& datum,
-    double half_angle_rad);
 
 /// Parallelism of an axis to an axis, perpendicularity of an axis to a plane (ISO 1101, zone with
 /// diameter sign): diameter of the least circle round the points of the median line, seen along the

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
-#include "fit/datums/datum.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/internal/gauss_newton.h"
@@ -390,23 +389,6 @@ core::Result<DatumAxis> datum_axis_square_to(const Plane& primary, const DatumCy
   out.contacts = circle->contacts;
   out.ending = ZoneEnding::kConverged;
   return out;
-}
-
-core::Result<Plane> datum_plane_square_to(const Axis& primary, SpacePoints points_mm,
-                                          const Eigen::Vector3d& outward) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
-  Plane out{primary.point_mm, primary.direction};
-  if (out.normal.dot(outward) < 0.0) out.normal = -out.normal;
-  const double farthest =
-      extremes_of(points_mm, [&](const auto& p) { return height_mm(out, p); }).high;
-  out.point_mm += farthest * out.normal;
-  return out;
-}
-
-core::Result<Plane> datum_plane_square_to(const Plane& primary, SpacePoints points_mm,
-                                          const Eigen::Vector3d& outward) {
-  return inclined_zone(points_mm, primary.normal, 0.25 * core::kTwoPi, outward)
-      .map([](const InclinedZone& zone) { return zone.outer; });
 }
 
 }  // namespace rondure::fit

@@ -81,18 +81,4 @@ struct DatumRock {
 [[nodiscard]] core::Result<DatumAxis> datum_axis_square_to(const Plane& primary,
                                                            const DatumCylinder& feature);
 
-/// The secondary datum after a primary axis: the plane square to it through the farthest point.
-/// @param outward  Side of the material on which the plane lies; not square to the axis.
-/// @return kNoPoints, kNotFinite (row).
-[[nodiscard]] core::Result<Plane> datum_plane_square_to(const Axis& primary, SpacePoints points_mm,
-                                                        const Eigen::Vector3d& outward);
-
-/// The secondary datum after a primary plane: the one-sided plane square to it, free to turn about
-/// its normal; the outer plane of the least slab.
-/// @param outward  Direction out of the material of the secondary plane.
-/// @return as inclined_zone().
-/// Source: methods, drawing section 3.4.
-[[nodiscard]] core::Result<Plane> datum_plane_square_to(const Plane& primary, SpacePoints points_mm,
-                                                        const Eigen::Vector3d& outward);
-
 }  // namespace rondure::fit

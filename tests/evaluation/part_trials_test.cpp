@@ -1,5 +1,6 @@
 // The trials of a part: what moves sizes (methods, drawing section 8.1), what datum and toleranced
 // feature share, and how often the intervals hold the truth, on parts and errors made here.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "core/units.h"
 #include "evaluation/part/trials.h"
 #include "fit/datums/datum.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/sections.h"
@@ -187,6 +189,12 @@ std::vector<double> sizes_of(const MeasuredSurface& surface) {
   return out;
 }
 
+/// Greatest minus least distance of points from an axis.
+double run_out_mm(std::span<const Vector3d> points_mm, const fit::Axis& datum) {
+  return fit::extremes_of(points_mm, [&](const Vector3d& p) { return fit::distance_mm(datum, p); })
+      .width();
+}
+
 /// Coaxiality, circular and total run-out of the second surface about the axis of the first.
 std::vector<double> about_first(std::span<const MeasuredSurface> part) {
   const auto datum = fit::ls_cylinder(part[0].tips_mm, Vector3d::UnitZ());
@@ -200,10 +208,9 @@ std::vector<double> about_first(std::span<const MeasuredSurface> part) {
     for (const fit::Section& section : *sections) centers.push_back(section.center_mm);
     if (const auto value = fit::coaxiality_mm(centers, datum->axis)) out[0] = *value;
   }
-  if (const auto value = fit::radial_run_out(layers, datum->axis)) out[1] = value->deviation_mm();
-  if (const auto value = fit::total_radial_run_out_mm(part[1].tips_mm, datum->axis)) {
-    out[2] = *value;
-  }
+  out[1] = 0.0;
+  for (const auto& layer : layers) out[1] = std::max(out[1], run_out_mm(layer, datum->axis));
+  out[2] = run_out_mm(part[1].tips_mm, datum->axis);
   return out;
 }
 

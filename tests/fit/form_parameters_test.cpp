@@ -165,40 +165,5 @@ TEST(Datum, CoaxialityIsTwiceTheGreatestDistance) {
   EXPECT_EQ(coaxiality_mm({}, part.axis).error().code, core::Code::kNoPoints);
 }
 
-TEST(Datum, RunOutOfAnEccentricCylinderIsTwiceItsEccentricity) {
-  const Part part;
-  std::vector<Points3> sections;
-  Points3 all;
-  for (int layer = 0; layer < 3; ++layer) {
-    const double e = 2e-3 * (layer + 1);
-    sections.emplace_back();
-    for (int k = 0; k < 360; ++k) {
-      const double theta = core::kDegree * k;
-      const Eigen::Vector3d shift = part.at(0.0, 0.0, e) - part.axis.point_mm;
-      sections.back().push_back(part.at(theta, 20.0 * layer, 25.0 + 0.01 * layer) + shift);
-      all.push_back(sections.back().back());
-    }
-  }
-  const auto run_out = radial_run_out(sections, part.axis);
-  ASSERT_TRUE(run_out.has_value());
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(run_out->sections_mm[i], 4e-3 * static_cast<double>(i + 1), 1e-10);
-  }
-  EXPECT_EQ(run_out->greatest, 2U);
-  // Greatest of section 2 (25.02 + 0.006) less the least of section 0 (25 - 0.002).
-  EXPECT_NEAR(*total_radial_run_out_mm(all, part.axis), 0.028, 1e-10);
-  EXPECT_GE(*total_radial_run_out_mm(all, part.axis), run_out->deviation_mm());
-  EXPECT_NEAR(*axial_run_out_mm(all, part.axis), 40.0, 1e-10);
-}
-
-TEST(Datum, RunOutNamesTheSectionThatIsEmpty) {
-  const std::vector<Points3> sections = {{{25.0, 0.0, 0.0}}, {}};
-  const auto out = radial_run_out(sections, {});
-  ASSERT_FALSE(out.has_value());
-  EXPECT_EQ(out.error().code, core::Code::kNoPoints);
-  EXPECT_NE(out.error().what.find("section 1"), std::string::npos);
-  EXPECT_EQ(radial_run_out({}, {}).error().code, core::Code::kNoPoints);
-}
-
 }  // namespace
 }  // namespace rondure::fit
