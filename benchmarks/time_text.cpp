@@ -38,7 +38,7 @@ void register_text(const Extent& extent) {
   benchmark::RegisterBenchmark(name("text/ours").c_str(), [=](benchmark::State& state) {
     fill();
     for ([[maybe_unused]] auto _ : state) {
-      const auto table = record::parse_points_csv(*text, "points.csv");
+      const auto table = record::parse_feature_csv(*text, "points.csv", "");
       keep(table);
     }
   });

@@ -67,9 +67,6 @@ struct ContourResult {
 [[nodiscard]] std::vector<ContourNumber> contour_numbers(const ContourResult& facts,
                                                          const UncertaintyOptions& options);
 
-/// Share of the noise of one reading that remains in a point of the filtered contour: 0.2240 for
-/// 50 UPR of 1440 points.
-[[nodiscard]] double gauge_noise_factor(const fit::FilterOptions& filter, std::size_t points);
 [[nodiscard]] ValueOperator operator_of(const ContourResult& result,
                                         const record::Characteristic& characteristic,
                                         const core::Phrase& temperature);

@@ -5,10 +5,6 @@
 
 namespace rondure::fit {
 
-double reading_u_rad(double count_rad, double repeatability_rad) {
-  return std::hypot(count_rad / std::sqrt(12.0), repeatability_rad);
-}
-
 Matrix6 turn_covariance(const Eigen::Vector3d& direction, const Eigen::Vector3d& through_mm,
                         double u_rad) {
   Vector6 v;

@@ -11,9 +11,6 @@
 
 namespace rondure::fit {
 
-/// Standard uncertainty of a reading: of a count, rectangular, and of its repeatability.
-[[nodiscard]] double reading_u_rad(double count_rad, double repeatability_rad);
-
 /// Covariance that an uncertain turn about a line adds to the six errors: u^2 v v^T with
 /// v = (-direction x through, direction).
 /// @param direction   Unit vector of the line.

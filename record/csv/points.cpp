@@ -25,7 +25,6 @@ struct ColumnSet {
 };
 constexpr std::size_t kLayer = 3;    ///< Index in the set: a whole number, no coordinate.
 constexpr std::size_t kFeature = 4;  ///< Index in the set: a text.
-constexpr ColumnSet kPoints = {{"x", "y", "z"}, {"mm", "mm", "mm"}, 2};
 constexpr ColumnSet kFeaturePoints = {{"x", "y", "z", "layer", "feature"}, {"mm", "mm", "mm"}, 2};
 constexpr ColumnSet kSection = {{"x", "y"}, {"mm", "mm"}, 2};
 constexpr ColumnSet kPolar = {{"theta_deg", "r_um"}, {"deg", "um"}, 2};
@@ -36,7 +35,6 @@ struct Format {
   std::string_view columns;  ///< The columns in the wording of messages.
   std::string_view units;
 };
-constexpr Format kPointFormat = {{kPoints, kPoints}, "x,y or x,y,z", " (mm)"};
 constexpr Format kFeatureFormat = {
     {kFeaturePoints, kFeaturePoints}, "x,y or x,y,z, beside them layer and feature", " (mm)"};
 constexpr Format kProfileFormat = {{kPolar, kSection}, "theta_deg,r_um or x,y", " (mm)"};
@@ -320,12 +318,6 @@ int PointTable::layer_count() const { return static_cast<int>(points_of_layers(l
 int PointTable::least_points_per_layer() const {
   const std::vector<int> points = points_of_layers(layers);
   return points.empty() ? 0 : *std::min_element(points.begin(), points.end());
-}
-
-core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
-  auto rows = parse(text, name, kPointFormat);
-  if (!rows) return core::fail(rows.error());
-  return PointTable{static_cast<int>(rows->columns.count), std::move(rows->values), {}, {}};
 }
 
 core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_view name,

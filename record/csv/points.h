@@ -32,23 +32,20 @@ struct PointTable {
   [[nodiscard]] int least_points_per_layer() const;
 };
 
-/// Reads points from CSV text: a header line naming the columns (`x,y` or `x,y,z`, any order, mm),
-/// then one row per point. Spaces around a field, blank lines, lines that begin with `#` and a
-/// UTF-8 byte order mark are skipped; lines end with LF or CRLF. Anything else is an error with
-/// `where` "name:line", the text found and the text expected: kSyntax for another header, a missing
-/// or extra field or text that is not a number, kNotFinite for NaN, infinity or a number beyond the
-/// range of double, kNoPoints for a table without rows. One pass, about as fast as std::from_chars.
+/// Reads the points of one feature from CSV text: a header line naming the columns (`x,y` or
+/// `x,y,z`, any order, mm), then one row per point. There may also be the columns `layer`, whole
+/// numbers from 0 on without a gap, and `feature`, a name. Spaces around a field, blank lines,
+/// lines that begin with `#` and a UTF-8 byte order mark are skipped; lines end with LF or CRLF.
+/// One pass, about as fast as std::from_chars.
 ///
-/// @param name  The file's name for `where`.
-[[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text,
-                                                        std::string_view name);
-
-/// Reads the points of one feature from CSV text. Beside the columns of parse_points_csv() there
-/// may be `layer`, whole numbers from 0 on without a gap, and `feature`, a name.
-///
+/// @param name     The file's name for `where`.
 /// @param feature  Only rows with this name are taken. Empty: the file has no column `feature`.
-/// @return  Or the errors of parse_points_csv(); kMissingKey where the file holds several features
-///          and none is named; kNoPoints where no row has that name; kSampling for a missing layer.
+/// @return  Or an error with `where` "name:line", the text found and the text expected: kSyntax for
+///          another header, a missing or extra field or text that is not a number, kNotFinite for
+///          NaN, infinity or a number beyond the range of double, kNoPoints for a table without
+///          rows or without a row of that name; kMissingKey where the file holds several features
+///          and none is named, kMeaning where one is named and there is no column for it;
+///          kSampling for a missing layer.
 [[nodiscard]] core::Result<PointTable> parse_feature_csv(std::string_view text,
                                                          std::string_view name,
                                                          std::string_view feature);
@@ -61,7 +58,7 @@ struct ProfileTable {
 };
 
 /// Reads a section from CSV text: columns `theta_deg,r_um` or `x,y` (mm), in any order. Otherwise
-/// as parse_points_csv().
+/// as parse_feature_csv().
 [[nodiscard]] core::Result<ProfileTable> parse_profile_csv(std::string_view text,
                                                            std::string_view name);
 

@@ -151,10 +151,6 @@ core::Result<ControlLimits> control_limits(std::span<const double> values_mm) {
   return ControlLimits{std::exp(mean - reach), std::exp(mean), std::exp(mean + reach)};
 }
 
-core::Result<Capability> upper_capability(std::span<const double> values_mm, double limit_mm) {
-  return capability_between(values_mm, std::nullopt, limit_mm);
-}
-
 core::Result<Capability> capability_between(std::span<const double> values_mm,
                                             const std::optional<double>& lower_mm,
                                             const std::optional<double>& upper_mm) {

@@ -52,21 +52,18 @@ struct Capability {
   double fit_p = 0.0;                         ///< p of the Anderson-Darling test of ln x.
 };
 
-/// The index PpkU by the percentile method (ISO 22514-2). It is CpkU when the process is shown to
-/// be in statistical control, which the caller decides. The log-normal model is used when the
+/// The index by the percentile method (ISO 22514-2) above a lower limit (PpkL), below an upper one
+/// (PpkU), or between both (Ppk). It is called Cpk when the process is shown to be in statistical
+/// control, which the caller decides. The log-normal model is used when the
 /// Anderson-Darling test does not reject it (p >= 0.05); otherwise the sample's own percentiles,
 /// from kEnoughForSample values on.
 ///
 /// The lower bound is a generalised confidence limit (S. Weerahandi, J. Am. Stat. Assoc. 88, 1993).
 ///
+/// @pre At least one limit.
 /// @return  kTooFewPoints below kLeastForIndex, kOutOfRange for a value that is not positive, kRank
 ///          when all values are equal, kNotConverged when the model does not fit and there are too
 ///          few values for their own percentiles. O(n log n).
-[[nodiscard]] core::Result<Capability> upper_capability(std::span<const double> values_mm,
-                                                        double limit_mm);
-
-/// The same above a lower limit (PpkL), below an upper one, or between both (Ppk).
-/// @pre At least one limit.
 [[nodiscard]] core::Result<Capability> capability_between(std::span<const double> values_mm,
                                                           const std::optional<double>& lower_mm,
                                                           const std::optional<double>& upper_mm);

@@ -34,7 +34,7 @@ Set load(const std::string& name) {
   Set set;
   set.certified = json::parse(record::read_file(folder / "certified.json").value());
   set.table =
-      record::parse_points_csv(record::read_file(folder / "points.csv").value(), name).value();
+      record::parse_feature_csv(record::read_file(folder / "points.csv").value(), name, "").value();
   return set;
 }
 

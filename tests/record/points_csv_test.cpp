@@ -21,13 +21,13 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 PointTable points(std::string_view text) {
-  auto table = parse_points_csv(text, "pin.csv");
+  auto table = parse_feature_csv(text, "pin.csv", "");
   EXPECT_TRUE(table) << core::to_line(table.error());
   return table ? *std::move(table) : PointTable{};
 }
 
 core::Error point_refusal(std::string_view text) {
-  const auto table = parse_points_csv(text, "pin.csv");
+  const auto table = parse_feature_csv(text, "pin.csv", "");
   EXPECT_FALSE(table) << text;
   return table ? core::Error{} : table.error();
 }
@@ -242,7 +242,7 @@ TEST(PointsCsv, NeverCrashesOnRandomText) {
       text += kAlphabet[core::splitmix64(state) % kAlphabet.size()];
     }
     SCOPED_TRACE(text);
-    const auto table = parse_points_csv(text, "pin.csv");
+    const auto table = parse_feature_csv(text, "pin.csv", "");
     if (table) {
       EXPECT_FALSE(table->points_mm.empty());
     } else {
@@ -286,16 +286,6 @@ TEST(FeatureCsv, GivesTheRowsOfOneFeatureWithTheirLayers) {
   const auto b = parse_feature_csv(text, "shaft.csv", "B");
   ASSERT_TRUE(b) << b.error().what;
   EXPECT_EQ(b->points_mm.size(), 1U);
-}
-
-TEST(FeatureCsv, ReadsFilesOfOneFeatureAsBefore) {
-  const std::string text = "x,y,z\n1,2,3\n4,5,6\n";
-  const auto table = parse_feature_csv(text, "pin.csv", "");
-  ASSERT_TRUE(table) << table.error().what;
-  EXPECT_EQ(table->points_mm, parse_points_csv(text, "pin.csv")->points_mm);
-  EXPECT_EQ(table->layer_count(), 0);
-  EXPECT_FALSE(parse_points_csv("x,y,z,layer\n1,2,3,0\n", "pin.csv"))
-      << "who knows nothing of layers mixes none";
 }
 
 TEST(FeatureCsv, NamesWhatDoesNotFit) {

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -29,6 +31,10 @@ std::vector<double> log_normals(std::uint64_t& state, int n, double median, doub
   std::vector<double> out;
   for (int i = 0; i < n; ++i) out.push_back(median * std::exp(sigma * normal(state)));
   return out;
+}
+
+core::Result<Capability> below(std::span<const double> values_mm, double limit_mm) {
+  return capability_between(values_mm, std::nullopt, limit_mm);
 }
 
 TEST(ControlLimits, AgreeWithAChartByHand) {
@@ -60,7 +66,7 @@ TEST(UpperCapability, OfALogNormalProcessIsTheOneOfItsPercentiles) {
   std::uint64_t state = 5;
   const double upper_point = 0.008 * std::exp(3.0 * 0.2);
   const double limit = 0.008 + 1.5 * (upper_point - 0.008);
-  const auto found = upper_capability(log_normals(state, 100'000, 0.008, 0.2), limit);
+  const auto found = below(log_normals(state, 100'000, 0.008, 0.2), limit);
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_NEAR(found->index, 1.5, 0.02);
   EXPECT_NEAR(found->median_mm, 0.008, 2e-5);
@@ -70,7 +76,7 @@ TEST(UpperCapability, OfALogNormalProcessIsTheOneOfItsPercentiles) {
 TEST(CapabilityBetween, TwoLimitsIsTheLesserOfBothSides) {
   std::uint64_t state = 11;
   const auto values = log_normals(state, 500, 30.0, 0.00005);
-  const auto upper = upper_capability(values, 30.006);
+  const auto upper = below(values, 30.006);
   const auto lower = capability_between(values, 29.997, std::nullopt);
   const auto both = capability_between(values, 29.997, 30.006);
   ASSERT_TRUE(upper && lower && both);
@@ -94,7 +100,7 @@ TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
       int held = 0;
       int modelled = 0;
       for (int round = 0; round < rounds; ++round) {
-        const auto found = upper_capability(log_normals(state, n, 0.008, 0.3), limit);
+        const auto found = below(log_normals(state, n, 0.008, 0.3), limit);
         if (!found) continue;  // one in twenty is refused by the test of the model
         ++modelled;
         held += *found->lower_bound <= index ? 1 : 0;
@@ -115,12 +121,12 @@ TEST(UpperCapability, IsTheSamplesOwnWhereTheModelDoesNotFit) {
   for (int i = 0; i < 2'000; ++i) {
     values.push_back((i % 2 == 0 ? 0.004 : 0.012) + 0.0005 * normal(state));
   }
-  const auto found = upper_capability(values, 0.02);
+  const auto found = below(values, 0.02);
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_EQ(found->method, Capability::Method::kSample);
   EXPECT_FALSE(found->lower_bound);
   EXPECT_GT(found->upper_point_mm, 0.0125);
-  const auto few = upper_capability(std::span(values).first(500), 0.02);
+  const auto few = below(std::span(values).first(500), 0.02);
   ASSERT_FALSE(few);
   EXPECT_EQ(few.error().code, Code::kNotConverged);
 }
@@ -128,15 +134,15 @@ TEST(UpperCapability, IsTheSamplesOwnWhereTheModelDoesNotFit) {
 TEST(UpperCapability, DoesNotGuess) {
   std::uint64_t state = 11;
   const auto few = log_normals(state, 24, 0.008, 0.2);
-  EXPECT_EQ(upper_capability(few, 0.01).error().code, Code::kTooFewPoints);
+  EXPECT_EQ(below(few, 0.01).error().code, Code::kTooFewPoints);
   EXPECT_EQ(control_limits(std::span(few).first(9)).error().code, Code::kTooFewPoints);
   std::vector<double> wrong = log_normals(state, 100, 0.008, 0.2);
   wrong[40] = 0.0;
-  EXPECT_EQ(upper_capability(wrong, 0.01).error().code, Code::kOutOfRange);
+  EXPECT_EQ(below(wrong, 0.01).error().code, Code::kOutOfRange);
   wrong[40] = std::nan("");
   EXPECT_EQ(control_limits(wrong).error().code, Code::kOutOfRange);
   const std::vector<double> alike(100, 0.008);
-  EXPECT_EQ(upper_capability(alike, 0.01).error().code, Code::kRank);
+  EXPECT_EQ(below(alike, 0.01).error().code, Code::kRank);
   EXPECT_EQ(control_limits(alike).error().code, Code::kRank);
 }
 

@@ -1,12 +1,8 @@
 #include "evaluation/contour/internal/noisy_curves.h"
 
-#include <complex>
 #include <utility>
 
 #include <fmt/format.h>
-
-#include "evaluation/contour/result.h"
-#include "fit/profiles/profile_filter.h"
 
 namespace rondure::evaluation::contour_trials {
 
@@ -53,15 +49,3 @@ CurveModel model_of(Curves measured, std::shared_ptr<const NoisyCurves> noise, s
 }
 
 }  // namespace rondure::evaluation::contour_trials
-
-namespace rondure::evaluation {
-
-double gauge_noise_factor(const fit::FilterOptions& filter, std::size_t points) {
-  double sum = 0.0;
-  for (std::size_t k = 2; k < (points + 1) / 2; ++k) {
-    sum += std::norm(fit::transmission(filter, static_cast<double>(k), points));
-  }
-  return std::sqrt(2.0 / static_cast<double>(points) * sum);
-}
-
-}  // namespace rondure::evaluation

@@ -12,10 +12,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Stands for the curvature of the functions themselves, which counts only where the bound has
-/// none: that of a distance of some 20 mm.
-constexpr double kCurvature_1_mm = 0.05;
-
 /// log(sum(exp(sharpness * value))) / sharpness, summed over the groups, with its derivatives.
 struct Bound {
   double value = 0.0;
