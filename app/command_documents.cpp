@@ -79,27 +79,9 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// `text` with a backslash before each of `special`.
-std::string with_backslashes(std::string_view text, std::string_view special) {
-  std::string out;
-  for (const char c : text) {
-    if (special.find(c) != std::string_view::npos) out += '\\';
-    out += c;
-  }
-  return out;
-}
-
-/// Text for a shell word in single quotes.
-std::string single_quoted(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out;
-}
-
-/// Branches of a case statement that find the verb in the words typed so far. `branch` takes the
-/// patterns (each a verb and the next word) and the resulting verb.
-std::string verb_branches(const std::vector<VerbEntry>& verbs, const char* branch,
-                          const char* between) {
+/// Branches of a case statement that find the verb in the words typed so far: each pattern is a
+/// verb and the next word.
+std::string verb_branches(const std::vector<VerbEntry>& verbs) {
   std::string out;
   for (const VerbEntry& verb : verbs) {
     std::vector<std::string> patterns;
@@ -107,148 +89,11 @@ std::string verb_branches(const std::vector<VerbEntry>& verbs, const char* branc
       patterns.push_back(fmt::format("'{} {}'", verb.words, inner->get_name()));
     }
     if (patterns.empty()) continue;
-    out += fmt::format(fmt::runtime(branch), fmt::join(patterns, between),
+    out += fmt::format("      {}) verb=\"{}\" ;;\n", fmt::join(patterns, " | "),
                        verb.words.empty() ? "$word" : "$verb $word");
   }
   return out;
 }
-
-/// verb_branches() for bash and zsh.
-std::string shell_branches(const std::vector<VerbEntry>& verbs) {
-  return verb_branches(verbs, "      {}) verb=\"{}\" ;;\n", " | ");
-}
-
-// ---- bash
-
-std::string bash_completion(const std::vector<VerbEntry>& verbs) {
-  std::string values, options, names;
-  for (const VerbEntry& verb : verbs) {
-    std::vector<std::string> words;
-    for (const CLI::Option* option : named_options(*verb.table)) {
-      words.push_back(long_name(*option));
-      if (takes_value(*option)) {
-        values += fmt::format("    '{} {}') words='{}' ;;\n", verb.words, words.back(),
-                              fmt::join(listed_words(*option), " "));
-      }
-    }
-    options += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(words, " "));
-    const std::vector<std::string> plain = plain_words(*verb.table);
-    if (plain.empty()) continue;
-    names += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(plain, " "));
-  }
-  return fmt::format(
-      "# Completion of rondure {} for bash: rondure completion bash\n"
-      "_rondure() {{\n"
-      "  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}\n"
-      "  local verb= word words=\n"
-      "  for word in \"${{COMP_WORDS[@]:1:COMP_CWORD - 1}}\"; do\n"
-      "    case \"$verb $word\" in\n"
-      "{}"
-      "    esac\n"
-      "  done\n"
-      "  case \"$verb $previous\" in\n"
-      "{}"
-      "    *)\n"
-      "      if [[ $current == -* ]]; then\n"
-      "        case \"$verb\" in\n{}        esac\n"
-      "      else\n"
-      "        case \"$verb\" in\n{}        esac\n"
-      "      fi ;;\n"
-      "  esac\n"
-      "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
-      "}}\n"
-      "complete -o default -F _rondure rondure\n",
-      core::kVersion, shell_branches(verbs), values, options, names);
-}
-
-// ---- zsh
-
-std::string zsh_option(const CLI::Option& option) {
-  std::string out = fmt::format("{}[{}]", long_name(option),
-                                with_backslashes(one_line(option.get_description()), "\\[]"));
-  if (option.get_items_expected_max() > 1) out.insert(0, "*");
-  if (takes_value(option)) {
-    const std::vector<std::string> words = listed_words(option);
-    out += fmt::format(
-        ":{}:{}", with_backslashes(value_name(option), ":"),
-        words.empty() ? std::string("_files") : fmt::format("({})", fmt::join(words, " ")));
-  }
-  return out;
-}
-
-std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
-  std::string branches;
-  for (const VerbEntry& verb : verbs) {
-    branches += fmt::format("    '{}') _arguments", verb.words);
-    for (const CLI::Option* option : named_options(*verb.table)) {
-      branches += fmt::format(" \\\n      '{}'", single_quoted(zsh_option(*option)));
-    }
-    const std::vector<std::string> plain = plain_words(*verb.table);
-    const std::string words =
-        plain.empty() ? std::string() : fmt::format("\"names:name:({})\" ", fmt::join(plain, " "));
-    const char* files = verb.words.empty() ? "" : "\"files:file:_files\"";
-    branches += fmt::format(" \\\n      '*: :{{ _alternative {}{} }}' ;;\n", words, files);
-  }
-  return fmt::format(
-      "#compdef rondure\n"
-      "# Completion of rondure {} for zsh: rondure completion zsh\n"
-      "_rondure() {{\n"
-      "  local verb= word\n"
-      "  for word in \"${{(@)words[2,CURRENT-1]}}\"; do\n"
-      "    case \"$verb $word\" in\n"
-      "{}"
-      "    esac\n"
-      "  done\n"
-      "  case \"$verb\" in\n"
-      "{}"
-      "  esac\n"
-      "}}\n"
-      "if [ \"$funcstack[1]\" = _rondure ]; then _rondure \"$@\"; else compdef _rondure rondure; "
-      "fi\n",
-      core::kVersion, shell_branches(verbs), branches);
-}
-
-// ---- fish
-
-std::string fish_completion(const std::vector<VerbEntry>& verbs) {
-  std::string out = fmt::format(
-      "# Completion of rondure {} for fish: rondure completion fish\n"
-      "function __rondure_at --description 'Whether the words typed so far name this verb'\n"
-      "  set -l verb ''\n"
-      "  for word in (commandline -opc)[2..]\n"
-      "    switch \"$verb $word\"\n"
-      "{}"
-      "    end\n"
-      "  end\n"
-      "  test \"$verb\" = \"$argv[1]\"\n"
-      "end\n",
-      core::kVersion, verb_branches(verbs, "      case {}\n        set verb \"{}\"\n", " "));
-  for (const VerbEntry& verb : verbs) {
-    const std::string head =
-        fmt::format("complete -c rondure -n '__rondure_at \"{}\"'", verb.words);
-    for (const CLI::App* inner : inner_verbs(*verb.table)) {
-      out += fmt::format("{}{} -a {} -d '{}'\n", head, verb.words.empty() ? " -f" : "",
-                         inner->get_name(),
-                         with_backslashes(one_line(inner->get_description()), "\\'"));
-    }
-    for (const CLI::Option* option : positionals(*verb.table)) {
-      for (const std::string& word : listed_words(*option)) {
-        out += fmt::format("{} -a {}\n", head, word);
-      }
-    }
-    for (const CLI::Option* option : named_options(*verb.table)) {
-      const std::vector<std::string> words = listed_words(*option);
-      std::string value;
-      if (takes_value(*option))
-        value = words.empty() ? " -r" : fmt::format(" -x -a '{}'", fmt::join(words, " "));
-      out += fmt::format("{} -l {}{} -d '{}'\n", head, option->get_lnames().front(), value,
-                         with_backslashes(one_line(option->get_description()), "\\'"));
-    }
-  }
-  return out;
-}
-
-// ---- the manual page
 
 /// A line of text in roff, escaped so that no part of it is a request.
 std::string roff(std::string_view text) {
@@ -330,11 +175,46 @@ std::string manual_page(const CLI::App& program) {
   return out;
 }
 
-std::string completion_script(const CLI::App& program, const std::string& shell) {
+std::string bash_completion(const CLI::App& program) {
   const std::vector<VerbEntry> verbs = all_verbs(program);
-  if (shell == "zsh") return zsh_completion(verbs);
-  if (shell == "fish") return fish_completion(verbs);
-  return bash_completion(verbs);
+  std::string values, options, names;
+  for (const VerbEntry& verb : verbs) {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : named_options(*verb.table)) {
+      words.push_back(long_name(*option));
+      if (takes_value(*option)) {
+        values += fmt::format("    '{} {}') words='{}' ;;\n", verb.words, words.back(),
+                              fmt::join(listed_words(*option), " "));
+      }
+    }
+    options += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(words, " "));
+    const std::vector<std::string> plain = plain_words(*verb.table);
+    if (plain.empty()) continue;
+    names += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(plain, " "));
+  }
+  return fmt::format(
+      "# Completion of rondure {} for bash: rondure completion bash\n"
+      "_rondure() {{\n"
+      "  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}\n"
+      "  local verb= word words=\n"
+      "  for word in \"${{COMP_WORDS[@]:1:COMP_CWORD - 1}}\"; do\n"
+      "    case \"$verb $word\" in\n"
+      "{}"
+      "    esac\n"
+      "  done\n"
+      "  case \"$verb $previous\" in\n"
+      "{}"
+      "    *)\n"
+      "      if [[ $current == -* ]]; then\n"
+      "        case \"$verb\" in\n{}        esac\n"
+      "      else\n"
+      "        case \"$verb\" in\n{}        esac\n"
+      "      fi ;;\n"
+      "  esac\n"
+      "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
+      "}}\n"
+      "complete -o default -F _rondure rondure\n",
+      core::kVersion, verb_branches(verbs), values, options, names);
 }
 
 }  // namespace rondure::app

@@ -12,8 +12,7 @@ namespace rondure::app {
 /// command line and prints --help. View it with `man -l`.
 [[nodiscard]] std::string manual_page(const CLI::App& program);
 
-/// A completion script for verbs, options, listed words and file names, from the same table.
-/// @param shell  "bash", "zsh" or "fish".
-[[nodiscard]] std::string completion_script(const CLI::App& program, const std::string& shell);
+/// A bash script that completes verbs, options, listed words and file names, from the same table.
+[[nodiscard]] std::string bash_completion(const CLI::App& program);
 
 }  // namespace rondure::app

@@ -5,16 +5,13 @@
 set(documents ${PROJECT_BINARY_DIR}/documents)
 file(MAKE_DIRECTORY ${documents})
 add_custom_command(
-  OUTPUT ${documents}/rondure.1.gz ${documents}/rondure.bash ${documents}/_rondure ${documents}/rondure.fish
-         ${documents}/changelog.gz ${documents}/changelog.Debian.gz
+  OUTPUT ${documents}/rondure.1.gz ${documents}/rondure.bash ${documents}/changelog.gz ${documents}/changelog.Debian.gz
   COMMAND rondure manual | gzip -9n > rondure.1.gz
   COMMAND rondure completion bash > rondure.bash
-  COMMAND rondure completion zsh > _rondure
-  COMMAND rondure completion fish > rondure.fish
   COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md > changelog.gz
   COMMAND gzip -9nc ${CMAKE_CURRENT_LIST_DIR}/debian/changelog > changelog.Debian.gz
   DEPENDS rondure ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${CMAKE_CURRENT_LIST_DIR}/debian/changelog
-  WORKING_DIRECTORY ${documents} COMMENT "Writing manual page and completions")
+  WORKING_DIRECTORY ${documents} COMMENT "Writing manual page and completion")
 add_custom_target(rondure_documents ALL DEPENDS ${documents}/rondure.1.gz)
 
 # ---- the program
@@ -24,8 +21,6 @@ install(TARGETS rondure)
 install(FILES ${documents}/rondure.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${documents}/rondure.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME rondure)
-install(FILES ${documents}/_rondure DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
-install(FILES ${documents}/rondure.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(FILES wire/60-rondure.rules DESTINATION lib/udev/rules.d)
 install(FILES ${documents}/changelog.gz ${documents}/changelog.Debian.gz ${CMAKE_CURRENT_LIST_DIR}/debian/copyright
               README.md

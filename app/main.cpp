@@ -379,12 +379,10 @@ void add_design_probes(CLI::App& app, DesignArguments& a) {
 
 void add_completion(CLI::App& app, std::string& shell) {
   auto* verb = app.add_subcommand("completion", "Prints the completion script of a shell");
-  verb->add_option("SHELL", shell, "bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->add_option("SHELL", shell, "bash")->required()->check(CLI::IsMember({"bash"}));
   verb->footer(
       "\nExample: source <(rondure completion bash)\n"
-      "The Debian package installs all three.");
+      "The Debian package installs it.");
 }
 
 void add_manual(CLI::App& app) {
@@ -494,7 +492,7 @@ int main_of(int argc, char** argv) {
   const auto given = std::find_if(verbs.rbegin(), verbs.rend(),
                                   [](const Verb& verb) { return verb.table->parsed(); });
   if (given != verbs.rend()) return given->run();
-  say(app.got_subcommand("completion") ? completion_script(app, shell) : manual_page(app));
+  say(app.got_subcommand("completion") ? bash_completion(app) : manual_page(app));
   return kAllWell;
 }
 
