@@ -25,9 +25,10 @@ install(FILES wire/60-rondure.rules DESTINATION lib/udev/rules.d)
 install(FILES ${documents}/changelog.gz ${documents}/changelog.Debian.gz ${CMAKE_CURRENT_LIST_DIR}/debian/copyright
               README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "make_pictures.sh" EXCLUDE PATTERN "*.mjs" EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Beside each other as in the source, so that the examples find schema and points.
-install(DIRECTORY plans/examples plans/schema DESTINATION ${data}/plans PATTERN "bad" EXCLUDE)
+install(DIRECTORY plans/examples DESTINATION ${data}/plans PATTERN "bad" EXCLUDE)
+install(FILES plans/schema/plan.schema.json plans/schema/report.schema.json DESTINATION ${data}/plans/schema)
 install(DIRECTORY tests/data/axle_mzc_3 tests/data/nist_cyl_13 DESTINATION ${data}/tests/data)
 
 # ---- the fits for other programs

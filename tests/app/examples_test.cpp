@@ -80,7 +80,7 @@ bool has_series(const json& plan) {
 std::string reports_fault(const fs::path& folder) {
   const std::string command = "cd '" + folder.string() + "' && /usr/bin/python3 '" +
                               (source_dir() / "tests/app/reports_are_valid.py").string() + "' '" +
-                              (source_dir() / "docs/report.schema.json").string() +
+                              (source_dir() / "plans/schema/report.schema.json").string() +
                               "' */ >said 2>&1";
   return std::system(command.c_str()) == 0 ? std::string() : read(folder / "said");
 }

@@ -1,4 +1,4 @@
-// The pictures of the report, as docs/make_pictures.sh asks for them.
+// The pictures of the report, as .ci/make_pictures.sh asks for them.
 
 import {cpSync} from 'node:fs';
 import {join} from 'node:path';

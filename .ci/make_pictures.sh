@@ -4,18 +4,16 @@
 # the browser tests (tests/browser/README.md), imagemagick, poppler-utils and, for Chinese, fonts-noto-cjk.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/images/planning.svg >/dev/null
+build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/pictures/planning.svg >/dev/null
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export RONDURE_BINARY=$PWD/build/release/rondure RONDURE_SOURCE_DIR=$PWD RONDURE_PICTURES=$work
-tests/browser/run.sh "$PWD/build/release/tests/browser/packages" ../../docs/pictures.mjs
+tests/browser/run.sh "$PWD/build/release/tests/browser/packages" ../../.ci/pictures.mjs
 
-mkdir -p docs/pictures
 pdftoppm -r 60 -png -f 1 -l 4 "$work/print.pdf" "$work/page"
 montage "$work"/page-*.png -tile 4x1 -geometry +10+10 -background '#c8ced4' "$work/print.png"
 for picture in screen dark narrow chinese solid map drawing print; do
   convert "$work/$picture.png" -strip -colors 96 "PNG8:docs/pictures/$picture.png"
 done
-cp docs/pictures/screen.png docs/images/report.png
-find docs/pictures docs/images -name '*.png' -size +300k -exec echo "larger than 300 kB:" {} + -exec false {} +
+find docs/pictures -name '*.png' -size +300k -exec echo "larger than 300 kB:" {} + -exec false {} +
