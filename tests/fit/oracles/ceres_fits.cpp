@@ -21,18 +21,6 @@ struct CircleDistance {
   }
 };
 
-struct SphereDistance {
-  Eigen::Vector3d p;
-  template <class T>
-  bool operator()(const T* x, T* residual) const {
-    const T u = T(p.x()) - x[0];
-    const T v = T(p.y()) - x[1];
-    const T w = T(p.z()) - x[2];
-    residual[0] = sqrt(u * u + v * v + w * w) - x[3];
-    return true;
-  }
-};
-
 /// Offset of a point from the axis through (x0, x1, 0) along (x2, x3, 1), frame of the start.
 template <class T>
 Eigen::Matrix<T, 3, 1> offset(const Eigen::Vector3d& p, const T* x) {
@@ -46,16 +34,6 @@ struct CylinderDistance {
   template <class T>
   bool operator()(const T* x, T* residual) const {
     residual[0] = offset(p, x).norm() - x[4];
-    return true;
-  }
-};
-
-/// As a vector: a distance has no derivative on the line.
-struct LineOffset {
-  Eigen::Vector3d p;
-  template <class T>
-  bool operator()(const T* x, T* residual) const {
-    Eigen::Map<Eigen::Matrix<T, 3, 1>>{residual} = offset(p, x);
     return true;
   }
 };
@@ -80,12 +58,12 @@ void polish(ceres::Problem& problem, Eigen::Matrix<double, Unknowns, 1>& x) {
 }
 
 /// Solves as far as doubles go.
-template <class Cost, int Residuals, int Unknowns, class Points>
+template <class Cost, int Unknowns, class Points>
 void solve(const Points& points, Eigen::Matrix<double, Unknowns, 1>& x) {
   ceres::Problem problem;
   for (const auto& p : points) {
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<Cost, Residuals, Unknowns>(new Cost{p}), nullptr, x.data());
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Cost, 1, Unknowns>(new Cost{p}),
+                             nullptr, x.data());
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -101,52 +79,26 @@ void solve(const Points& points, Eigen::Matrix<double, Unknowns, 1>& x) {
   polish(problem, x);
 }
 
-/// The start's axis is z, its point the origin.
-Eigen::Isometry3d frame(const CeresAxis& start) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), start.direction));
-  X.pretranslate(start.point_mm);
-  return X;
-}
-
-template <class Cost, int Residuals, int Unknowns>
-CeresAxis solve_axis(std::span<const Eigen::Vector3d> points_mm, const CeresAxis& start) {
-  const Eigen::Isometry3d X = frame(start);
-  std::vector<Eigen::Vector3d> local;
-  for (const auto& p : points_mm)
-    local.emplace_back(X.rotation().transpose() * (p - start.point_mm));
-  Eigen::Matrix<double, Unknowns, 1> x = Eigen::Matrix<double, Unknowns, 1>::Zero();
-  if (Unknowns > 4) x(Unknowns - 1) = start.radius_mm;
-  solve<Cost, Residuals, Unknowns>(local, x);
-  return {X * Eigen::Vector3d(x(0), x(1), 0.0),
-          (X.rotation() * Eigen::Vector3d(x(2), x(3), 1.0)).normalized(),
-          Unknowns > 4 ? x(Unknowns - 1) : 0.0};
-}
-
 }  // namespace
 
 CeresCircle ceres_circle(std::span<const Eigen::Vector2d> points_mm, const CeresCircle& start) {
   std::vector<Eigen::Vector2d> local;
   for (const auto& p : points_mm) local.emplace_back(p - start.center_mm);
   Eigen::Vector3d x(0.0, 0.0, start.radius_mm);
-  solve<CircleDistance, 1, 3>(local, x);
+  solve<CircleDistance, 3>(local, x);
   return {start.center_mm + x.head<2>(), x(2)};
 }
 
-CeresSphere ceres_sphere(std::span<const Eigen::Vector3d> points_mm, const CeresSphere& start) {
+CeresCylinder ceres_cylinder(std::span<const Eigen::Vector3d> points_mm,
+                             const CeresCylinder& start) {
+  // The start's axis is z, its point the origin.
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), start.direction);
   std::vector<Eigen::Vector3d> local;
-  for (const auto& p : points_mm) local.emplace_back(p - start.center_mm);
-  Eigen::Vector4d x(0.0, 0.0, 0.0, start.radius_mm);
-  solve<SphereDistance, 1, 4>(local, x);
-  return {start.center_mm + x.head<3>(), x(3)};
-}
-
-CeresAxis ceres_cylinder(std::span<const Eigen::Vector3d> points_mm, const CeresAxis& start) {
-  return solve_axis<CylinderDistance, 1, 5>(points_mm, start);
-}
-
-CeresAxis ceres_line(std::span<const Eigen::Vector3d> points_mm, const CeresAxis& start) {
-  return solve_axis<LineOffset, 3, 4>(points_mm, start);
+  for (const auto& p : points_mm) local.emplace_back(turn.conjugate() * (p - start.point_mm));
+  Eigen::Vector<double, 5> x(0.0, 0.0, 0.0, 0.0, start.radius_mm);
+  solve<CylinderDistance, 5>(local, x);
+  return {start.point_mm + turn * Eigen::Vector3d(x(0), x(1), 0.0),
+          (turn * Eigen::Vector3d(x(2), x(3), 1.0)).normalized(), x(4)};
 }
 
 }  // namespace rondure::test

@@ -14,13 +14,7 @@ struct CeresCircle {
   double radius_mm = 0.0;
 };
 
-struct CeresSphere {
-  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  double radius_mm = 0.0;
-};
-
-/// An axis and, for a cylinder, its radius.
-struct CeresAxis {
+struct CeresCylinder {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
   double radius_mm = 0.0;
@@ -29,12 +23,7 @@ struct CeresAxis {
 /// @param start  Start of the search; the points are taken relative to it.
 [[nodiscard]] CeresCircle ceres_circle(std::span<const Eigen::Vector2d> points_mm,
                                        const CeresCircle& start);
-[[nodiscard]] CeresSphere ceres_sphere(std::span<const Eigen::Vector3d> points_mm,
-                                       const CeresSphere& start);
-[[nodiscard]] CeresAxis ceres_cylinder(std::span<const Eigen::Vector3d> points_mm,
-                                       const CeresAxis& start);
-/// The line with the least sum of squared distances.
-[[nodiscard]] CeresAxis ceres_line(std::span<const Eigen::Vector3d> points_mm,
-                                   const CeresAxis& start);
+[[nodiscard]] CeresCylinder ceres_cylinder(std::span<const Eigen::Vector3d> points_mm,
+                                           const CeresCylinder& start);
 
 }  // namespace rondure::test

@@ -78,7 +78,8 @@ TEST(CeresFits, LsCylinder) {
     const Eigen::Vector3d axis = part.X.rotation().col(2);
     const auto own = fit::ls_cylinder(points, axis + 0.02 * axis.unitOrthogonal());
     ASSERT_TRUE(own.has_value()) << own.error().what;
-    const CeresAxis other = ceres_cylinder(points, {part.X.translation(), axis, part.radius_mm});
+    const CeresCylinder other =
+        ceres_cylinder(points, {part.X.translation(), axis, part.radius_mm});
     EXPECT_LT(fit::distance_mm({other.point_mm, other.direction}, own->axis.point_mm), kNear);
     EXPECT_LT(own->axis.direction.cross(other.direction).norm() * part.half_length_mm, kNear);
     EXPECT_NEAR(own->radius_mm, other.radius_mm, kNear);
