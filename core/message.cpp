@@ -18,7 +18,6 @@ constexpr ArgumentKind fourth(std::string_view name) { return {name, Type::kNumb
 constexpr ArgumentKind fifth(std::string_view name) { return {name, Type::kNumber, 1e-5}; }
 constexpr ArgumentKind sixth(std::string_view name) { return {name, Type::kNumber, 1e-6}; }
 
-constexpr std::array kSentence = {text("sentence")};
 constexpr std::array kPartLocated = {fourth("alpha_deg"), fourth("beta_deg"),
                                      fourth("level_alpha_deg"), fourth("level_beta_deg")};
 constexpr std::array kLevellingStep = {fourth("alpha_deg"), fourth("beta_deg"),
@@ -60,7 +59,6 @@ struct Entry {
 };
 
 constexpr std::array kMessages = {
-    Entry{MessageCode::kSentence, "sentence", kSentence},
     Entry{MessageCode::kPartLocated, "part-located", kPartLocated},
     Entry{MessageCode::kLevellingStep, "levelling-step", kLevellingStep},
     Entry{MessageCode::kLevelToResolution, "level-to-resolution", kLevelToResolution},

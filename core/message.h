@@ -14,7 +14,6 @@ namespace rondure::core {
 /// run. JSON spells them in kebab case (message_name()); reports/words/internal/messages.h makes
 /// their sentences.
 enum class MessageCode {
-  kSentence,               ///< sentence: from an old journal, with words that no code represents
   kPartLocated,            ///< part-located: the axis of the part and its level pose were found
   kLevellingStep,          ///< levelling-step: the guided search turns to another pose
   kLevelToResolution,      ///< level-to-resolution: the fixture cannot level the part any better
@@ -43,8 +42,7 @@ struct ArgumentKind {
   std::string_view name;  ///< Name in JSON; for a number, with its unit: "zone_um".
   Type type = Type::kNumber;
   /// Two numbers count as equal when they differ by no more: one unit of the last digit in the
-  /// sentence, so that a number read from an old sentence equals the number that was rounded into
-  /// it.
+  /// sentence.
   double same_within = 0.0;
 };
 
@@ -53,7 +51,7 @@ using Argument = std::variant<double, std::string>;
 
 /// A message as data: it becomes a sentence where a person reads it, in the reader's language.
 struct Message {
-  MessageCode code = MessageCode::kSentence;
+  MessageCode code = MessageCode::kPartLocated;
   std::vector<Argument> arguments;  ///< As arguments_of() declares them.
 
   [[nodiscard]] double number(std::size_t i) const { return std::get<double>(arguments.at(i)); }

@@ -21,7 +21,7 @@ class Phrase {
 
   Phrase();
   /// A text of one piece: a word that a catalogue may know, or a sentence of which only the English
-  /// text is known (of a machine, of an old journal).
+  /// text is known (of a machine, of a journal).
   explicit Phrase(std::string_view text);
   /// Use phrase(), which checks the format.
   Phrase(std::string_view format, std::vector<Argument> arguments);

@@ -273,12 +273,11 @@ constexpr auto words_of(Touch::Purpose) {
                                               {Touch::Purpose::kCheck, "check"}});
 }
 
-/// A decision of the program during the run, in words, e.g. why the pose search stopped.
+/// A decision of the program during the run, e.g. why the pose search stopped.
 struct Decision {
   int feature = -1;  ///< Feature index; -1: concerns the whole run.
   double time_s = 0.0;
   core::Message message;
-  std::string sentence = {};  ///< The sentence in a journal before version 6; empty in a later one.
 };
 
 /// One column of a series: its name in the file, which carries the unit ("H1_um"), and that unit.

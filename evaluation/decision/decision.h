@@ -74,8 +74,8 @@ struct DecisionRule {
 
 [[nodiscard]] DecisionRule rule_of(const record::DecisionRuleTask& task);
 
-/// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 holds
-/// only its name. kMeaning for a rule, measurand, judged value or prior that this program does not
+/// The rule of a run: its name from the head, the rest from its settings ("decision_rule/...").
+/// kMeaning for a rule, measurand, judged value or prior that this program does not
 /// know: every verdict is then void.
 [[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
 

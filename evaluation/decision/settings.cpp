@@ -45,7 +45,7 @@ core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
   }
   auto task = record::task_of<DecisionRuleTask>(record.settings, "decision_rule/");
   if (!task) return core::fail(task.error());
-  task->rule = *kind;  // a journal before version 4 holds only the name
+  task->rule = *kind;  // the settings of a checked journal name the same
   return rule_of(*task);
 }
 

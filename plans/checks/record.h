@@ -10,8 +10,8 @@ namespace rondure::plans {
 /// columns of every analysis, and no others; touches of known poses, in whole numbers that fit the
 /// feature, with unit directions. Call it before an evaluation: digests also match if somebody has
 /// recomputed them, and another program's journal may contain anything. In a run of another
-/// version, settings unknown to this version are ignored, and tables before version 5 may lack
-/// settings that have a default.
+/// version of the program, settings unknown to this version are ignored, and those that have a
+/// default may be absent.
 /// @return kJournal with the first violation and its place.
 [[nodiscard]] core::Result<void> check_record(const record::ReadJournal& read);
 

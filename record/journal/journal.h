@@ -38,11 +38,10 @@ class Journal {
 
   /// Opens the journal of a run that was interrupted, stopped or failed. Rows are added after its
   /// last row, and the chain continues after its last link. The ending of the run is removed from
-  /// the header; end() writes the new one. Temporary files of killed writers are removed. A journal
-  /// of version 5 keeps that version: its decisions are written as sentences.
+  /// the header; end() writes the new one. Temporary files of killed writers are removed.
   /// @param held  From hold_journal() for that directory.
-  /// @return  kJournal when it does not follow its chain, is sealed or listed in SHA256SUMS, or has
-  ///          an older version; kFile when it is a link.
+  /// @return  kJournal when it does not follow its chain, is sealed or listed in SHA256SUMS; kFile
+  ///          when it is a link.
   [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory,
                                                     HeldJournal held);
 
@@ -97,7 +96,6 @@ struct BrokenTable {
 struct ReadJournal {
   RunRecord record;
   std::vector<BrokenTable> broken;  ///< Empty for an intact journal, sealed or not.
-  int version = 0;                  ///< Version of its tables; version 1 has no chain.
   bool listed = false;              ///< SHA256SUMS names it: its run closed it.
   bool as_listed = true;            ///< Its bytes have the digest in SHA256SUMS, if listed there.
   /// Logs beside a closed journal that would change it, by name. They were not read.
@@ -107,7 +105,8 @@ struct ReadJournal {
 /// Reads `directory`/journal.db without changing it. A closed journal (listed in SHA256SUMS, or
 /// whole and sealed without its log) is read from that file alone, an open or interrupted one
 /// together with its log. Nothing stored in the file is executed. kFile when there is none,
-/// kJournal when it is not a journal of Rondure or is damaged; `where` names the file.
+/// kJournal when it is not a journal of Rondure, has tables of another version or is damaged;
+/// `where` names the file.
 [[nodiscard]] core::Result<ReadJournal> read_journal(const std::filesystem::path& directory);
 
 /// A journal that no other process can change: it was read after its directory was locked.

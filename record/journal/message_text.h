@@ -20,12 +20,4 @@ namespace rondure::record {
 [[nodiscard]] std::optional<core::Message> read_message(std::string_view code,
                                                         std::string_view arguments);
 
-/// The sentence that journals before version 6 hold instead of code and arguments. Its wording
-/// never changes; the wording of reports is in reports/words/internal/messages.h.
-[[nodiscard]] std::string old_sentence(const core::Message& message);
-
-/// The message of such a sentence, with its numbers as rounded there; kSentence with the sentence
-/// itself when it has none of the known forms.
-[[nodiscard]] core::Message read_old_sentence(const std::string& sentence);
-
 }  // namespace rondure::record

@@ -9,7 +9,6 @@
 #include "record/files.h"
 #include "record/journal/internal/impl.h"
 #include "record/journal/internal/reader.h"
-#include "record/journal/internal/schema.h"
 
 namespace rondure::record {
 namespace {
@@ -118,12 +117,6 @@ std::string why_not_to_go_on(const ReadJournal& journal) {
         "was interrupted",
         kChecksumsName, kJournalName);
   }
-  if (journal.version < kOldestResumedVersion) {
-    return fmt::format(
-        "its tables have version {}, a run goes on in versions {} to {} only; start a new "
-        "run",
-        journal.version, kOldestResumedVersion, kSchemaVersion);
-  }
   if (journal.broken.empty()) return {};
   return fmt::format("table {} of its journal was changed: {}; start a new run",
                      journal.broken.front().table, journal.broken.front().what);
@@ -195,12 +188,11 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
   std::unique_ptr<Impl> impl;
   try {
     impl = std::make_unique<Impl>(std::move(held.lock), file, *connection);
-    impl->version = found.version;
     int timeout_ms = 0;
     // do not wait: a run holds the lock for hours
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);
     enable_wal(impl->sql);
-    require_schema(impl->sql, found.version);  // checked on the file itself, under our lock
+    require_schema(impl->sql);  // checked on the file itself, under our lock
     impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,

@@ -99,22 +99,13 @@ std::string loss_of(soci::session& sql, std::string_view table,
   return to_the_end ? std::string() : fmt::format("{}: only {} rows can be read", table, rows);
 }
 
-/// Version of the tables; the current one when the header does not state it.
-std::int64_t version_of(soci::session& sql) {
-  long long version = 0;
-  sql << "pragma user_version", soci::into(version);
-  return version < kOldestSchemaVersion || version > kSchemaVersion ? kSchemaVersion : version;
-}
-
 std::string lost_rows(soci::session& sql) {
   const auto sealed = sealed_rows(sql);
   std::string lost;
-  const auto add = [&](const Table& table) {
+  for (const Table& table : all_tables()) {
     const std::string loss = loss_of(sql, table.name, sealed);
     if (!loss.empty()) lost += fmt::format("{}{}", lost.empty() ? "" : ", ", loss);
-  };
-  const std::int64_t version = version_of(sql);
-  for (const Table& table : tables_of(version)) add(table);
+  }
   return lost;
 }
 
@@ -237,10 +228,10 @@ std::optional<ReadJournal> closed_journal(const fs::path& file) {
 
 /// Whether the logs change anything: a run that died while closing its journal may leave a log
 /// whose rows are already in the file.
-bool logs_change(const fs::path& file, std::int64_t version) {
+bool logs_change(const fs::path& file) {
   const auto contents = [&](soci::session& sql) {
     std::string digests = digest_of(sql, "sqlite_schema").sha256;
-    for (const Table& table : tables_of(version)) digests += digest_of(sql, table.name).sha256;
+    for (const Table& table : all_tables()) digests += digest_of(sql, table.name).sha256;
     return digests;
   };
   const auto alone = in_copy(file, Logs::kWithout, contents).value_or(std::nullopt);
@@ -272,7 +263,7 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
       const bool all_are_logs = std::all_of(logs.begin(), logs.end(), [&](const std::string& log) {
         return begins_as_log(directory / log);
       });
-      if (!all_are_logs || logs_change(file, closed->version)) closed->beside = logs;
+      if (!all_are_logs || logs_change(file)) closed->beside = logs;
       return *std::move(closed);
     }
   }

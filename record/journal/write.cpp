@@ -130,7 +130,7 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   if (impl.state == Impl::State::kOpen) {
     auto written = impl.write("the seal", [&] {
       insert_results(impl.sql, *impl.chain, results);
-      insert_seal(impl.sql, impl.version);
+      insert_seal(impl.sql);
     });
     if (!written) return written;
     impl.state = Impl::State::kDigested;

@@ -95,7 +95,7 @@ class SettingList {
 };
 
 /// Visitor that fills a task from settings, the reverse of SettingList. A key that is missing from
-/// the settings, as in a journal of an earlier version, keeps the default of the task; an object
+/// the settings, as it may be in a run of another version, keeps the default of the task; an object
 /// exists when one of its keys does. A new item of a list begins where its first key occurs again,
 /// so that key must be a single value that SettingList always writes.
 class SettingReader {

@@ -348,8 +348,7 @@ Json feature_json(const evaluation::FeatureResult& feature) {
 Json event_json(const record::Decision& decision) {
   Json json = {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
                {"time_s", decision.time_s},
-               {"text", english_sentence(decision)}};
-  if (!decision.sentence.empty()) return json;  // as the program that measured reported it
+               {"text", english_sentence(decision.message)}};
   const core::Message& message = decision.message;
   Json arguments = Json::object();
   const auto kinds = core::arguments_of(message.code);

@@ -34,9 +34,9 @@ std::string words_or_dash(const std::string& text) {
   return text.empty() ? "–" : worded(core::Phrase(text));
 }
 
-/// A sentence stored in a journal stays in English.
+/// A sentence with a reason that the language does not know stays in English.
 std::string decision_html(const record::Decision& decision) {
-  const std::string english = english_sentence(decision);
+  const std::string english = english_sentence(decision.message);
   return in_sentence(language() == Language::kEnglish ? english : in_words(decision.message),
                      english);
 }

@@ -68,7 +68,7 @@ template <class... Args>
 [[nodiscard]] std::string capitalised(std::string_view text);
 
 /// A sentence that another room made as data, in the language of the report. Nothing where the
-/// catalogue lacks it or a part of it (a text of a machine or of an old journal): the report then
+/// catalogue lacks it or a part of it (a text of a machine or of a journal): the report then
 /// shows the English one and says that it is English.
 [[nodiscard]] std::optional<std::string> in_words(const core::Phrase& phrase);
 

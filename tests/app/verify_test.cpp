@@ -141,21 +141,5 @@ TEST_F(FinishedRun, WithABrokenJournalIsUnreadable) {
   EXPECT_EQ(verify().status, 2);
 }
 
-TEST(StoredJournals, OfTablesBefore5AreReportedAgain) {
-  const TemporaryFolder folder;
-  fs::copy_file(source_dir() / "tests/data/journal_v4/journal.db", folder / "journal.db");
-  EXPECT_EQ(rondure({"report", folder.path(), "--format", "json"}).status, 0);
-  const auto report = nlohmann::json::parse(read(folder / "report.json"));
-  EXPECT_EQ(report["verdict"], "conforms");
-  // The values that the program of that time stored in the journal.
-  const std::array<double, 3> stored = {6.022200333575256, 5.311747452889648, 6.678023240294095};
-  const auto& characteristics = report["features"][0]["characteristics"];
-  ASSERT_EQ(characteristics.size(), stored.size());
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    EXPECT_NEAR(characteristics[i]["value_um"].get<double>(), stored[i], 1e-9);
-  }
-  EXPECT_THAT(rondure({"verify", folder.path()}).out, Not(HasSubstr("journal, table")));
-}
-
 }  // namespace
 }  // namespace rondure::app::testing

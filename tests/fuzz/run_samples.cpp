@@ -83,7 +83,7 @@ void reseal(const fs::path& file) {
     record::Chain chain(sql);
     for (const record::Table& table : record::chained_tables()) chain.append_all(table.name);
   }
-  record::insert_seal(sql, record::kSchemaVersion);
+  record::insert_seal(sql);
   all.commit();
 }
 

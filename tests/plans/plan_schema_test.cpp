@@ -9,7 +9,7 @@
 namespace rondure::plans {
 namespace {
 
-// What a plan leaves out, and what the journal of an earlier version does not hold.
+// What a plan leaves out, and what the journal of another version of the program does not hold.
 TEST(PlanSchema, HasTheDefaultsOfTheTask) {
   const auto schema = nlohmann::json::parse(plan_schema());
   const nlohmann::json::json_pointer place(

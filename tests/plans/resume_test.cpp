@@ -10,7 +10,6 @@
 #include "plans/resume/internal/recorded_run.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
-#include "record/journal/message_text.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 
@@ -73,13 +72,6 @@ std::vector<int> touches_to_stop_at(std::size_t all) {
   return out;
 }
 
-/// A run directory with the journal of version 5 that was stopped after 80 touches.
-void copy_old_interrupted_run(const fs::path& directory) {
-  fs::create_directory(directory);
-  fs::copy_file(testing::source_dir() / "tests/data/journal_v5_interrupted/journal.db",
-                directory / "journal.db");
-}
-
 TEST(RecordedRun, KnowsTheTrueValuesOfThePartApartFromThoseOfAnalyses) {
   record::RunRecord run;
   run.features.resize(2);
@@ -91,77 +83,13 @@ TEST(RecordedRun, KnowsTheTrueValuesOfThePartApartFromThoseOfAnalyses) {
   EXPECT_TRUE(RecordedRun(run).knows_true_values());
 }
 
-TEST(ResumeOldJournals, GoesOnInVersion5ToTheBitsOfARunWithoutInterruption) {
-  const record::Scratch scratch;
-  copy_old_interrupted_run(scratch / "run");
-  const auto before = journal_of(scratch / "run");
-  if (before.header.version != core::kVersion) GTEST_SKIP() << "a run of another program version";
-  const auto plan = parse_plan(before.header.plan_text, {}, "plan.json");
-  ASSERT_TRUE(plan) << testing::lines_of(plan);
-  {
-    auto run = resume_plan(*plan, options_for(scratch / "run"));
-    ASSERT_TRUE(run) << run.error().front().what;
-    ASSERT_FALSE(run->failure) << run->failure->what;
-    ASSERT_TRUE(run->journal.seal({}));
-  }
-  const auto read = record::read_journal(scratch / "run");
-  ASSERT_TRUE(read) << read.error().what;
-  EXPECT_EQ(read->version, 5);
-  EXPECT_TRUE(read->broken.empty());
-  EXPECT_TRUE(read->record.sealed);
-  EXPECT_EQ(read->record.decisions.back().sentence.rfind("resumed on 2026-11-21T02:33:02Z after 80 "
-                                                         "touches; the last 3 repeated, ",
-                                                         0),
-            0U);
-  auto whole = journal_of(testing::source_dir() / "tests/data/journal_v5");
-  whole.results.clear();
-  EXPECT_EQ(record::measured_bits(read->record), record::measured_bits(whole));
-}
-
-TEST(ResumeOldJournals, GoesOnInVersion6) {
-  const record::Scratch scratch;
-  fs::create_directory(scratch / "run");
-  fs::copy_file(testing::source_dir() / "tests/data/journal_v6_interrupted/journal.db",
-                scratch / "run" / "journal.db");
-  const auto before = journal_of(scratch / "run");
-  if (before.header.version != core::kVersion) GTEST_SKIP() << "a run of another program version";
-  const auto plan = parse_plan(before.header.plan_text, {}, "plan.json");
-  ASSERT_TRUE(plan) << testing::lines_of(plan);
-  {
-    auto run = resume_plan(*plan, options_for(scratch / "run"));
-    ASSERT_TRUE(run) << run.error().front().what;
-    ASSERT_FALSE(run->failure) << run->failure->what;
-    ASSERT_TRUE(run->journal.seal({}));
-  }
-  const auto read = record::read_journal(scratch / "run");
-  ASSERT_TRUE(read) << read.error().what;
-  EXPECT_EQ(read->version, 6);
-  EXPECT_TRUE(read->broken.empty());
-  EXPECT_EQ(read->record.ending, "finished");
-  EXPECT_GT(read->record.touches.size(), before.touches.size());
-}
-
-TEST(ResumeOldJournals, ARunOfTheSamePlanDecidesTheSameInCodes) {
-  const auto old = journal_of(testing::source_dir() / "tests/data/journal_v5");
-  const auto plan = parse_plan(old.header.plan_text, {}, "plan.json");
-  ASSERT_TRUE(plan) << testing::lines_of(plan);
-  const Whole now(*plan);
-  ASSERT_EQ(now.record.decisions.size(), old.decisions.size());
-  for (std::size_t i = 0; i < old.decisions.size(); ++i) {
-    const core::Message& message = now.record.decisions[i].message;
-    EXPECT_TRUE(core::say_the_same(message, old.decisions[i].message)) << i;
-    EXPECT_EQ(record::old_sentence(message), old.decisions[i].sentence);
-    EXPECT_TRUE(now.record.decisions[i].sentence.empty()) << "no words in its journal";
-  }
-}
-
 TEST(ResumeDecisions, AreTheSameInOtherWordsAndNotWithOtherNumbers) {
   using core::MessageCode;
   const auto decided = [](MessageCode code, std::vector<core::Argument> arguments) {
     return record::Decision{0, 1.0, {code, std::move(arguments)}};
   };
-  auto known = decided(MessageCode::kLevelPoseUnreachable, {"point 3: the stem meets the clamp"});
-  known.sentence = "not level: point 3: the stem meets the clamp";
+  const auto known =
+      decided(MessageCode::kLevelPoseUnreachable, {"point 3: the stem meets the clamp"});
   EXPECT_TRUE(check_same_step(
       known, decided(MessageCode::kLevelPoseUnreachable, {"the stem would touch the clamp"})));
   const auto step = [&](double zone_um) {

@@ -97,7 +97,6 @@ TEST_F(InterruptedRun, IsWhole) {
   const auto read = read_journal(scratch / "run");
   ASSERT_TRUE(read) << read.error().what;
   EXPECT_THAT(read->broken, IsEmpty());
-  EXPECT_EQ(read->version, 7);
   EXPECT_EQ(every_bit(read->record), every_bit(run));
 }
 
@@ -113,12 +112,18 @@ TEST_F(InterruptedRun, EveryChangeOfARowIsNamed) {
       {"update touch set time_s = -1.0 where id = 7", "touch: touch 7 was changed after it was"},
       {"update touch set layer = 99 where id > 36",
        "touch: touch 37 was changed after it was written (and 2 more)"},
-      {"update decision set arguments = '{\"sentence\":\"another\"}' where id = 1",
+      {"update decision set arguments = '{\"reason\":\"another\"}' where id = 1",
        "decision: decision 1 was changed after"},
       {"update truth set cylt_mm = 1e-300", "truth: truth 1 was changed after it was written"},
       {"delete from truth", "truth: truth 1 was removed after it was written"},
       {"update series_block set rows = replace(rows, '4', '3') where id = 2",
        "series_block: series_block 2 was changed after it was written"},
+      {"update series_column set unit = 'mm' where id = 2", "series_column: series_column 2 was"},
+      {"update series set name = 'other' where id = 1", "series: series 1 was changed"},
+      {"update setting set number = 1.25 where id = 1", "setting: setting 1 was changed"},
+      {"update setting set number = 4000 where feature = -1", "setting: setting 5 was changed"},
+      {"update harmonic_limit set last_order = 51 where id = 1", "harmonic_limit 1 was changed"},
+      {"update truth_value set value = 7.5 where id = 1", "truth_value: truth_value 1 was changed"},
       {"insert into truth values (9, 0, 0.001)", "truth: truth 9 has no link: it was not written"},
   };
   for (const auto& [sql, words] : changes) {
@@ -208,7 +213,7 @@ TEST_F(InterruptedRun, GoesOnAsIfItHadNotBeenInterrupted) {
     run.touches.push_back(touch_number(id));
     ASSERT_TRUE(journal->add(run.touches.back()));
   }
-  run.decisions.push_back({-1, 3.5, {core::MessageCode::kSentence, {"the run went on"}}});
+  run.decisions.push_back({-1, 3.5, {core::MessageCode::kSingleSteps, {12.5}}});
   ASSERT_TRUE(journal->add(run.decisions.back()));
   ASSERT_TRUE(journal->end("finished", nullptr));
   ASSERT_TRUE(journal->seal({}));
@@ -246,20 +251,16 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
   };
   const Scratch other;
   ASSERT_TRUE(write_run(other / "sealed", sample_run(6)));
+  const auto names = other.names();
+  const std::string bytes = *read_file(other / "sealed/journal.db");
   EXPECT_THAT(refusal(other / "sealed"), HasSubstr("finished and its journal is sealed"));
+  EXPECT_EQ(*read_file(other / "sealed/journal.db"), bytes);
+  EXPECT_EQ(other.names(), names);
   fs::copy(scratch / "run", other / "changed");
   meddle(other / "changed/journal.db", "delete from touch where id = 3");
   EXPECT_THAT(refusal(other / "changed"), HasSubstr("touch 3 was removed after it was written"));
   EXPECT_THAT(refusal(other / "absent"), HasSubstr("there is no journal.db"));
-  for (const std::string version : {"1", "2", "3", "4"}) {
-    const fs::path old = other / ("old " + version);
-    fs::create_directory(old);
-    fs::copy_file(fs::path(RONDURE_SOURCE_DIR) / ("tests/data/journal_v" + version) / "journal.db",
-                  old / "journal.db");
-    meddle(old / "journal.db", "delete from seal");
-    EXPECT_THAT(refusal(old),
-                HasSubstr("version " + version + ", a run goes on in versions 5 to 7"));
-  }
+  EXPECT_THAT(refusal(other.path()), HasSubstr("there is no journal.db"));
 
   const auto first = reopened(scratch / "run");
   ASSERT_TRUE(first) << first.error().what;
@@ -276,24 +277,6 @@ TEST(Chain, OfASealedRunCannotBeCutAtItsEnd) {
   EXPECT_EQ(read->broken[0].table, "result");
   EXPECT_EQ(read->broken[1].table, "chain");
   EXPECT_THAT(read->broken[1].what, HasSubstr(" rows, expected "));
-}
-
-TEST(Chain, IsAbsentInVersion1WhichIsStillReadAndChecked) {
-  const fs::path stored = fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v1";
-  auto read = read_journal(stored);
-  ASSERT_TRUE(read) << read.error().what;
-  EXPECT_EQ(read->version, 1);
-  EXPECT_TRUE(read->record.sealed);
-  EXPECT_THAT(read->broken, IsEmpty());
-  EXPECT_EQ(read->record.touches.size(), 24U);
-  EXPECT_EQ(read->record.ending, "finished");
-  const Scratch scratch;
-  fs::copy_file(stored / "journal.db", scratch / "journal.db");
-  meddle(scratch / "journal.db", "update touch set tip_x_mm = 1.0 where id = 3");
-  read = read_journal(scratch.path());
-  ASSERT_TRUE(read);
-  ASSERT_EQ(read->broken.size(), 1U);
-  EXPECT_EQ(read->broken[0].what, "a value differs from the sealed one");
 }
 
 /// Runs the checker of docs/journal.md; its exit status.
@@ -314,10 +297,6 @@ TEST(Chain, IsTheOneThatTheDocumentDescribes) {
   ASSERT_TRUE(write_run(scratch / "run", sample_run(9)));
   const fs::path file = scratch / "run/journal.db";
   EXPECT_EQ(checked_by_the_document(file), 0);
-  for (const char* stored :
-       {"tests/data/journal_v1", "tests/data/journal_v2", "tests/data/journal_v3"}) {
-    EXPECT_EQ(checked_by_the_document(fs::path(RONDURE_SOURCE_DIR) / stored / "journal.db"), 0);
-  }
   const std::string bytes = *read_file(file);
   for (const char* sql : {"update touch set repeat = repeat + 1 where id = 3",
                           "update chain set sha256 = '' where id = 3", "delete from chain",

@@ -238,7 +238,9 @@ RunRecord sample_run(std::uint64_t seed, int touches) {
   for (int i = 0; i < features; ++i) r.features.push_back(sample_feature(n));
   for (int id = 0; id < 4; ++id) r.poses.push_back(sample_pose(n, id, features));
   for (int id = 0; id < touches; ++id) r.touches.push_back(sample_touch(n, id));
-  const auto message = [&] { return core::Message{core::MessageCode::kSentence, {n.text()}}; };
+  const auto message = [&] {
+    return core::Message{core::MessageCode::kLevelPoseUnreachable, {n.text()}};
+  };
   r.decisions = {{-1, n.real(), message()}, {0, n.real(), message()}};
   r.truths = {{0, n.real()}};
   r.results = {{"/features/0/mz/deviation_um", n.real()}, {n.text(), n.real()}};
@@ -313,7 +315,7 @@ std::string every_bit(const RunRecord& record) {
   }
   for (const Decision& d : record.decisions) {
     bits << d.feature << d.time_s << std::string(core::message_name(d.message.code))
-         << arguments_json(d.message) << d.sentence;
+         << arguments_json(d.message);
   }
   for (const SimulationTruth& t : record.truths) bits << t.feature << t.cylt_mm;
   for (const Series& s : record.series) {

@@ -175,7 +175,10 @@ evaluation::StatedValue stated(const record::Characteristic& asked, double value
           evaluation::UncertaintyStatus::none(core::phrase("the plan declares no uncertainty"))};
 }
 
-core::Message sentence(const std::string& text) { return {core::MessageCode::kSentence, {text}}; }
+/// A decision with these words.
+core::Message decided(const std::string& words) {
+  return {core::MessageCode::kLevelPoseUnreachable, {words}};
+}
 
 }  // namespace
 
@@ -187,13 +190,9 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   made.record.features.push_back(land(layers, points_per_layer));
   made.record.truths.push_back({0, 0.008251});
   made.record.decisions = {
-      {-1, 41.2, sentence("Probe qualified: tip radius 1.498600 mm, form 0.9 um.")},
-      {0, 118.4,
-       sentence("Levelling pose predicted at alpha 1.2031 deg, beta -0.8480 deg; the fixture steps "
-                "there.")},
-      {0, 240.9,
-       sentence(
-           "The next step would be below the resolution of the fixture (0.05 deg): final pose.")}};
+      {-1, 41.2, {core::MessageCode::kSingleSteps, {10.0}}},
+      {0, 118.4, {core::MessageCode::kPartLocated, {0.0, 0.0, 1.2031, -0.848}}},
+      {0, 240.9, {core::MessageCode::kLevelToResolution, {1.2031, -0.848, 8.3, 0.02, 0.05}}}};
   evaluation::FeatureResult feature;
   feature.feature = made.record.features.front();
   feature.cloud = cloud(layers, points_per_layer, true);
@@ -364,7 +363,7 @@ Case hostile_case(const std::string& text) {
     *name = text;
   }
   made.record.failure = core::Error{core::Code::kMachine, text, text};
-  for (record::Decision& decision : made.record.decisions) decision.message = sentence(text);
+  for (record::Decision& decision : made.record.decisions) decision.message = decided(text);
   made.record.features.front().id = text;
   evaluation::FeatureResult& feature = made.evaluation.features.front();
   feature.feature.id = text;

@@ -36,7 +36,7 @@ TEST(Text, MarkupBecomesEntities) {
 }
 
 TEST(Text, NoncharactersStandInNoReport) {
-  // Of an old journal: plans and the command line refuse them now.
+  // Only of a forged journal: plans and the command line refuse them.
   const std::string name = "A\uFFFE\uFDD0\U0002FFFFB";
   EXPECT_EQ(escaped(name), "A\uFFFD\uFFFD\uFFFDB");
   EXPECT_EQ(clean(name), "A\uFFFD\uFFFD\uFFFDB");

@@ -122,10 +122,10 @@ Digest chain_head(soci::session& sql) {
 
 /// Follows the chain and describes the first mismatch of each table in words that name the row;
 /// table "chain" when the links themselves do not follow from each other. O(rows).
-std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
+std::vector<BrokenTable> check_chain(soci::session& sql) {
   std::vector<BrokenTable> out;
   auto expected = follow_links(sql, out);
-  for (const Table& table : chained_tables(version)) {
+  for (const Table& table : chained_tables()) {
     compare_rows(sql, table.name, std::move(expected[std::string(table.name)]), out);
     expected.erase(std::string(table.name));
   }
@@ -139,12 +139,6 @@ std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
 /// The digest of a table in the seal; for the chain it is the head of the chain.
 Digest seal_digest_of(soci::session& sql, const Table& table) {
   return table.name == chain_table().name ? chain_head(sql) : digest_of(sql, table.name);
-}
-
-std::vector<Table> sealed_tables(std::int64_t version) {
-  std::vector<Table> tables = chained_tables(version);
-  if (version >= kFirstChainedVersion) tables.push_back(chain_table());
-  return tables;
 }
 
 /// Compares one table with its row in the seal.
@@ -185,8 +179,8 @@ void Chain::append_bytes(std::string_view table, std::int64_t row, const std::st
   ++tip_.rows;
 }
 
-void insert_seal(soci::session& sql, std::int64_t version) {
-  for (const Table& table : sealed_tables(version)) {
+void insert_seal(soci::session& sql) {
+  for (const Table& table : sealed_tables()) {
     const Digest digest = seal_digest_of(sql, table);
     const std::string name(table.name);
     sql << "insert into seal (table_name, row_count, sha256) values (:name, :rows, :sha256)",
@@ -200,11 +194,10 @@ bool is_sealed(soci::session& sql) {
   return rows > 0;
 }
 
-std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version) {
-  std::vector<BrokenTable> broken;
-  if (version >= kFirstChainedVersion) broken = check_chain(sql, version);
+std::vector<BrokenTable> check_seal(soci::session& sql) {
+  std::vector<BrokenTable> broken = check_chain(sql);
   if (!is_sealed(sql)) return broken;
-  for (const Table& table : sealed_tables(version)) {
+  for (const Table& table : sealed_tables()) {
     const auto differs = compare(sql, table);
     if (!differs) continue;
     const auto known = std::find_if(broken.begin(), broken.end(),

@@ -61,13 +61,12 @@ class Chain {
 };
 
 /// Fills the seal with the digest of every other table and the head of the chain.
-/// @param version  Version of the tables.
-void insert_seal(soci::session& sql, std::int64_t version);
+void insert_seal(soci::session& sql);
 
 [[nodiscard]] bool is_sealed(soci::session& sql);
 
-/// Checks the chain (from version 2) and, in a sealed journal, every digest of the seal. A table
+/// Checks the chain and, in a sealed journal, every digest of the seal. A table
 /// that fails both is reported once, with the number of rows and the name of the first bad row.
-[[nodiscard]] std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version);
+[[nodiscard]] std::vector<BrokenTable> check_seal(soci::session& sql);
 
 }  // namespace rondure::record

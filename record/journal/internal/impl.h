@@ -16,7 +16,6 @@
 #include "record/internal/database.h"
 #include "record/journal/internal/chain.h"
 #include "record/journal/internal/rows.h"
-#include "record/journal/internal/schema.h"
 #include "record/journal/internal/values.h"
 #include "record/journal/journal.h"
 #include "record/journal/message_text.h"
@@ -36,9 +35,8 @@ struct Journal::Impl {
   std::optional<Statements> statements;
   std::optional<Chain> chain;
   std::optional<std::int64_t> last_touch;
-  Header header;                          ///< Header and poses as given: these rows change later.
-  std::map<int, PoseVisit> poses;         ///< By id.
-  std::int64_t version = kSchemaVersion;  ///< Version of the tables.
+  Header header;                   ///< Header and poses as given: these rows change later.
+  std::map<int, PoseVisit> poses;  ///< By id.
   bool ended = false;
   State state = State::kOpen;
   std::shared_ptr<GrowingRecord> follower;  ///< May be null.
@@ -78,7 +76,7 @@ struct Journal::Impl {
 
   /// Prepares the statements that run during a measurement.
   void prepare() {
-    statements.emplace(sql, version);
+    statements.emplace(sql);
     chain.emplace(sql);
   }
 
@@ -98,17 +96,11 @@ struct Journal::Impl {
   void insert(const Decision& decision) {
     Statements& s = *statements;
     s.decision = decision;
-    if (version < kFirstMessageVersion) {
-      s.decision_code = old_sentence(decision.message);
-      s.insert_decision.execute(true);
-      chain->append_inserted("decision", decision.feature, decision.time_s, s.decision_code);
-    } else {
-      s.decision_code = core::message_name(decision.message.code);
-      s.decision_arguments = arguments_json(decision.message);
-      s.insert_decision.execute(true);
-      chain->append_inserted("decision", decision.feature, decision.time_s, s.decision_code,
-                             s.decision_arguments);
-    }
+    s.decision_code = core::message_name(decision.message.code);
+    s.decision_arguments = arguments_json(decision.message);
+    s.insert_decision.execute(true);
+    chain->append_inserted("decision", decision.feature, decision.time_s, s.decision_code,
+                           s.decision_arguments);
   }
 
   void link(const PoseVisit& pose) {

@@ -31,8 +31,8 @@ Number single(soci::session& sql, const std::string& query) {
   return number;
 }
 
-/// Returns the version of the tables; throws unless the file is a journal.
-std::int64_t require_journal(soci::session& sql) {
+/// Throws unless the file is a journal with the tables of this program.
+void require_journal(soci::session& sql) {
   const auto application = single<long long>(sql, "pragma application_id");
   if (application != kApplicationId) {
     throw Contradiction(
@@ -41,16 +41,19 @@ std::int64_t require_journal(soci::session& sql) {
                     application, kApplicationId));
   }
   const auto version = single<long long>(sql, "pragma user_version");
-  if (version < kOldestSchemaVersion || version > kSchemaVersion) {
+  if (version != kSchemaVersion) {
+    const bool earlier = version > 0 && version < kSchemaVersion;
     throw Contradiction(
-        fmt::format("its tables have version {}, this program reads versions {} to {}; read "
-                    "it with the program that wrote it",
-                    version, kOldestSchemaVersion, kSchemaVersion));
+        fmt::format("its tables have version {}, this program reads version {} alone, signed or "
+                    "not; {}",
+                    version, kSchemaVersion,
+                    earlier ? "Rondure 0.1.0 reads versions 1 to 4, commit eac6925f of Rondure "
+                              "0.2.0 versions 1 to 7"
+                            : "read it with the program that wrote it"));
   }
-  require_schema(sql, version);
+  require_schema(sql);
   const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
   if (verdict != "ok") throw Damage("it is damaged: " + verdict);
-  return version;
 }
 
 core::Code code_named(const std::string& text) {
@@ -148,20 +151,19 @@ void read_search_steps(soci::session& sql, RunRecord& record) {
   }
 }
 
-void read_characteristics(soci::session& sql, RunRecord& record, std::int64_t version) {
+void read_characteristics(soci::session& sql, RunRecord& record) {
   Characteristic row;
   int feature = 0;
   std::string form;
   std::string reference;
   Measured tolerance_mm;
   Measured lower_mm;
-  const std::string query = fmt::format(
-      "select feature, name, form, reference, tolerance_mm, drawing_zone, {} from characteristic "
-      "order by id",
-      version < kFirstIndicationVersion ? "null" : "lower_mm");
-  soci::statement rows = (sql.prepare << query, into(feature), into(row.id), into(form),
-                          into(reference), into(tolerance_mm.value, tolerance_mm.given),
-                          into(row.drawing_zone), into(lower_mm.value, lower_mm.given));
+  soci::statement rows =
+      (sql.prepare << "select feature, name, form, reference, tolerance_mm, drawing_zone, lower_mm "
+                      "from characteristic order by id",
+       into(feature), into(row.id), into(form), into(reference),
+       into(tolerance_mm.value, tolerance_mm.given), into(row.drawing_zone),
+       into(lower_mm.value, lower_mm.given));
   rows.execute();
   while (rows.fetch()) {
     Feature& owner = feature_at(record, feature, "characteristic");
@@ -195,20 +197,18 @@ void read_poses(soci::session& sql, RunRecord& record) {
   }
 }
 
-void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
+void read_touches(soci::session& sql, RunRecord& record) {
   Touch row;
   std::string purpose;
   Measured temperature;
   Measured scales;
-  // Before version 3 nothing was corrected to 20 degC, and scale temperatures were not recorded.
-  const std::string query = fmt::format(
-      "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
-      "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
-      version < 3 ? "null" : "scale_temperature_degC");
   soci::statement rows =
-      (sql.prepare << query, into(row.id), into(purpose), into(row.pose), into(row.layer),
-       into(row.point), into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()),
-       into(row.tip_mm.z()), into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
+      (sql.prepare << "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, "
+                      "tip_z_mm, approach_x, approach_y, approach_z, temperature_degC, time_s, "
+                      "scale_temperature_degC from touch order by id",
+       into(row.id), into(purpose), into(row.pose), into(row.layer), into(row.point),
+       into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()), into(row.tip_mm.z()),
+       into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
        into(temperature.value, temperature.given), into(row.time_s),
        into(scales.value, scales.given));
   rows.execute();
@@ -226,28 +226,23 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   std::reverse(record.checks.begin(), record.checks.end());  // their ids count downward
 }
 
-void read_decisions(soci::session& sql, RunRecord& record, std::int64_t version) {
+void read_decisions(soci::session& sql, RunRecord& record) {
   Decision row;
-  std::string text;
+  std::string code;
   std::string arguments;
-  const bool old = version < kFirstMessageVersion;
-  const std::string query = fmt::format("select feature, time_s, {} from decision order by id",
-                                        old ? "text, ''" : "code, arguments");
   soci::statement rows =
-      (sql.prepare << query, into(row.feature), into(row.time_s), into(text), into(arguments));
+      (sql.prepare << "select feature, time_s, code, arguments from decision order by id",
+       into(row.feature), into(row.time_s), into(code), into(arguments));
   rows.execute();
   while (rows.fetch()) {
     if (row.feature != -1) (void)feature_at(record, row.feature, "decision");
     require_number("decision.time_s", row.time_s);
-    if (old) {
-      row.sentence = text;
-      row.message = read_old_sentence(text);
-    } else if (auto message = read_message(text, arguments)) {
-      row.message = *std::move(message);
-    } else {
-      throw Contradiction(fmt::format("decision holds {} {}, which no run of version {} decides",
-                                      quoted_text(text), quoted_text(arguments), version));
+    auto message = read_message(code, arguments);
+    if (!message) {
+      throw Contradiction(fmt::format("decision holds {} {}, which no run decides",
+                                      quoted_text(code), quoted_text(arguments)));
     }
+    row.message = *std::move(message);
     record.decisions.push_back(row);
   }
 }
@@ -294,7 +289,7 @@ std::vector<SchemaObject> schema_of(soci::session& sql) {
 
 /// Removes from a list of objects the one that is this table; a view or another object of that name
 /// stays.
-void take_table(std::vector<SchemaObject>& schema, const Table& table, std::int64_t version) {
+void take_table(std::vector<SchemaObject>& schema, const Table& table) {
   const auto found = std::find_if(schema.begin(), schema.end(), [&](const SchemaObject& object) {
     return object.type == "table" && object.name == table.name;
   });
@@ -305,16 +300,16 @@ void take_table(std::vector<SchemaObject>& schema, const Table& table, std::int6
   if (!found->sql.starts_with(kVerb) ||
       std::string_view(found->sql).substr(kVerb.size()) != table.sql.substr(kVerb.size())) {
     throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
-                                    table.name, version));
+                                    table.name, kSchemaVersion));
   }
   schema.erase(found);
 }
 
 }  // namespace
 
-void require_schema(soci::session& sql, std::int64_t version) {
+void require_schema(soci::session& sql) {
   std::vector<SchemaObject> schema = schema_of(sql);
-  for (const Table& table : tables_of(version)) take_table(schema, table, version);
+  for (const Table& table : all_tables()) take_table(schema, table);
   for (const SchemaObject& object : schema) {
     // SQLite's own index for `unique` in table seal.
     const bool of_seal = object.type == "index" && object.name == "sqlite_autoindex_seal_1" &&
@@ -324,26 +319,26 @@ void require_schema(soci::session& sql, std::int64_t version) {
         "it holds the {} {}{}, which no journal of version {} has: somebody else put it there",
         object.type, quoted_text(object.name),
         object.type == "table" ? std::string() : " on table " + quoted_text(object.table),
-        version));
+        kSchemaVersion));
   }
 }
 
 ReadJournal read_tables(soci::session& sql) {
   ReadJournal journal;
-  journal.version = static_cast<int>(require_journal(sql));
+  require_journal(sql);
   read_header(sql, journal.record);
   read_artefact(sql, journal.record);
   read_features(sql, journal.record);
   read_search_steps(sql, journal.record);
-  read_characteristics(sql, journal.record, journal.version);
+  read_characteristics(sql, journal.record);
   read_poses(sql, journal.record);
-  read_touches(sql, journal.record, journal.version);
-  read_decisions(sql, journal.record, journal.version);
+  read_touches(sql, journal.record);
+  read_decisions(sql, journal.record);
   read_truths(sql, journal.record);
-  read_series_tables(sql, journal.record, journal.version);
+  read_series_tables(sql, journal.record);
   read_results(sql, journal.record);
   journal.record.sealed = is_sealed(sql);
-  journal.broken = check_seal(sql, journal.version);
+  journal.broken = check_seal(sql);
   return journal;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include <soci/soci.h>
 
 #include "record/journal/internal/values.h"
@@ -11,9 +9,9 @@
 
 namespace rondure::record {
 
-/// Throws Contradiction unless the file holds exactly the tables of that version (docs/journal.md),
-/// byte for byte, and no index, view, trigger or other table.
-void require_schema(soci::session& sql, std::int64_t version);
+/// Throws Contradiction unless the file holds exactly the tables of docs/journal.md, byte for byte,
+/// and no index, view, trigger or other table.
+void require_schema(soci::session& sql);
 
 /// Reads and checks every table of an open journal. Throws soci::soci_error, Contradiction, Damage.
 [[nodiscard]] ReadJournal read_tables(soci::session& sql);

@@ -15,9 +15,7 @@ using soci::use;
 void make_tables(soci::session& sql) {
   sql << fmt::format("pragma application_id = {}", kApplicationId);
   sql << fmt::format("pragma user_version = {}", kSchemaVersion);
-  for (const Table& table : chained_tables()) sql << table.sql;
-  sql << chain_table().sql;
-  sql << seal_table().sql;
+  for (const Table& table : all_tables()) sql << table.sql;
 }
 
 void insert_header(soci::session& sql, const Header& h) {
@@ -78,7 +76,7 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
 
 }  // namespace
 
-Statements::Statements(soci::session& sql, std::int64_t version)
+Statements::Statements(soci::session& sql)
     : insert_touch((
           sql.prepare << "insert into touch values (:id, :purpose, :pose, :layer, :point, :repeat, "
                          ":tx, :ty, :tz, :ax, :ay, :az, :temperature, :time, :scales)",
@@ -92,14 +90,10 @@ Statements::Statements(soci::session& sql, std::int64_t version)
                    use(pose.id), use(pose.feature), use(pose.commanded.alpha_rad),
                    use(pose.commanded.beta_rad), use(pose.reached.alpha_rad),
                    use(pose.reached.beta_rad), use(final_cloud), use(pose.time_s))),
-      insert_decision(
-          version < kFirstMessageVersion
-              ? (sql.prepare << "insert into decision (feature, time_s, text) values (:f, :t, :c)",
-                 use(decision.feature), use(decision.time_s), use(decision_code))
-              : (sql.prepare << "insert into decision (feature, time_s, code, arguments) values "
-                                "(:f, :t, :c, :a)",
-                 use(decision.feature), use(decision.time_s), use(decision_code),
-                 use(decision_arguments))),
+      insert_decision((sql.prepare << "insert into decision (feature, time_s, code, arguments) "
+                                      "values (:f, :t, :c, :a)",
+                       use(decision.feature), use(decision.time_s), use(decision_code),
+                       use(decision_arguments))),
       insert_truth((sql.prepare << "insert into truth (feature, cylt_mm) values (:f, :c)",
                     use(truth.feature), use(truth.cylt_mm))),
       update_final(

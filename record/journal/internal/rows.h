@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 
@@ -23,7 +22,7 @@ struct Statements {
   PoseVisit pose;
   int final_cloud = 0;
   Decision decision;
-  std::string decision_code;  ///< The sentence, before version 6.
+  std::string decision_code;
   std::string decision_arguments;
   SimulationTruth truth;
   int marked_pose = 0;
@@ -33,8 +32,7 @@ struct Statements {
   soci::statement insert_truth;
   soci::statement update_final;
 
-  /// @param version  Version of the tables.
-  Statements(soci::session& sql, std::int64_t version);
+  explicit Statements(soci::session& sql);
   Statements(const Statements&) = delete;
   Statements& operator=(const Statements&) = delete;
 };

@@ -82,7 +82,7 @@ void insert_one(soci::session& sql, Chain& chain, const Series& series) {
   insert_blocks(sql, chain, id, series);
 }
 
-void read_settings(soci::session& sql, RunRecord& record, std::int64_t version) {
+void read_settings(soci::session& sql, RunRecord& record) {
   int feature = 0;
   Setting row;
   Measured number;
@@ -93,8 +93,8 @@ void read_settings(soci::session& sql, RunRecord& record, std::int64_t version) 
   while (rows.fetch()) {
     row.number = number.get();
     require_number("setting.number", row.number.value_or(0.0));
-    const bool whole_run = feature == kWholeRun && version >= kFirstRunSettingVersion;
-    (whole_run ? record.settings : feature_at(record, feature, "setting").settings).push_back(row);
+    (feature == kWholeRun ? record.settings : feature_at(record, feature, "setting").settings)
+        .push_back(row);
   }
 }
 
@@ -135,8 +135,7 @@ void read_harmonic_limits(soci::session& sql, RunRecord& record) {
   }
 }
 
-/// Reads what drawings indicate; of an earlier version it stays at its defaults, the meaning that
-/// its characteristics had.
+/// Reads what drawings indicate.
 void read_indications(soci::session& sql, RunRecord& record) {
   std::map<std::int64_t, std::vector<Setting>> settings;
   const auto owners = characteristics_by_id(sql, record);
@@ -314,11 +313,10 @@ void insert_series(soci::session& sql, Chain& chain, std::span<const Series> ser
   }
 }
 
-void read_series_tables(soci::session& sql, RunRecord& record, std::int64_t version) {
-  if (version < kFirstSettingVersion) return;
-  read_settings(sql, record, version);
+void read_series_tables(soci::session& sql, RunRecord& record) {
+  read_settings(sql, record);
   read_harmonic_limits(sql, record);
-  if (version >= kFirstIndicationVersion) read_indications(sql, record);
+  read_indications(sql, record);
   read_series(sql, record);
   read_truth_values(sql, record);
 }

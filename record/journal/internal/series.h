@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include <soci/soci.h>
@@ -29,8 +28,7 @@ void insert_keys_of_characteristic(soci::session& sql, const Characteristic& cha
 void insert_series(soci::session& sql, Chain& chain, std::span<const Series> series,
                    std::span<const TruthValue> truths);
 
-/// Reads these tables into a record that has its features. They exist from version 3 on, settings
-/// of the whole run from version 4 on.
-void read_series_tables(soci::session& sql, RunRecord& record, std::int64_t version);
+/// Reads these tables into a record that has its features.
+void read_series_tables(soci::session& sql, RunRecord& record);
 
 }  // namespace rondure::record

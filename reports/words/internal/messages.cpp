@@ -39,8 +39,6 @@ std::string step_in_words(const Message& m) {
 
 std::optional<std::string> in_words(const Message& m) {
   switch (m.code) {
-    case MessageCode::kSentence:
-      return in_words(core::Phrase(m.text(0)));
     case MessageCode::kPartLocated:
       return trf(
           "part located in pose ({:.4f}, {:.4f}) deg: its axis is level at ({:.4f}, {:.4f}) deg",
@@ -88,10 +86,9 @@ std::optional<std::string> in_words(const Message& m) {
   return std::nullopt;
 }
 
-std::string english_sentence(const record::Decision& decision) {
-  if (!decision.sentence.empty()) return decision.sentence;
+std::string english_sentence(const Message& message) {
   const LanguageScope english(Language::kEnglish);
-  return in_words(decision.message).value_or("");
+  return in_words(message).value_or("");
 }
 
 }  // namespace rondure::reports

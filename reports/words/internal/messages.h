@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/message.h"
-#include "record/run_record.h"
 
 namespace rondure::reports {
 
@@ -15,7 +14,7 @@ namespace rondure::reports {
 ///          sentence.
 [[nodiscard]] std::optional<std::string> in_words(const core::Message& message);
 
-/// The English sentence of a decision; from a journal before version 6, as stored there.
-[[nodiscard]] std::string english_sentence(const record::Decision& decision);
+/// The English sentence of a message.
+[[nodiscard]] std::string english_sentence(const core::Message& message);
 
 }  // namespace rondure::reports
