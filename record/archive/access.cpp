@@ -32,8 +32,7 @@ core::Result<bool> Archive::push(const ArchiveRun& run) {
                                   run.head.run_id, run.head.started_utc));
   }
   bool added = false;
-  auto written = write_in_one(
-      *session_, [&] { added = insert_run(session_->sql, *session_->dialect, run, *time_s); });
+  auto written = write_in_one(*session_, [&] { added = insert_run(session_->sql, run, *time_s); });
   if (!written) return core::fail(written.error());
   return added;
 }

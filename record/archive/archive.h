@@ -15,8 +15,7 @@ namespace rondure::record {
 
 struct ArchiveSession;
 
-/// Version of the archive's tables; increases with every change (docs/archive.md). Version 1 has no
-/// lower limits: it is read as it is, and becomes version 2 with the first result that has one.
+/// Version of the archive's tables; increases with every change (docs/archive.md).
 inline constexpr int kArchiveVersion = 2;
 
 /// Data of a run that all its results share.
@@ -90,7 +89,7 @@ class Archive {
 
   /// Opens an archive; kWrite creates the tables when there are none. Gives up after 5 s on a
   /// server that does not answer. kFile when there is no archive, when the file is something else,
-  /// or when its tables have a later version; kArchive when it cannot be reached.
+  /// or when its tables have another version; kArchive when it cannot be reached.
   [[nodiscard]] static core::Result<Archive> open(const ArchivePlace& place, Access access);
 
   Archive(Archive&&) noexcept;

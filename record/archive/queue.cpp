@@ -35,8 +35,7 @@ core::Result<ArchiveQueue> ArchiveQueue::open(const std::filesystem::path& file)
 
 core::Result<void> ArchiveQueue::add(const std::string& target, const ArchiveRun& run) {
   return write_in_one(*session_, [&] {
-    insert_run(session_->sql, *session_->dialect, run,
-               seconds_of_utc(run.head.started_utc).value_or(0));
+    insert_run(session_->sql, run, seconds_of_utc(run.head.started_utc).value_or(0));
     session_->sql
         << "insert into rondure_queue (journal_sha256, target) values (:journal, :target) "
            "on conflict do nothing",

@@ -1,7 +1,5 @@
 #include "record/archive/internal/rows.h"
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -39,34 +37,8 @@ std::optional<std::int64_t> insert_head(soci::session& sql, const ArchiveHead& h
   return id;
 }
 
-constexpr int kWithLowerLimits = 2;  ///< Version of the tables.
-
-/// Gives tables of version 1 the column of lower limits, inside the transaction of the run that
-/// needs it.
-void make_lower_limits(soci::session& sql, const Dialect& dialect) {
-  if (!dialect.lock.empty()) {
-    int ignored = 0;
-    sql << std::string(dialect.lock), into(ignored);
-  }
-  if (archive_version(sql) >= kWithLowerLimits) return;
-  sql << "alter table rondure_result add column lower_limit double precision";
-  sql << fmt::format("update rondure_archive set version = {}", kWithLowerLimits);
-}
-
-/// Columns are named: tables of version 1 may get another one at any time. {}: the lower limit.
-constexpr std::string_view kInsertResult =
-    "insert into rondure_result (run, number, time_s, part_key, characteristic_key, feature, "
-    "characteristic, symbol, reference, filter, sampling, value, upper_limit, unit, verdict, "
-    "certificate{}) values (:run, :number, :time_s, :part_key, :characteristic_key, :feature, "
-    ":characteristic, :symbol, :reference, :filter, :sampling, :value, :upper_limit, :unit, "
-    ":verdict, :certificate{})";
-
-void insert_results(soci::session& sql, const Dialect& dialect, const ArchiveRun& run,
-                    std::int64_t id, std::int64_t time_s) {
-  const bool has_lower =
-      std::any_of(run.results.begin(), run.results.end(),
-                  [](const ArchiveResult& result) { return result.lower_limit.has_value(); });
-  if (has_lower && archive_version(sql) < kWithLowerLimits) make_lower_limits(sql, dialect);
+void insert_results(soci::session& sql, const ArchiveRun& run, std::int64_t id,
+                    std::int64_t time_s) {
   const std::int64_t part_key = key_of(run.head.part_id);
   std::int64_t characteristic_key = 0;
   int number = 0;
@@ -77,14 +49,17 @@ void insert_results(soci::session& sql, const Dialect& dialect, const ArchiveRun
   soci::indicator limit_given = soci::i_ok;
   double lower = 0.0;
   soci::indicator lower_given = soci::i_ok;
-  auto prepared = sql.prepare << fmt::format(kInsertResult, has_lower ? ", lower_limit" : "",
-                                             has_lower ? ", :lower_limit" : "");
-  prepared, use(id), use(number), use(time_s), use(part_key), use(characteristic_key),
-      use(r.feature), use(r.characteristic), use(r.symbol), use(r.reference), use(r.filter),
-      use(r.sampling), use(value, value_given), use(limit, limit_given), use(r.unit),
-      use(r.verdict), use(r.certificate);
-  if (has_lower) prepared, use(lower, lower_given);
-  soci::statement insert(prepared);
+  soci::statement insert =
+      (sql.prepare << "insert into rondure_result (run, number, time_s, part_key, "
+                      "characteristic_key, feature, characteristic, symbol, reference, filter, "
+                      "sampling, value, upper_limit, unit, verdict, certificate, lower_limit) "
+                      "values (:run, :number, :time_s, :part_key, :characteristic_key, :feature, "
+                      ":characteristic, :symbol, :reference, :filter, :sampling, :value, "
+                      ":upper_limit, :unit, :verdict, :certificate, :lower_limit)",
+       use(id), use(number), use(time_s), use(part_key), use(characteristic_key), use(r.feature),
+       use(r.characteristic), use(r.symbol), use(r.reference), use(r.filter), use(r.sampling),
+       use(value, value_given), use(limit, limit_given), use(r.unit), use(r.verdict),
+       use(r.certificate), use(lower, lower_given));
   for (const ArchiveResult& result : run.results) {
     r = result;
     characteristic_key = key_of(r.characteristic);
@@ -99,19 +74,14 @@ void insert_results(soci::session& sql, const Dialect& dialect, const ArchiveRun
   }
 }
 
-/// All columns of a result and of its run, in the order of Row; {}: the lower limit.
+/// All columns of a result and of its run, in the order of Row.
 constexpr std::string_view kSelect =
     "select n.journal_sha256, n.run_id, n.started_utc, n.part_id, n.part_name, n.serial, "
     "n.operator_name, n.machine, n.fixture, n.simulated, n.plan_name, n.plan_revision, "
     "n.plan_sha256, n.version, r.feature, r.characteristic, r.symbol, r.reference, r.filter, "
-    "r.sampling, r.value, r.upper_limit, {}, r.unit, r.verdict, r.certificate, r.time_s, r.run, "
-    "r.number, cast(r.time_s as text), cast(r.number as text) from rondure_result r join "
-    "rondure_run n on n.id = r.run";
-
-std::string select_text(soci::session& sql) {
-  const bool lower = archive_version(sql) >= kWithLowerLimits;
-  return fmt::format(kSelect, lower ? "r.lower_limit" : "cast(null as double precision)");
-}
+    "r.sampling, r.value, r.upper_limit, r.lower_limit, r.unit, r.verdict, r.certificate, "
+    "r.time_s, r.run, r.number, cast(r.time_s as text), cast(r.number as text) from "
+    "rondure_result r join rondure_run n on n.id = r.run";
 
 /// The variables that a fetch writes to.
 struct Row {
@@ -249,17 +219,15 @@ int archive_version(soci::session& sql) {
   return version;
 }
 
-bool insert_run(soci::session& sql, const Dialect& dialect, const ArchiveRun& run,
-                std::int64_t time_s) {
+bool insert_run(soci::session& sql, const ArchiveRun& run, std::int64_t time_s) {
   const auto id = insert_head(sql, run.head, time_s);
   if (!id) return false;
-  insert_results(sql, dialect, run, *id, time_s);
+  insert_results(sql, run, *id, time_s);
   return true;
 }
 
 std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilter& filter,
                                           std::size_t count, const ArchivedResult* before) {
-  const std::string columns = select_text(sql);
   Conditions conditions(filter, before);
   Row row;
   soci::statement select(sql);
@@ -267,7 +235,7 @@ std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilte
   const std::string where = conditions.bind(select);
   select.alloc();
   select.prepare(fmt::format("{}{} order by r.time_s desc, r.run desc, r.number desc limit {}",
-                             columns, where, count));
+                             kSelect, where, count));
   select.define_and_bind();
   std::vector<ArchivedResult> out;
   for (bool more = select.execute(true); more; more = select.fetch()) {
@@ -278,13 +246,12 @@ std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilte
 }
 
 std::optional<ArchiveRun> select_run(soci::session& sql, const std::string& journal_sha256) {
-  const std::string columns = select_text(sql);
   Row row;
   soci::statement select(sql);
   row.bind(select);
   select.exchange(use(journal_sha256, "journal"));
   select.alloc();
-  select.prepare(fmt::format("{} where n.journal_sha256 = :journal order by r.number", columns));
+  select.prepare(fmt::format("{} where n.journal_sha256 = :journal order by r.number", kSelect));
   select.define_and_bind();
   std::optional<ArchiveRun> run;
   for (bool more = select.execute(true); more; more = select.fetch()) {

@@ -8,7 +8,6 @@
 #include <soci/soci.h>
 
 #include "record/archive/archive.h"
-#include "record/archive/internal/schema.h"
 
 // Private to the room: converts runs and results to rows and back. All functions throw
 // soci::soci_error.
@@ -19,11 +18,10 @@ namespace rondure::record {
 [[nodiscard]] int archive_version(soci::session& sql);
 
 /// Inserts a run with its results, unless the archive holds its journal already. Call it inside a
-/// transaction. Tables of version 1 get the column of lower limits with the first that is given.
+/// transaction.
 /// @param time_s  Start of the run, seconds since 1970.
 /// @return Whether the run was new.
-bool insert_run(soci::session& sql, const Dialect& dialect, const ArchiveRun& run,
-                std::int64_t time_s);
+bool insert_run(soci::session& sql, const ArchiveRun& run, std::int64_t time_s);
 
 /// The newest results that pass the filter.
 [[nodiscard]] std::vector<ArchivedResult> select_newest(soci::session& sql,

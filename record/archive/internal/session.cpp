@@ -168,11 +168,13 @@ core::Result<void> check_tables(ArchiveSession& session, Archive::Access access)
     if (auto made = write_in_one(session, [&] { make_tables(session); }); !made) return made;
   }
   const int version = archive_version(session.sql);
-  if (version >= 1 && version <= kArchiveVersion) return {};
+  if (version == kArchiveVersion) return {};
   return not_ours(session.place,
-                  fmt::format("is an archive of version {}, this program knows version {}; use the "
-                              "program that made it, or another archive",
-                              version, kArchiveVersion));
+                  fmt::format("is an archive of version {}, this program knows version {}; {}",
+                              version, kArchiveVersion,
+                              version == 1 ? "docs/archive.md has the two statements that make it "
+                                             "one of version 2"
+                                           : "use the program that made it, or another archive"));
 }
 
 }  // namespace
