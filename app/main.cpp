@@ -32,16 +32,11 @@ constexpr const char* kExits =
     "not equal, 2 unreadable. Others: 0 "
     "or 2.";
 
-std::string check_former_format(const std::string& format) {
-  return format == "junit" ? std::string(plans::kInsteadOfJunit) : std::string();
-}
-
 /// "--format html,json": one argument, so that the plan may follow it.
 void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* meaning) {
   verb.add_option("--format", formats, meaning)
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(check_former_format)
       ->check(CLI::IsMember(reports::all_formats()))
       ->type_name("LIST");
 }

@@ -393,13 +393,7 @@ using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 /// read_plan() for a text; `folder` resolves points files, `name` is used in places of syntax
 /// errors.
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
-                                        std::string_view name, bool recorded = false);
-
-/// Message for the report format that earlier versions had, with its replacement.
-inline constexpr std::string_view kInsteadOfJunit =
-    "\"junit\" is no longer written; use \"json\", whose report.json holds each verdict, or the "
-    "exit "
-    "status of the run, 0 when all conform";
+                                        std::string_view name);
 
 /// The paper that the plan in a journal asks for; of text that is no plan, what plans default to.
 [[nodiscard]] record::Paper recorded_paper(std::string_view text);

@@ -47,8 +47,6 @@ struct NumberSpec {
 /// A text, or each text of an array. With `one_of`, only these; otherwise any of limited length.
 struct TextSpec {
   std::vector<std::string_view> one_of = {};
-  std::string_view former = {};   ///< A word that only earlier versions accepted,
-  std::string_view instead = {};  ///< and its replacement, for the message.
   bool required = false;
   bool empty_allowed = true;
   std::string_view meaning;

@@ -72,7 +72,7 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
   if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
   const record::Header& header = run.held->read.record.header;
-  auto plan = plans::parse_plan(header.plan_text, {}, header.plan_file, true);
+  auto plan = plans::parse_plan(header.plan_text, {}, header.plan_file);
   std::vector<core::Error> problems;
   if (!plan) {  // it was valid once: its points files, which are beside the plan, are missing
     problems = plan.error();

@@ -39,7 +39,7 @@ void complete_circles(Plan& plan, const Findings& findings) {
 }  // namespace
 
 PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
-                          std::string_view name, bool recorded) {
+                          std::string_view name) {
   const auto json = parse_json(text, name);
   if (!json) return refuse(json.error());
   Plan plan;
@@ -52,11 +52,6 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   complete_circles(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();
-  if (recorded) {
-    std::erase_if(problems, [](const core::Error& problem) {
-      return problem.where.starts_with("/reports/formats/");
-    });
-  }
   // Reach can be judged only when every number is valid.
   if (problems.empty()) {
     if (touches_anything(plan)) {

@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/sha256.h"
 #include "reports/terminal/internal/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/on_terminal.h"
@@ -184,26 +183,6 @@ TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
   std::filesystem::remove(run / "corrections.txt");
   ASSERT_EQ(rondure({"report", run}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(run / "corrections.txt"));
-}
-
-TEST_F(Formats, JunitIsRefusedWithWhatToUseAndLeftOutOfAPlanInAJournal) {
-  const std::string instead = R"("junit" is no longer written; use "json")";
-  const Outcome asked = rondure({"report", run_, "--format", "json,junit"});
-  EXPECT_EQ(asked.status, 2);
-  EXPECT_THAT(asked.err, HasSubstr(instead));
-  write_plan(folder_ / "plan.json", {{"/reports/formats", {"json", "junit"}}});
-  const Outcome planned = rondure({"validate", folder_ / "plan.json"});
-  EXPECT_EQ(planned.status, 2);
-  EXPECT_THAT(planned.out + planned.err, HasSubstr("/reports/formats/1: " + instead));
-  record::RunRecord before = journal_of(run_);
-  const std::size_t at = before.header.plan_text.rfind('}');
-  before.header.plan_text.insert(at, R"(, "reports": {"formats": ["json", "junit"]})");
-  before.header.plan_sha256 = record::sha256_hex(before.header.plan_text);
-  write_resealed(before, folder_ / "before");
-  const Outcome resumed = rondure({"run", folder_ / "before", "--resume", "--archive", "none"});
-  EXPECT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_THAT(names_in(folder_ / "before"),
-              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.json"));
 }
 
 /// Lines of a terminal, without what ends them.

@@ -495,8 +495,6 @@ template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
           {.one_of = spec_of_words<record::Format>({.meaning = {}}).one_of,
-           .former = "junit",
-           .instead = kInsteadOfJunit,
            .empty_allowed = false,
            .meaning =
                "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "

@@ -53,7 +53,6 @@ std::string spelled(const std::vector<std::string_view>& words) {
 }
 
 std::string spelling_message(const std::string& value, const TextSpec& spec) {
-  if (!spec.former.empty() && value == spec.former) return std::string(spec.instead);
   const std::string_view near = nearest_word(value, spec.one_of);
   const std::string hint = near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
   return fmt::format("{} is not known; give {}{}", in_quotes(value), spelled(spec.one_of), hint);
