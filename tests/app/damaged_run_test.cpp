@@ -130,17 +130,6 @@ TEST_F(DamagedRun, CopiedWithoutItsLogKeepsToWhatIsThere) {
   }
 }
 
-TEST_F(DamagedRun, HalfWrittenIsNotEqual) {
-  for (const std::size_t touches : {0U, 1U, 3U, 23U, 24U}) {
-    SCOPED_TRACE(touches);
-    const fs::path killed = killed_after(touches);
-    const Outcome outcome = rondure({"verify", killed});
-    EXPECT_EQ(outcome.status, 1) << outcome.err;
-    EXPECT_THAT(outcome.out, StartsWith("not equal: the run did not finish (it was interrupted)"));
-    for (const char* name : {"open", "killed"}) fs::remove_all(folder_ / name);
-  }
-}
-
 TEST_F(DamagedRun, WithoutReportsIsEqualAndSaysSo) {
   for (const char* name : {"report.html", "report.json", "touches.csv", "results.csv"}) {
     fs::remove(run_ / name);

@@ -45,26 +45,24 @@ class ClosedJournal : public ::testing::Test {
   fs::path file = scratch / "run/journal.db";
 };
 
-TEST_F(ClosedJournal, IsReadWithoutTheLogThatWasLaidBesideIt) {
-  lay_beside("-wal", log_that_replaces(file, scratch / "other/journal.db"));
-  expect_read_alone("journal.db-wal");
-}
-
-TEST_F(ClosedJournal, IsReadWithoutTheRollbackJournalThatWasLaidBesideIt) {
-  lay_beside("-journal", rollback_to(scratch / "other/journal.db"));
-  expect_read_alone("journal.db-journal");
-}
-
-TEST_F(ClosedJournal, IsReadAloneWhenItsListWasTakenAway) {
-  fs::remove(scratch / "run/SHA256SUMS");
-  lay_beside("-wal", log_that_replaces(file, scratch / "other/journal.db"));
-  expect_read_alone("journal.db-wal");
-}
-
-TEST_F(ClosedJournal, IsReadAloneBesideAFileThatIsNoLog) {
-  fs::remove(scratch / "run/SHA256SUMS");
-  lay_beside("-wal", "this is no log");
-  expect_read_alone("journal.db-wal");
+TEST_F(ClosedJournal, IsReadAloneWhateverLiesBesideIt) {
+  const std::string log = log_that_replaces(file, scratch / "other/journal.db");
+  lay_beside("-elsewhere", log);
+  for (const bool listed : {true, false}) {
+    if (!listed) fs::remove(scratch / "run/SHA256SUMS");
+    SCOPED_TRACE(listed);
+    lay_beside("-wal", log);
+    expect_read_alone("journal.db-wal");
+    lay_beside("-wal", "this is no log");
+    expect_read_alone("journal.db-wal");
+    fs::remove(file.string() + "-wal");
+    fs::create_symlink("journal.db-elsewhere", file.string() + "-wal");
+    expect_read_alone("journal.db-wal");
+    fs::remove(file.string() + "-wal");
+    lay_beside("-journal", rollback_to(scratch / "other/journal.db"));
+    expect_read_alone("journal.db-journal");
+    fs::remove(file.string() + "-journal");
+  }
 }
 
 TEST_F(ClosedJournal, HasNothingBesideItWhenAKilledProgramHadOnlyBegunALog) {
@@ -77,12 +75,6 @@ TEST_F(ClosedJournal, HasNothingBesideItWhenAKilledProgramHadOnlyBegunALog) {
   EXPECT_EQ(every_bit(read->record), every_bit(run));
   ASSERT_TRUE(Journal::finish_seal(scratch / "run"));
   EXPECT_THAT(faults_of(*read_journal(scratch / "run")), IsEmpty());
-}
-
-TEST_F(ClosedJournal, IsReadWithoutALogThatIsALink) {
-  lay_beside("-elsewhere", log_that_replaces(file, scratch / "other/journal.db"));
-  fs::create_symlink("journal.db-elsewhere", file.string() + "-wal");
-  expect_read_alone("journal.db-wal");
 }
 
 TEST_F(ClosedJournal, HasNothingBesideItWhenThatIsEmptyOrOnlyAnIndexOfALog) {

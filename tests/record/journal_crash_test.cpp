@@ -143,21 +143,5 @@ TEST(JournalCrash, LeavesNothingBehindWhenThereIsNoRoomForAJournal) {
   EXPECT_TRUE(scratch.names().empty());
 }
 
-TEST(JournalCrash, DropsOnlyTheTouchWhoseWriteWasTorn) {
-  const Scratch scratch;
-  auto journal = Journal::create(scratch / "run", {}, {}, {});
-  ASSERT_TRUE(journal);
-  ASSERT_TRUE(journal->add(touch_number(0)));
-  // The log as a power cut in the middle of a write leaves it.
-  fs::create_directory(scratch / "cut");
-  fs::copy_file(scratch / "run/journal.db", scratch / "cut/journal.db");
-  fs::copy_file(scratch / "run/journal.db-wal", scratch / "cut/journal.db-wal");
-  fs::resize_file(scratch / "cut/journal.db-wal",
-                  fs::file_size(scratch / "cut/journal.db-wal") - 1);
-  const auto read = read_journal(scratch / "cut");
-  ASSERT_TRUE(read) << read.error().what;
-  EXPECT_TRUE(read->record.touches.empty());
-}
-
 }  // namespace
 }  // namespace rondure::record

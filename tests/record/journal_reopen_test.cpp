@@ -9,35 +9,6 @@ namespace rondure::record {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
-
-TEST(JournalReopen, GoesOnBehindTheLastRow) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    SCOPED_TRACE(seed);
-    const Scratch scratch;
-    RunRecord whole = sample_run(seed);
-    ASSERT_TRUE(write_run(scratch / "whole", whole));
-    RunRecord first = whole;
-    first.sealed = false;
-    first.touches.resize(20);
-    first.ending = "failed";
-    ASSERT_TRUE(write_run(scratch / "run", first));
-    {
-      auto journal = reopened(scratch / "run");
-      ASSERT_TRUE(journal) << journal.error().what;
-      const auto between = read_journal(scratch / "run");
-      EXPECT_EQ(between->record.ending, "");
-      EXPECT_FALSE(between->record.failure);
-      for (std::size_t i = 20; i < whole.touches.size(); ++i) {
-        ASSERT_TRUE(journal->add(whole.touches[i]));
-      }
-      ASSERT_TRUE(journal->end(whole.ending, whole.failure ? &*whole.failure : nullptr));
-      ASSERT_TRUE(journal->seal(whole.results));
-    }
-    EXPECT_EQ(every_bit(read_journal(scratch / "run")->record), every_bit(whole));
-    EXPECT_TRUE(read_journal(scratch / "run")->broken.empty());
-  }
-}
 
 TEST(JournalReopen, KeepsChecksApartAndInTheirOrder) {
   const Scratch scratch;
@@ -57,30 +28,6 @@ TEST(JournalReopen, KeepsChecksApartAndInTheirOrder) {
   ASSERT_EQ(read->record.checks.size(), 3U);
   EXPECT_EQ(read->record.checks.front().id, -1);
   EXPECT_EQ(read->record.checks.back().id, -3);
-}
-
-TEST(JournalReopen, RefusesASealedRunAndADirectoryWithoutOne) {
-  const Scratch scratch;
-  ASSERT_TRUE(write_run(scratch / "run", sample_run(1)));
-  const std::string bytes = read_file(scratch / "run/journal.db").value();
-  const auto sealed = reopened(scratch / "run");
-  ASSERT_FALSE(sealed);
-  EXPECT_EQ(sealed.error().code, core::Code::kJournal);
-  EXPECT_THAT(sealed.error().what, HasSubstr("sealed"));
-  EXPECT_EQ(read_file(scratch / "run/journal.db").value(), bytes);
-  EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run", "run/SHA256SUMS", "run/journal.db"));
-  EXPECT_FALSE(reopened(scratch / "absent"));
-  fs::create_directory(scratch / "empty");
-  EXPECT_FALSE(reopened(scratch / "empty"));
-}
-
-TEST(JournalReopen, RefusesAJournalThatIsOpen) {
-  const Scratch scratch;
-  const auto open = Journal::create(scratch / "run", {}, {}, {});
-  ASSERT_TRUE(open);
-  const auto second = reopened(scratch / "run");
-  ASSERT_FALSE(second);
-  EXPECT_THAT(second.error().what, HasSubstr("is in use by process "));
 }
 
 TEST(JournalReopen, FinishSealFoldsTheLogOfARunThatDiedBehindItsSeal) {

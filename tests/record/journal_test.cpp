@@ -101,17 +101,6 @@ TEST(Journal, TwoRunsInTwoDirectoriesDoNotMix) {
   EXPECT_EQ(read_journal(scratch / "2")->record.touches.size(), 2U);
 }
 
-TEST(Journal, TwoRunsCannotShareADirectory) {
-  const Scratch scratch;
-  auto first = open_journal(scratch / "run");
-  const auto second = Journal::create(scratch / "run", {}, {}, {});
-  ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().code, core::Code::kFile);
-  EXPECT_THAT(second.error().what, HasSubstr("is in use by process "));
-  EXPECT_TRUE(first.add(touch_number(0)));
-  EXPECT_TRUE(read_journal(scratch / "run"));
-}
-
 TEST(Journal, TakesAnEmptyDirectoryAndMakesParentDirectories) {
   const Scratch scratch;
   EXPECT_TRUE(Journal::create(scratch.path(), {}, {}, {}));
