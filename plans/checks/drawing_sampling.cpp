@@ -22,14 +22,8 @@ using record::Shape;
 constexpr int kNeededLayers = 2;
 
 /// Heights of the layers of a touched feature; empty where they cannot be placed.
-std::vector<double> layer_heights(const FeaturePlan& feature) {
-  std::vector<double> out;
-  const auto targets = sampling_targets(feature);
-  if (!targets) return out;
-  for (const Target& target : *targets) {
-    if (target.point == 0) out.push_back(target.z_mm);
-  }
-  return out;
+std::vector<double> placed_heights(const FeaturePlan& feature) {
+  return layer_heights_mm(feature).value_or(std::vector<double>());
 }
 
 void check_window(const record::WindowTask& window, const std::string& where, Findings& findings) {
@@ -103,7 +97,7 @@ void check_cutoff_mm(const Sampled& s) {
   if (!is_filtered(s.indication()) || !s.indication().cutoff_mm) return;
   constexpr double kPerWave = 7.0;
   const double cutoff_mm = *s.indication().cutoff_mm;
-  const std::vector<double> heights = layer_heights(s.feature);
+  const std::vector<double> heights = placed_heights(s.feature);
   if (heights.size() < 2) return;
   const double length_mm = heights.back() - heights.front();
   const double apart_mm = length_mm / (static_cast<double>(heights.size()) - 1.0);
@@ -189,7 +183,7 @@ void check_dense(const Sampled& s) {
 
 void check_portion_of(const Sampled& s) {
   const Indication& i = s.indication();
-  const std::vector<double> heights = layer_heights(s.feature);
+  const std::vector<double> heights = placed_heights(s.feature);
   if ((!i.from_mm && !i.to_mm) || s.feature.type != Shape::kCylinder) return;
   const auto inside = std::count_if(heights.begin(), heights.end(), [&](double z_mm) {
     return z_mm >= i.from_mm.value_or(z_mm) && z_mm <= i.to_mm.value_or(z_mm);
@@ -214,7 +208,7 @@ void check_windows(const Plan& plan, std::size_t index, Findings& findings) {
       !findings.sound(feature_pointer(index)) || !plan.probe) {
     return;
   }
-  const std::vector<double> heights = layer_heights(feature);
+  const std::vector<double> heights = placed_heights(feature);
   const double tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   const auto left = std::count_if(heights.begin(), heights.end(), [&](double z_mm) {
     return std::none_of(

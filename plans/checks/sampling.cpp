@@ -178,17 +178,17 @@ bool check_counts(const FeaturePlan& feature, const std::string& where, Findings
 void check_clamp(const FeaturePlan& feature, const FixturePlan& fixture, const std::string& where,
                  Findings& findings) {
   if (fixture.clamp_from_mm >= fixture.clamp_to_mm) return;
-  const auto targets = sampling_targets(feature);
-  if (!targets) return;  // check_counts() and check_extent() have reported this
-  for (const Target& target : *targets) {
-    const bool clamped = target.z_mm >= fixture.clamp_from_mm && target.z_mm <= fixture.clamp_to_mm;
-    if (target.point != 0 || !clamped) continue;
+  const auto heights = layer_heights_mm(feature);
+  if (!heights) return;  // check_counts() and check_extent() have reported this
+  for (std::size_t layer = 0; layer < heights->size(); ++layer) {
+    const double z_mm = (*heights)[layer];
+    if (z_mm < fixture.clamp_from_mm || z_mm > fixture.clamp_to_mm) continue;
     findings.meaning(
         Code::kSampling, where + "/sampling",
         fmt::format("layer {} of {} at z = {} lies in the clamped band {}..{}; move the "
                     "clamp, or change the layers or the margin",
-                    target.layer + 1, feature.sampling.layers, mm(target.z_mm),
-                    plain(fixture.clamp_from_mm), mm(fixture.clamp_to_mm)));
+                    layer + 1, feature.sampling.layers, mm(z_mm), plain(fixture.clamp_from_mm),
+                    mm(fixture.clamp_to_mm)));
   }
 }
 

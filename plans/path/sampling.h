@@ -23,6 +23,10 @@ struct Target {
 /// The length on which the layers of a feature lie: along the axis, of a plane along its radius.
 [[nodiscard]] double layered_mm(const FeaturePlan& feature);
 
+/// Heights of the layers of a feature, from below, however many points lie on them [mm].
+/// @return  As for sampling_targets().
+[[nodiscard]] core::Result<std::vector<double>> layer_heights_mm(const FeaturePlan& feature);
+
 /// The targets of a feature, layer by layer from below, by angle within a layer:
 ///   z_j = from + margin + j (to - from - 2 margin) / (m - 1)
 ///   theta_ji = start + 360 deg (i / k + stagger j / (m k)).
