@@ -27,7 +27,7 @@ install(FILES ${documents}/changelog.gz ${documents}/changelog.Debian.gz ${CMAKE
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Beside each other as in the source, so that the examples find schema and points.
-install(DIRECTORY plans/examples DESTINATION ${data}/plans PATTERN "bad" EXCLUDE)
+install(DIRECTORY plans/examples DESTINATION ${data}/plans)
 install(FILES plans/schema/plan.schema.json plans/schema/report.schema.json DESTINATION ${data}/plans/schema)
 install(DIRECTORY tests/data/axle_mzc_3 tests/data/nist_cyl_13 DESTINATION ${data}/tests/data)
 

@@ -233,7 +233,7 @@ TEST(PlanReader, AMeaningIsNotJudgedFromValuesThatAreThemselvesWrong) {
 }
 
 TEST(PlanReader, AMissingPlanAndAFolderAreFileErrors) {
-  for (const char* name : {"no_such_plan.json", "bad"}) {
+  for (const char* name : {"no_such_plan.json", "03_calibration"}) {
     const PlanOrProblems result = read_plan(example(name));
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().front().code, Code::kFile);
@@ -270,12 +270,6 @@ TEST(PlanReader, FortyThousandMisspeltKeysAreAllReported) {
   const PlanOrProblems result = parse(text + "}}");
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().size(), 40'000U + 3U);  // part, features and plan.revision are missing
-}
-
-TEST(PlanReader, APointsFileErrorKeepsItsOwnLine) {
-  const PlanOrProblems result = read_plan(example("bad") / "40_points_file_bad.json");
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().front().where, "points_bad.csv:5");
 }
 
 }  // namespace
