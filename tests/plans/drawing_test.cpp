@@ -121,14 +121,6 @@ TEST(PlanDrawing, ACutOffBelowTwoLeavesNoForm) {
                                    "leaves no form"));
 }
 
-TEST(PlanDrawing, ASizeOfAFileNeedsItsTip) {
-  const std::string problems = problems_with(R"(, "tip_diameter_mm": 2)", "");
-  for (const std::string size : {"0", "1"}) {
-    EXPECT_THAT(problems, ::testing::HasSubstr("/features/0/characteristics/" + size +
-                                               "/form: a size needs the tip that took the points"));
-  }
-}
-
 TEST(PlanDrawing, AFeatureOfTheSameRowsIsNoDatum) {
   std::string plan = documented_plan();
   const std::string rows = R"("feature": "B")";

@@ -46,11 +46,6 @@ TEST(JsonText, MembersKeepTheirOrderAndRepetition) {
   EXPECT_LT(json->members[1].value.items[1].order, json->members[2].value.order);
 }
 
-TEST(JsonText, PointersEscapeTildeSlashAndControlCharacters) {
-  EXPECT_EQ(member_pointer("/part", "a/b~c\n"), "/part/a~1b~0c\\n");
-  EXPECT_EQ(item_pointer("/features", 2), "/features/2");
-}
-
 TEST(JsonText, QuotedTextIsOneShortLineCutBetweenCharacters) {
   EXPECT_EQ(in_quotes("a\nb\x01"), "\"a\\nb\\u0001\"");
   std::string long_text;

@@ -140,21 +140,6 @@ TEST(PlanReader, AnInfluenceIsANumberOrAnObjectWithItsDistribution) {
   EXPECT_FALSE(declared.angle_deg);
 }
 
-TEST(PlanReader, AnInfluenceHasTheLimitsOfItsKeyInBothSpellings) {
-  for (const char* spelled : {R"("angle_deg": 6)", R"("angle_deg": {"value": 6})"}) {
-    const core::Error problem = only_problem(declaring(spelled));
-    EXPECT_EQ(problem.code, Code::kOutOfRange) << problem.what;
-    EXPECT_TRUE(problem.where.starts_with("/features/0/spindle/uncertainty/angle_deg"))
-        << problem.where;
-    EXPECT_NE(problem.what.find("is outside 0..5"), std::string::npos) << problem.what;
-  }
-  EXPECT_EQ(only_problem(declaring(R"("gain_1": {"distribution": "normal"})")).code,
-            Code::kMissingKey);
-  EXPECT_EQ(only_problem(declaring(R"("gain_1": "small")")).what,
-            "is the text \"small\"; a number is needed, or an object { \"value\": ... }");
-  EXPECT_EQ(only_problem(declaring(R"("gauge_um": 1)")).code, Code::kUnknownKey);
-}
-
 TEST(PlanReader, ARuleThatJudgesOnlyAnalysesNeedsNoSectionUncertainty) {
   EXPECT_TRUE(parse(declaring(R"("noise_um": 0.05)"))) << "its influences stand with the feature";
   const core::Error problem =
