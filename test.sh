@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
-# Builds and runs all tests with the release preset, then those of all rooms once more under the address
-# and undefined-behaviour sanitizers, but for what is named below. (Null pointers,
-# alignment and sizes of objects are left to the address sanitizer: checked twice they cost a third of
-# the build.)
-#   ./test.sh               the tests every change must pass
-#   ./test.sh --full        with the full counts behind the figures in docs/ (release preset), then what runs in
-#                           several threads under the thread sanitizer: the record that a run and its live page
-#                           share, the live page, the evaluation
-#   ./test.sh --sanitizers  all rooms under the sanitizers, but for the oracles of the fits
+# Builds and runs the tests.
+#   ./test.sh                      what every change must pass: all rooms in release, then `doors`, one small program
+#                                  under the address and undefined-behaviour sanitizers that reads whatever comes
+#                                  from outside
+#   ./test.sh ROOM...              the tests of these rooms (./test.sh fit evaluation)
+#   ./test.sh --changed [COMMIT]   the tests of the rooms touched by uncommitted files and by the commits since COMMIT,
+#                                  and of the rooms above them; COMMIT: by default the last one that passed ./test.sh
+#   ./test.sh --sanitizers         all rooms under the address and undefined-behaviour sanitizers, but for what is named
+#                                  below
+#   ./test.sh --full               all rooms in release with the full counts behind the figures in docs/, the oracles of
+#                                  the fits and the judge of the intervals; then what runs in several threads under the
+#                                  thread sanitizer: the record that a run and its live page share, the live page, the
+#                                  evaluation
+# What these tests find and what they miss: tests/faults/README.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 if [ -n "${RONDURE_REWRITE+set}" ]; then
@@ -15,33 +20,126 @@ if [ -n "${RONDURE_REWRITE+set}" ]; then
   exit 2
 fi
 . .ci/packages.sh
-sanitized="core wire record fixture cmm fit plans evaluation reports web app fuzz"
-# Figures of many trials and of time, held by the release build; and runs of the whole program that take long: what
-# they do, the tests of plans, record and reports do within one process.
+rooms="core fit wire record fixture cmm plans evaluation reports web app usb house benchmarks fuzz browser package"
+
+# Not run under the sanitizers: figures of many trials, and runs of the whole program that take long; what these do,
+# the tests of plans, record and reports do within one process.
 unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\."
 unsanitized+="|EveryFlippedByteIsTold|PlantedShafts|PlanVerb\\.(Proposes|SaysWhatLimits|Predicts)"
 unsanitized+="|app\\.(Killed|SmallDisk|FullDisk|Resume|Watch|Language|HardPlan)"
-case "${1:-}" in
-  "" | --sanitizers) ;;
-  --full) export RONDURE_FULL=1 ;;
-  *) echo "usage: ./test.sh [--full|--sanitizers]" >&2; exit 2 ;;
-esac
 
+usage() {
+  sed -n '1,/^set /s/^#  \( .*\)/\1/p' test.sh
+  echo "Rooms: $rooms" | fold -s -w 79
+}
+wrong() { usage >&2; exit 2; }
+
+# Rooms that stand on ROOM: those whose CMakeLists.txt links it, and those above these.
+above() {  # ROOM
+  local found=" $1 " room more=yes
+  while [ -n "$more" ]; do
+    more=""
+    for room in core fit wire record fixture cmm plans evaluation reports web app; do
+      [[ "$found" == *" $room "* ]] && continue
+      for below in $found; do
+        if grep -qE "rondure::$below(_error_model)?\b" "$room/CMakeLists.txt"; then
+          found+="$room " more=yes
+          break
+        fi
+      done
+    done
+  done
+  echo "$found"
+}
+
+# The rooms to test for a list of changed files on standard input, or "all".
+rooms_of() {
+  local file room found=" "
+  while read -r file; do
+    case "$file" in
+      CMakeLists.txt | CMakePresets.json | tests/CMakeLists.txt | test.sh | .ci/* | tests/data/*) echo all; return ;;
+      tests/*) room=${file#tests/} room=${room%%/*} ;;
+      *) room=${file%%/*} ;;
+    esac
+    case " $rooms " in
+      *" $room "*) [[ "$file" == tests/* ]] && found+="$room " || found+="$(above "$room") " ;;
+      *) found+="house " ;;  # documents
+    esac
+  done
+  # The tests of the program's devices and doors, and those of the pages, see what the program does.
+  [[ "$found" != *" app "* ]] || found+="usb fuzz "
+  [[ "$found" != *" reports "* && "$found" != *" web "* ]] || found+="browser "
+  tr ' ' '\n' <<<"$found house" | sort -u | tr '\n' ' '
+}
+
+# Builds and runs the tests of rooms.
+test_rooms() {  # ROOM...
+  local room targets=()
+  for room in "$@"; do
+    [[ " $rooms " == *" $room "* ]] || { echo "There is no room '$room'. Rooms: $rooms" >&2; exit 2; }
+    case "$room" in
+      browser | package) targets+=(rondure) ;;
+      *) targets+=("${room}_tests") ;;
+    esac
+  done
+  build release ON "${targets[@]}"
+  local IFS="|"
+  ctest --preset release -R "^($*)\\."
+}
+
+# The commit that last passed ./test.sh here, with nothing uncommitted.
+passed=build/release/passed
+clean() { [ -z "$(git status --porcelain 2>/dev/null || echo unknown)" ]; }
+
+changed_rooms() {  # [COMMIT]
+  local since=${1:-$(cat $passed 2>/dev/null || true)}
+  if [ -z "$since" ]; then
+    echo "No commit has passed ./test.sh here yet: all rooms." >&2
+    echo all
+    return
+  fi
+  git rev-parse --quiet --verify "$since^{commit}" >/dev/null || { echo "There is no commit '$since'." >&2; exit 2; }
+  { git diff --name-only "$since"; git ls-files --others --exclude-standard; } | rooms_of
+}
+
+case "${1:-}" in
+  "" | --full | --sanitizers) [ $# -le 1 ] || wrong ;;
+  --changed) [ $# -le 2 ] || wrong ;;
+  -h | --help) usage; exit ;;
+  -*) wrong ;;
+esac
 ensure_packages $rondure_build_packages $rondure_test_packages
-if [ "${1:-}" = --sanitizers ]; then
-  build asan ON all
-  exec ctest --preset asan
+[ $# -eq 0 ] && mode=all || mode=$1
+if [ "$mode" = --changed ]; then
+  set -- $(changed_rooms "${2:-}")
+  [ $# -gt 0 ] || { echo "Nothing has changed."; exit 0; }
+  echo "Rooms: $*"
+  [ "$1" != all ] || mode=all
 fi
-# Everything else is tested also where there is no Chromium.
-(ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
-build release ON all
-ctest --preset release
-if [ -n "${RONDURE_FULL:-}" ]; then
-  build tsan ON record_tests web_tests evaluation_tests
-  env -u RONDURE_FULL ctest --preset tsan -R "^(record\.GrowingRecord|web\.Live|evaluation\.Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"
-else
-  build asan ON $(printf '%s_tests ' $sanitized)
-  echo "Not run under the sanitizers (figures of many trials, and long runs of the program):" \
-    "${unsanitized//\\/}"
-  ctest --preset asan -R "^(${sanitized// /|})\\." -E "$unsanitized"
-fi
+case "$mode" in
+  --sanitizers)
+    build asan ON all
+    echo "Not run under the sanitizers (figures of many trials, and long runs of the program):" "${unsanitized//\\/}"
+    exec ctest --preset asan -E "$unsanitized"
+    ;;
+  all | --full)
+    # Everything else is tested also where there is no Chromium.
+    (ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
+    ;;&
+  all)
+    clean && commit=$(git rev-parse HEAD) || commit=""
+    build release ON all
+    ctest --preset release
+    build doors ON doors_tests
+    ctest --preset doors
+    [ -z "$commit" ] || echo "$commit" >$passed
+    ;;
+  --full)
+    export RONDURE_FULL=1
+    build release ON all
+    ctest --preset release
+    build tsan ON record_tests web_tests evaluation_tests
+    env -u RONDURE_FULL ctest --preset tsan -R "^(record\.GrowingRecord|web\.Live|evaluation\.Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"
+    ;;
+  *) test_rooms "$@" ;;
+esac

@@ -92,9 +92,12 @@ build() {
   local preset=$1 testing=$2 log
   shift 2
   log=$(new_log build) || exit 2
+  # What --full adds is configured only where it is asked for, and stays away afterwards.
+  local full=OFF cache=build/$preset/CMakeCache.txt
+  [ -z "${RONDURE_FULL:-}" ] || [ "$preset" != release ] || full=ON
   if [ ! -f "build/$preset/build.ninja" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ] ||
-    { [ "$testing" = ON ] && ! grep -q '^BUILD_TESTING:BOOL=ON' "build/$preset/CMakeCache.txt"; }; then
-    cmake --preset "$preset" -DBUILD_TESTING="$testing" >"$log" 2>&1 || {
+    { [ "$testing" = ON ] && ! grep -q '^BUILD_TESTING:BOOL=ON' "$cache"; } || ! grep -q "^RONDURE_FULL:BOOL=$full" "$cache"; then
+    cmake --preset "$preset" -DBUILD_TESTING="$testing" -DRONDURE_FULL="$full" >"$log" 2>&1 || {
       echo "Configuring the build failed:" >&2
       explain_failure "$log" 'CMake Error'
       exit 2
