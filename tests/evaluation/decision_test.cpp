@@ -1,7 +1,6 @@
 // Decision rules: what each makes of a value, and the risks it says it has.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "evaluation/decision/decision.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
+#include "tests/core/full.h"
 
 namespace rondure::reports {
 
@@ -489,7 +489,7 @@ void expect_rate(const char* what, std::string_view rule, int count, double stat
   EXPECT_NEAR(count, expected, 3.3 * sd) << what;
 }
 
-int lot_size() { return std::getenv("RONDURE_FULL") != nullptr ? 50'000 : 1'000; }
+int lot_size() { return test::cases(1'000, 50'000); }
 
 /// That lots are judged with the global risks that are stated of one part.
 void expect_stated_risks(const Limits& limits, double ratio) {

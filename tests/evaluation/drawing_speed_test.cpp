@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
@@ -18,6 +17,7 @@
 #include "core/units.h"
 #include "evaluation/evaluate.h"
 #include "record/tasks/uncertainty.h"
+#include "tests/core/full.h"
 #include "tests/core/processor_time.h"
 #include "tests/evaluation/points_run.h"
 
@@ -112,7 +112,7 @@ record::RunRecord shaft_drawing() {
 // The figure is 2 s on two cores, 4 s of processor time; it is not reached yet. What is held is the
 // time with shared surfaces and datums. RONDURE_FULL=1.
 TEST(DrawingSpeed, OfTwentyCallOutsOfScannedJournalsWithUncertainty) {
-  if (std::getenv("RONDURE_FULL") == nullptr) GTEST_SKIP() << "RONDURE_FULL=1 takes the time";
+  if (!test::full()) GTEST_SKIP() << "RONDURE_FULL=1 takes the time";
   const record::RunRecord run = shaft_drawing();
   const double used_s = test::processor_seconds();
   const auto start = std::chrono::steady_clock::now();

@@ -24,6 +24,7 @@
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
+#include "tests/core/full.h"
 #include "tests/core/processor_time.h"
 #include "tests/evaluation/points_run.h"
 
@@ -405,8 +406,7 @@ TEST(FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
 }
 
 TEST(FactorStudy, AHundredThousandPointsTakeBoundedTime) {
-  const bool full = std::getenv("RONDURE_FULL") != nullptr;
-  const int of_layer = full ? 10'000 : 1'100;
+  const int of_layer = test::cases(1'100, 10'000);
   core::KeyedNoise noise(9, {2});
   const Points points = part(10, of_layer, [&](double t, int layer, int) {
     return 3e-3 * std::cos(2.0 * t + layer) + 0.5e-3 * noise.normal();

@@ -1,11 +1,10 @@
 // Values that a feature takes of an earlier one: run-out about the axis that an envelope found,
 // with its uncertainty, and what becomes of it where that feature is void. The wheels are simulated
-// by other code (simulated_analyses.h). 1 000 inspections with RONDURE_FULL=1, 60 else.
+// by other code (simulated_analyses.h). 1 000 inspections with RONDURE_FULL=1, 16 else.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "evaluation/evaluate.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/wheel.h"
+#include "tests/core/full.h"
 #include "tests/evaluation/simulated_analyses.h"
 
 namespace rondure::reports {
@@ -148,8 +148,8 @@ struct Held {
 
 // 93.0 % with the covariance of the axis, 80.7 % where it counts as exact (specification, 9).
 TEST(FeatureFlow, TheIntervalOfRunOutHoldsTheAxisOfEightEnvelopePoints) {
-  const bool full = std::getenv("RONDURE_FULL") != nullptr;
-  const int inspections = full ? 1000 : 60;
+  const bool full = test::full();
+  const int inspections = test::cases(16, 1000);
   Held with_covariance;
   Held without;
   int counted = 0;
@@ -185,8 +185,9 @@ TEST(FeatureFlow, TheIntervalOfRunOutHoldsTheAxisOfEightEnvelopePoints) {
   constexpr double kFigure = 0.93;
   EXPECT_GE(held_1,
             full ? kFigure - 0.02 : kFigure - 5.0 * std::sqrt(kFigure * (1.0 - kFigure) / counted));
-  EXPECT_LT(exact_1, held_1);
+  EXPECT_LE(exact_1, held_1);
   if (full) {
+    EXPECT_LT(exact_1, held_1);
     EXPECT_LE(held_1, 0.97);
     EXPECT_NEAR(exact_1, 0.807, 0.04);
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -28,6 +27,7 @@
 #include "fit/profiles/generatrix.h"
 #include "fit/sizes/local_sizes.h"
 #include "fit/zone/fit.h"
+#include "tests/core/full.h"
 
 namespace rondure::reports {
 
@@ -479,8 +479,6 @@ TEST(PartTrials, PointsThatTakeNoPartStayWhereTheyAre) {
   EXPECT_GT(found.rows_mm[0][1], 0.0);
 }
 
-bool all_inspections() { return std::getenv("RONDURE_FULL") != nullptr; }
-
 /// The lobed, tapered, barrelled form of a simulated part, scaled. Its lobes are those that 7
 /// points resolve: noise beside lobes that they do not resolve counts as form, and the truth lies
 /// below.
@@ -519,7 +517,7 @@ struct CoverageCase {
   double sigma_mm = 0.5e-3;
   double form_mm = 1.5e-3;
   double offset_mm = 0.004;  ///< Of the seat from the axis of the datum.
-  int inspections = 30;      ///< 1000 with RONDURE_FULL=1.
+  int inspections = 6;       ///< 1000 with RONDURE_FULL=1.
   friend std::ostream& operator<<(std::ostream& out, const CoverageCase& c) {
     return out << c.name;
   }
@@ -545,7 +543,7 @@ class PartCoverage : public testing::TestWithParam<CoverageCase> {};
 
 TEST_P(PartCoverage, TheIntervalsHoldTheTruth) {
   const CoverageCase& c = GetParam();
-  const int count = all_inspections() ? 1000 : c.inspections;
+  const int count = test::cases(c.inspections, 1000);
   std::array<int, kNames.size()> held{};
   std::array<int, kNames.size()> stated{};
   std::array<int, kNames.size()> above{};
@@ -578,7 +576,7 @@ TEST_P(PartCoverage, TheIntervalsHoldTheTruth) {
       truth.insert(truth.end(), question.read_mm.begin(), question.read_mm.end());
     }
     part.touch(c.sigma_mm, core::KeyedNoise(20261123, {2, number}));
-    UncertaintyOptions options = options_of(all_inspections() ? 400 : 200);
+    UncertaintyOptions options = options_of(test::cases(200, 400));
     options.least_trials = options.most_trials;
     options.seed = number + 1;
     const auto questions = questions_about(part.measured());
@@ -621,7 +619,7 @@ INSTANTIATE_TEST_SUITE_P(
                     CoverageCase{.name = "4 x 8, single", .repeats = 1},
                     CoverageCase{.name = "4 x 8, quiet", .sigma_mm = 0.1e-3},
                     CoverageCase{
-                        .name = "4 x 36, single", .points = 36, .repeats = 1, .inspections = 10}));
+                        .name = "4 x 36, single", .points = 36, .repeats = 1, .inspections = 3}));
 
 }  // namespace
 }  // namespace rondure::reports

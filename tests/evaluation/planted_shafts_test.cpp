@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -18,6 +17,7 @@
 #include "core/units.h"
 #include "evaluation/results/finding.h"
 #include "fit/geometry/axis.h"
+#include "tests/core/full.h"
 #include "tests/evaluation/drawing_part.h"
 #include "tests/evaluation/points_run.h"
 
@@ -1004,8 +1004,9 @@ void compare_extremes(const FeatureResult& found, const Oracle& of) {
   EXPECT_LE(value("RONt mz"), worst_zone + kDefinition);
 }
 
-/// All, or a fifth where the time of the suite counts. RONDURE_FULL=1.
-int shafts() { return std::getenv("RONDURE_FULL") != nullptr ? 200 : 40; }
+/// All with RONDURE_FULL=1. The first four hold every kind: on one axis or not, a shaft or a bore
+/// for C.
+int shafts() { return test::cases(4, 200); }
 
 }  // namespace
 

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 
@@ -19,6 +18,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/zone/fit.h"
+#include "tests/core/full.h"
 #include "tests/core/processor_time.h"
 
 namespace rondure::reports {
@@ -196,7 +196,7 @@ TEST(Uncertainty, GrowsWithFormAndErrorsAlike) {
 }
 
 TEST(Uncertainty, HasTheSameNumbersAtAnyThreadCount) {
-  evaluation::UncertaintyOptions options = trials(1001, 101);
+  evaluation::UncertaintyOptions options = trials(test::cases(401, 1001), 101);
   options.threads = 1;
   const auto one = found(shaft(4, 7), everything(), options, spectrum());
   for (const int threads : {2, 3, 8}) {
@@ -215,7 +215,7 @@ TEST(Uncertainty, HasTheSameNumbersAtAnyThreadCount) {
 }
 
 TEST(Uncertainty, ChangesWithTheSeedByNoMoreThanItsNumericalTolerance) {
-  evaluation::UncertaintyOptions options = trials(8000);
+  evaluation::UncertaintyOptions options = trials(test::cases(2000, 8000));
   const auto one = found(shaft(4, 7), everything(), options);
   options.seed = 2;
   const auto two = found(shaft(4, 7), everything(), options);
@@ -230,8 +230,9 @@ TEST(Uncertainty, ChangesWithTheSeedByNoMoreThanItsNumericalTolerance) {
 TEST(Uncertainty, DoesNotDependOnTheOrderOfThePoints) {
   evaluation::FormCloud turned = shaft(4, 7);
   std::reverse(turned.points.begin(), turned.points.end());
-  const auto one = found(shaft(4, 7), everything(), trials(8000), spectrum());
-  const auto two = found(turned, everything(), trials(8000), spectrum());
+  const auto options = trials(test::cases(600, 8000));
+  const auto one = found(shaft(4, 7), everything(), options, spectrum());
+  const auto two = found(turned, everything(), options, spectrum());
   EXPECT_NEAR(one.uncorrected_mm, two.uncorrected_mm, 1e-10);
   const double near =
       2.0 * (one.sampled.numerical_tolerance_mm + two.sampled.numerical_tolerance_mm);
@@ -356,8 +357,11 @@ TEST(Uncertainty, AgreesWithTheMultipliersOfTheContactsWhereErrorsAreSmall) {
   for (const auto* side : {&zone.outer, &zone.inner}) {
     for (const fit::Contact& contact : *side) square += contact.multiplier * contact.multiplier;
   }
-  const auto result = found(cloud, repeatability(sigma), trials(20000));
-  EXPECT_NEAR(result.sampled.standard_uncertainty_mm, sigma * std::sqrt(square), 0.02 * sigma);
+  // Of fewer trials 3.3 standard deviations of a standard deviation.
+  const int count = test::cases(4000, 20000);
+  const auto result = found(cloud, repeatability(sigma), trials(count));
+  const double near = test::full() ? 0.02 : 3.3 * std::sqrt(square / (2.0 * count));
+  EXPECT_NEAR(result.sampled.standard_uncertainty_mm, sigma * std::sqrt(square), near * sigma);
   EXPECT_NEAR(result.sampled.estimate_mm, zone.width_mm(), 0.05 * sigma);
 }
 
@@ -588,10 +592,11 @@ TEST(Uncertainty, RefusesWhatItCannotUse) {
       {"coverage", Code::kBadOption, [](Question& now) { now.options.coverage = 95.0; }},
       {"threads", Code::kBadOption, [](Question& now) { now.options.threads = -1; }},
   };
+  Question good;
+  EXPECT_TRUE(measurement_uncertainty(good.cloud, good.influences, good.form, good.options));
   for (const Refusal& refusal : refusals) {
     SCOPED_TRACE(refusal.what);
     Question now;
-    EXPECT_TRUE(measurement_uncertainty(now.cloud, now.influences, now.form, now.options));
     refusal.spoil(now);
     const auto result = measurement_uncertainty(now.cloud, now.influences, now.form, now.options);
     ASSERT_FALSE(result.has_value());
@@ -603,9 +608,9 @@ TEST(Uncertainty, RefusesWhatItCannotUse) {
 // The figure: 10 000 trials of 28 points with all influences in under 1 s on two cores. Held
 // against processor time, which other programs do not change: 2 s of it.
 TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
-  const bool full = std::getenv("RONDURE_FULL") != nullptr;
   const auto timed = [&](int threads, const std::optional<evaluation::FormSpectrum>& stated) {
-    evaluation::UncertaintyOptions options = trials(full ? 10000 : 1000, full ? 1000 : 100);
+    evaluation::UncertaintyOptions options =
+        trials(test::cases(1000, 10000), test::cases(100, 1000));
     options.threads = threads;
     const double used_s = test::processor_seconds();
     const auto start = std::chrono::steady_clock::now();
