@@ -25,9 +25,6 @@ inline std::filesystem::path example(const std::string& name) {
 /// Set RONDURE_REWRITE=1 to rewrite the committed files that tests compare with; review the diff.
 inline bool rewriting() { return std::getenv("RONDURE_REWRITE") != nullptr; }
 
-/// Long counts run with RONDURE_FULL=1.
-inline bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
-
 inline std::string bytes_of(const std::filesystem::path& path) {
   return record::read_file(path).value_or("");
 }

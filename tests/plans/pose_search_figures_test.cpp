@@ -1,5 +1,5 @@
 // The figures of the pose search on random simulated parts, as docs/accuracy.md states them.
-// 20 parts; 200 with RONDURE_FULL=1 (./test.sh --full); 3 under the sanitizers.
+// 200 parts with RONDURE_FULL=1 (./test.sh --full), else three.
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 
 #include "core/units.h"
 #include "random_inspection.h"
+#include "tests/core/full.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -18,13 +19,7 @@ namespace {
 
 constexpr double kSpan = 70.0;  // axial span of the sample [mm]
 
-std::uint64_t parts() {
-#ifdef __SANITIZE_ADDRESS__
-  return 3;
-#else
-  return testing::full() ? 200 : 20;
-#endif
-}
+int parts() { return test::cases(3, 200); }
 
 /// Minimum, median and maximum of one column.
 struct Column {
@@ -71,7 +66,7 @@ TEST(PoseSearchFigures, HoldOnRandomParts) {
   Row ideal;
   Row coarse;
   Row published;
-  for (std::uint64_t seed = 1; seed <= parts(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(parts()); ++seed) {
     SCOPED_TRACE(seed);
     measure(seed, "guided", 0.0, ideal);
     measure(seed, "guided", 0.05, coarse);

@@ -10,6 +10,7 @@
 #include "plans/resume/internal/recorded_run.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
+#include "tests/core/full.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 
@@ -66,7 +67,7 @@ std::vector<int> touches_to_stop_at(std::size_t all) {
   for (std::size_t k = 0; k < all; ++k) {
     // The borders between qualification, location, first cloud; elsewhere by chance.
     const bool border = k < 2 || k == 13 || k == 19 || k == 20 || k == 47 || k + 1 == all;
-    if (testing::full() || border || core::splitmix64(state) % 60 == 0)
+    if (test::full() || border || core::splitmix64(state) % 60 == 0)
       out.push_back(static_cast<int>(k));
   }
   return out;
@@ -296,7 +297,7 @@ TEST(ResumeChecks, EndTheRunWhenTheFixtureReadsAnotherPoseThanItDid) {
   // In a pose that was reached without a touch in it, and in poses with touches.
   for (const int touches : {13, 30, 120}) {
     for (const double off_deg : {0.11, -0.11}) {
-      if (!testing::full() && (touches == 30) == (off_deg > 0.0)) continue;
+      if (!test::full() && (touches == 30) == (off_deg > 0.0)) continue;
       SCOPED_TRACE(::testing::Message() << touches << " touches, " << off_deg << " deg");
       const Plan plan = with(
           still, "\"seed\": 20261121",

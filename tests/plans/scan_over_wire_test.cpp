@@ -19,12 +19,12 @@
 #include "cmm/ipp_server/server.h"
 #include "core/units.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/interval/internal/form_interval.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/cell/internal/open_cell.h"
 #include "plans/cell/served_cell.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
+#include "tests/core/full.h"
 #include "tests/plans/files.h"
 #include "tests/plans/turned_part.h"
 #include "tests/record/sample_run.h"
@@ -265,7 +265,7 @@ TEST(ScanOverWire, IrregularPassesAreNotAveragedByIndex) {
 TEST(ScanOverWire, TheIntervalOfIrregularPassesHoldsTheTruth) {
   const record::Scratch scratch;
   Plan inside = three_lobes(5, 120, 0.3);
-  inside.uncertainty.emplace();
+  inside.uncertainty.emplace().most_trials = test::cases(2'000, 10'000);
   inside.uncertainty->probe.emplace();  // its repeatability comes from the passes
   const WireServer server(inside, true);
   const auto run = run_of(over_wire(inside, server.port()), scratch / "run");
@@ -276,10 +276,11 @@ TEST(ScanOverWire, TheIntervalOfIrregularPassesHoldsTheTruth) {
   EXPECT_NEAR(*seat.repeat_sigma_mm / core::kMicrometre, 0.3, 0.02);
   EXPECT_GT(seat.repeat_freedom, 200);
   EXPECT_GT(seat.repeat_zone_mean_mm.value_or(0.0), 5.0 * core::kMicrometre);
-  const auto status = evaluation::uncertainty_of(run, seat, evaluation->probe,
-                                                 seat.feature.characteristics.front());
-  ASSERT_TRUE(status.result()) << status.why();
-  const evaluation::UncertaintyStatement& interval = status.result()->sampled;
+  const auto& value = seat.characteristics.front().value;
+  ASSERT_TRUE(value);
+  const auto* said = value->uncertainty().about(evaluation::Measurand::kSampledPoints);
+  ASSERT_NE(said, nullptr) << value->uncertainty().why();
+  const evaluation::UncertaintyStatement& interval = *said;
   std::printf("noise 0.3 um, 5 passes: CYLt %.2f um, interval %.3f .. %.3f um\n",
               seat.mz_cylinder->width_mm() / core::kMicrometre, interval.low_mm / core::kMicrometre,
               interval.high_mm / core::kMicrometre);

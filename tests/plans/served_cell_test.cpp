@@ -20,6 +20,7 @@
 #include "cmm/ipp_server/service.h"
 #include "core/units.h"
 #include "fixture/kinematics.h"
+#include "tests/core/full.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -201,7 +202,7 @@ TEST(ServedCell, ATouchOverTheSocketTakesLessThanAMillisecond) {
   const double each_ms = took.count() / 28.0;
   std::printf("4 x 7 touches over the socket: %.3f ms a touch\n", each_ms);
   // The figure itself is for a machine at rest; other work beside the tests may take its time.
-  EXPECT_LT(each_ms, testing::full() ? 1.0 : 20.0);
+  EXPECT_LT(each_ms, test::full() ? 1.0 : 20.0);
 }
 
 TEST(ServedCell, TurnsWithinTheLimitsOfTheFixtureOnly) {
