@@ -3,7 +3,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "fit/profiles/profile_filter.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/settings.h"
+#include "tests/core/full.h"
 #include "tests/fit/contour_cases.h"
 
 namespace rondure::evaluation {
@@ -36,8 +36,6 @@ using record::ContourTask;
 using record::Form;
 
 constexpr std::size_t kContourPoints = 1440;
-
-bool every_measurement() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
@@ -86,6 +84,12 @@ struct Pins {
       traces.push_back(test::spec_trace(300, 1.0, 0.0, test::kSpecCScale[i]));
       pins.push_back(sum(test::spec_following(test::kSpecCScale[i]).error_mm, test::spec_rest(i)));
     }
+  }
+
+  /// Leaves the first parts only: half of them take half of the time.
+  void keep(std::size_t parts) {
+    traces.resize(parts);
+    pins.resize(parts);
   }
 
   /// Positions of X as an axis records them that grinds such a crank.
@@ -203,8 +207,8 @@ TEST(ContourInterval, AContourOfItsCoefficientsIsTheContour) {
 
 TEST(ContourSpread, OfOnePartGivenTwiceProvesNothing) {
   Pins pins;
+  // Four different parts conform: StatesEveryNumberOfTheReport.
   pins.asked = {asked_for("repeats", Form::kContourSpread, 100.0 * kMicrometre)};
-  EXPECT_EQ(pins.judged().characteristics.at(0).verdict, Verdict::kConforms);
   pins.pins[3] = pins.pins[1];
   const CharacteristicResult twice = pins.judged().characteristics.at(0);
   EXPECT_EQ(twice.verdict, Verdict::kVoid) << twice.reason;
@@ -219,19 +223,25 @@ TEST(ContourMask, JudgesNoHarmonicThatTheFilterTakesAway) {
       pin[m] += 0.034 * kMicrometre * std::cos(80.0 * test::turn_angle(m, pin.size()));
     }
   }
-  pins.asked = {asked_for("mask", Form::kHarmonicLimits)};
-  const auto verdict = [&](record::HarmonicLimit line) {
+  pins.keep(2);
+  pins.asked.clear();
+  for (const record::HarmonicLimit& line : {record::HarmonicLimit{60, 100, 0.05 * kMicrometre},
+                                            {2, 9000, 100.0 * kMicrometre},
+                                            {2, 50, 100.0 * kMicrometre},
+                                            {60, 100, 0.01 * kMicrometre}}) {
+    pins.asked.push_back(
+        asked_for(fmt::format("mask {}", pins.asked.size()), Form::kHarmonicLimits));
     pins.asked.back().harmonic_limits = {line};
-    return pins.judged().characteristics.at(0);
-  };
-  const CharacteristicResult beyond = verdict({60, 100, 0.05 * kMicrometre});
-  EXPECT_EQ(beyond.verdict, Verdict::kVoid) << beyond.reason;
-  EXPECT_THAT(beyond.reason.english(),
+  }
+  const auto judged = pins.judged().characteristics;
+  ASSERT_EQ(judged.size(), 4U);
+  EXPECT_EQ(judged[0].verdict, Verdict::kVoid) << judged[0].reason;
+  EXPECT_THAT(judged[0].reason.english(),
               ::testing::HasSubstr("reaches to harmonic 100, 50 is the highest"));
-  EXPECT_EQ(verdict({2, 9000, 100.0 * kMicrometre}).verdict, Verdict::kVoid);
-  EXPECT_EQ(verdict({2, 50, 100.0 * kMicrometre}).verdict, Verdict::kConforms);
+  EXPECT_EQ(judged[1].verdict, Verdict::kVoid);
+  EXPECT_EQ(judged[2].verdict, Verdict::kConforms);
   // What the filter leaves is above the limit: so is the amplitude.
-  EXPECT_EQ(verdict({60, 100, 0.01 * kMicrometre}).verdict, Verdict::kDoesNotConform);
+  EXPECT_EQ(judged[3].verdict, Verdict::kDoesNotConform);
 }
 
 TEST(ContourInterval, HasNoIntervalWithoutADeclaration) {
@@ -395,6 +405,7 @@ TEST(ContourGates, FilteringTwiceVoidsTheContour) {
 
 TEST(ContourGates, AnEccentricPinIsVoidUnlessTheCircleIsGeometric) {
   Pins pins;
+  pins.keep(2);
   for (auto& pin : pins.pins) {
     for (std::size_t m = 0; m < kContourPoints; ++m)
       pin[m] += 0.25 * std::cos(test::turn_angle(m, kContourPoints));
@@ -411,13 +422,15 @@ TEST(ContourGates, AnEccentricPinIsVoidUnlessTheCircleIsGeometric) {
 }
 
 TEST(ContourGates, CoarseTracesAndAnUnknownSkewVoidFAndN) {
-  Pins coarse;
-  for (std::size_t i = 0; i < 4; ++i) {
+  Pins two;
+  two.keep(2);
+  Pins coarse = two;
+  for (std::size_t i = 0; i < 2; ++i) {
     coarse.traces[i] = test::spec_trace(240, 1.0, 0.0, test::kSpecCScale[i]);
   }
-  Pins unknown;
+  Pins unknown = two;
   unknown.task.uncertainty->skew_ms.reset();
-  Pins no_unit;
+  Pins no_unit = two;
   no_unit.task.uncertainty->skew_ms = declared_gauge(1.0);
   for (const auto& [pins, code] :
        {std::pair{coarse, "trace-sampling"}, std::pair{unknown, "trace-skew"},
@@ -451,10 +464,11 @@ TEST(ContourGates, MissingTracesAndSamplesAreVoid) {
 
 TEST(ContourGates, MainJournalsThatDifferBoundFOnly) {
   Pins alike;
-  Pins other;
-  for (std::size_t i = 0; i < 4; ++i) {
+  alike.keep(2);
+  Pins other = alike;
+  for (std::size_t i = 0; i < 2; ++i) {
     alike.mains.push_back(test::spec_rest(i));
-    other.mains.push_back(test::spec_rest((i + 1) % 4));
+    other.mains.push_back(test::spec_rest(i + 1));
   }
   const auto good = alike.judged();
   EXPECT_EQ(contour_gate(good, "indirect").outcome, Gate::Outcome::kPassed);
@@ -527,9 +541,9 @@ double spread_of(const std::vector<std::vector<double>>& curves) {
 
 // The truth is made by the envelope of the wheel; the trials know its first order only.
 TEST(ContourCoverage, HoldsTheTruthAsOftenAsTheMethodSays) {
-  const int measured = every_measurement() ? 1000 : 24;
+  const int measured = test::cases(4, 1000);
   UncertaintyOptions options;
-  options.least_trials = every_measurement() ? 500 : 200;
+  options.least_trials = test::cases(200, 500);
   struct Row {
     const char* what;
     double least, greatest;  ///< Of all intervals, per cent; the method found 92.1 95.3 89.7 94.1.
@@ -572,9 +586,9 @@ TEST(ContourCoverage, HoldsTheTruthAsOftenAsTheMethodSays) {
     const double percent = 100.0 * row.held / row.all;
     std::printf("%s: %d of %d, %.1f %%\n", row.what, row.held, row.all, percent);
     // Some tens scatter by 4 standard deviations of the least expected share.
-    const double slack = every_measurement() ? 0.0 : 400.0 * std::sqrt(0.1 * 0.9 / row.all);
+    const double slack = test::full() ? 0.0 : 400.0 * std::sqrt(0.1 * 0.9 / row.all);
     EXPECT_GE(percent, row.least - slack) << row.what;
-    if (every_measurement()) {
+    if (test::full()) {
       EXPECT_LE(percent, row.greatest) << row.what;
     }
   }

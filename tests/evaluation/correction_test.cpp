@@ -420,8 +420,8 @@ TEST_F(CorrectionFiles, AreListedAndVerified) {
   // It is found also where the text that names it is gone.
   std::filesystem::remove(directory / "corrections.txt");
   EXPECT_THAT(differences(), testing::Contains(testing::StartsWith(kTable)));
+  // Put right, it is no difference beside the next.
   ASSERT_TRUE(record::write_file(directory / kTable, good));
-  EXPECT_THAT(differences(), testing::IsEmpty());
   ASSERT_TRUE(record::write_file(directory / "corrections/other-x-of-c.csv", good));
   EXPECT_THAT(differences(),
               testing::ElementsAre("corrections/other-x-of-c.csv: the journal gives no such "
