@@ -16,7 +16,7 @@
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/zone/internal/center_region.h"
 #include "fit/zone/internal/zone_box.h"
-#include "tests/fit/oracles/dial.h"
+#include "tests/core/full.h"
 #include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {

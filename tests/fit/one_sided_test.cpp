@@ -20,7 +20,7 @@
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/zone/fit.h"
-#include "tests/fit/oracles/dial.h"
+#include "tests/core/full.h"
 
 namespace rondure::fit {
 namespace {

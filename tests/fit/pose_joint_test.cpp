@@ -15,7 +15,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/zone/fit.h"
-#include "tests/fit/oracles/dial.h"
+#include "tests/core/full.h"
 
 namespace rondure::fit {
 namespace {

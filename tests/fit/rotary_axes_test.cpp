@@ -15,7 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/fit/oracles/dial.h"
+#include "tests/core/full.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"
 #include "tests/fit/specified_normals.h"

@@ -14,7 +14,7 @@
 
 #include "fit/profiles/periodic_spline.h"
 #include "fit/spindle/axis_motion.h"
-#include "tests/fit/oracles/dial.h"
+#include "tests/core/full.h"
 #include "tests/fit/three_probe_cases.h"
 
 namespace rondure::fit {

@@ -14,7 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "fit/wheel/loss.h"
-#include "tests/fit/oracles/dial.h"
+#include "tests/core/full.h"
 #include "tests/fit/wheel_cases.h"
 
 namespace rondure::fit {

@@ -1,4 +1,5 @@
-// The circle fits against the enumeration of all contact sets: 500 small and hard sets.
+// The circle fits against the enumeration of all contact sets: 500 small and hard sets
+// with RONDURE_FULL=1 (dial.h).
 #include "brute_circle.h"
 
 #include <algorithm>

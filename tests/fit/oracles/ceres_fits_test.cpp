@@ -1,4 +1,5 @@
-// The least-squares fits against Ceres: 200 sets each, everything to 1e-9 mm.
+// The least-squares fits against Ceres: 200 sets each with RONDURE_FULL=1 (dial.h), everything to
+// 1e-9 mm.
 #include "ceres_fits.h"
 
 #include <cmath>

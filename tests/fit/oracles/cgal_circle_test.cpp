@@ -33,8 +33,7 @@ TEST(CgalCircle, EqualsTheEnumeration) {
 }
 
 TEST(CgalCircle, MinZoneCircleEqualsTheOverlay) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(full() ? 500 : 24));
-       ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(cases(24, 500)); ++seed) {
     SCOPED_TRACE(name_of(kind_of(seed)) + " " + std::to_string(seed));
     // All edges of a regular polygon meet in one place: slow in exact arithmetic.
     const int most = kind_of(seed) == Hard::kSymmetric ? 40 : 200;

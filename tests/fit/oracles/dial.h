@@ -1,18 +1,16 @@
 #pragma once
 
-#include <cstdlib>
+#include "tests/core/full.h"
 
 namespace rondure::test {
 
-/// Long counts run with RONDURE_FULL=1 (./test.sh --full); sanitizer builds run a tenth.
-inline bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
-
-/// Number of seeded sets that a test draws: `sets` in a release build.
+/// Number of seeded sets that a test draws: all with RONDURE_FULL=1, else a tenth, and a twentieth
+/// under the sanitizers.
 inline int count(int sets) {
 #ifdef __SANITIZE_ADDRESS__
   return sets / 20 + 1;
 #else
-  return sets;
+  return cases(sets / 10 + 1, sets);
 #endif
 }
 

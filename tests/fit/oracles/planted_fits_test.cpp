@@ -1,5 +1,5 @@
-// The fits against planted sets: 1 000 of each kind. Zone and place to 1e-9 mm, direction to
-// 1e-8 rad.
+// The fits against planted sets: 1 000 of each kind with RONDURE_FULL=1 (dial.h). Zone and place to
+// 1e-9 mm, direction to 1e-8 rad.
 #include <algorithm>
 #include <cmath>
 #include <vector>
