@@ -610,6 +610,11 @@ TEST_P(PartCoverage, TheIntervalsHoldTheTruth) {
     const double chance = 300.0 * std::sqrt(0.93 * 0.07 / stated[v]);
     EXPECT_GE(share, 93.0 - chance) << kNames[v];
   }
+  // So few show a wrong width late. That of the least-squares size is known: 1.96 u of the mean of
+  // all touches of the radius, twice.
+  const double touches = c.layers * c.points * c.repeats;
+  const double expanded_um = 1.96 * 2.0 * c.sigma_mm / std::sqrt(touches) / kMicrometre;
+  EXPECT_NEAR(width[0] / stated[0], expanded_um, 0.1 * expanded_um);
 }
 
 INSTANTIATE_TEST_SUITE_P(
