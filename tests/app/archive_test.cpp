@@ -25,9 +25,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Outcome run_axle_into(const fs::path& place, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"run", example("09_axle_points_file.json"), "--out", place};
+  std::vector<std::string> words = {"--out", place};
   words.insert(words.end(), more.begin(), more.end());
-  return rondure(words);
+  return run_without_intervals("09_axle_points_file", words);
 }
 
 TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {

@@ -82,8 +82,11 @@ TEST(Arguments, WhatIsNotUnderstoodIsNamed) {
 
 TEST(Arguments, ThePlanMayFollowTheFormats) {
   const TemporaryFolder folder;
-  const Outcome outcome = rondure({"run", "--out", folder / "run", "--format", "html,csv",
-                                   example("09_axle_points_file.json")});
+  auto plan = example_plan("09_axle_points_file");
+  leave_out_intervals(plan);
+  write(folder / "plan.json", plan.dump());
+  const Outcome outcome =
+      rondure({"run", "--out", folder / "run", "--format", "html,csv", folder / "plan.json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(names_in(folder / "run"),
               ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "results.csv",
@@ -117,7 +120,7 @@ TEST(Arguments, FilesAndWordsRuleNoTerminal) {
   write(folder / "bad.csv", "x,y\n1,2\n\x1b[2J,\u009b4\n");
   write(folder / (evil + ".json"), "{");
   const std::string run = folder / evil;
-  ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run, "--quiet"}).err, "");
+  ASSERT_EQ(run_without_intervals("09_axle_points_file", {"--out", run, "--quiet"}).err, "");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{evil},
         {"run", "--" + evil},
@@ -145,7 +148,7 @@ TEST(Arguments, FilesAndWordsRuleNoTerminal) {
 TEST(Arguments, APipeIsRefusedAndNotWaitedFor) {
   const TemporaryFolder folder;
   const std::string run = folder / "run";
-  ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run, "--quiet"}).err, "");
+  ASSERT_EQ(run_without_intervals("09_axle_points_file", {"--out", run, "--quiet"}).err, "");
   const std::string pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::vector<std::string> key = {"sign", run, "--key", pipe};

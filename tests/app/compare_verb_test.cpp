@@ -36,7 +36,7 @@ double cell_um(const json& study, const std::string& factor, const std::string& 
 TEST(CompareVerb, OfAFinishedRunAgreesWithItsReportAndChangesNothing) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
-  ASSERT_LE(rondure({"run", example("08_shaft_scanned.json"), "--out", run, "--quiet"}).status, 1);
+  fs::copy(example_runs() / "08_shaft_scanned", run);
   const auto names = names_in(run);
   const Outcome text = rondure({"compare", run});
   EXPECT_EQ(text.status, 0) << text.err;
@@ -77,8 +77,7 @@ TEST(CompareVerb, RefusesWhatItCannotReadOrCompare) {
   EXPECT_EQ(rondure({"compare", folder / "nothing"}).status, 2);
 
   const fs::path damaged = folder / "damaged";
-  ASSERT_EQ(
-      rondure({"run", example("09_axle_points_file.json"), "--out", damaged, "--quiet"}).status, 0);
+  ASSERT_EQ(run_without_intervals("09_axle_points_file", {"--out", damaged, "--quiet"}).status, 0);
   EXPECT_EQ(rondure({"compare", damaged}).status, 0);
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((damaged / "journal.db").c_str(), &database), SQLITE_OK);
@@ -99,18 +98,14 @@ TEST(CompareVerb, RefusesWhatItCannotReadOrCompare) {
   EXPECT_THAT(stopped.err, AllOf(HasSubstr("no cylindricity and no roundness with a value"),
                                  HasSubstr("not measured to its end")));
 
-  ASSERT_LE(rondure({"run", example("06_wheel.json"), "--out", folder / "wheel", "--quiet"}).status,
-            1);
-  const Outcome wheel = rondure({"compare", folder / "wheel", "--json"});
+  const Outcome wheel = rondure({"compare", example_runs() / "06_wheel", "--json"});
   ASSERT_EQ(wheel.status, 0) << wheel.err;
   const json compared = json::parse(wheel.out);
   ASSERT_EQ(compared.at("characteristics").size(), 1U);
   EXPECT_EQ(compared.at("characteristics")[0].at("characteristic"), "edge roundness");
   EXPECT_EQ(compared.at("not_compared").size(), 2U);
 
-  ASSERT_LE(
-      rondure({"run", example("07_crank_pin.json"), "--out", folder / "pin", "--quiet"}).status, 1);
-  const Outcome pin = rondure({"compare", folder / "pin"});
+  const Outcome pin = rondure({"compare", example_runs() / "07_crank_pin"});
   EXPECT_EQ(pin.status, 2);
   EXPECT_THAT(pin.err, HasSubstr("pin / contour: the contour is held against the ground contour"));
 }

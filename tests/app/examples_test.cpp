@@ -104,26 +104,38 @@ std::string qif_fault(const fs::path& folder) {
 
 /// A run that stops at a fault, with all reports: void results, a QIF file nevertheless.
 void run_until_a_fault(const fs::path& folder) {
-  write_plan(folder / "fault.json", {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
+  write_plan_with_intervals(folder / "fault.json",
+                            {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
   EXPECT_EQ(rondure({"run", folder / "fault.json", "--out", folder / "fault", "--format",
                      "html,json,csv,qif,dmis"})
                 .status,
             3);
 }
 
+/// Compares the reported cylindricity of a run with the truth in its journal.
+void expect_near_truth(const fs::path& run, const json& plan) {
+  const json report = json::parse(read(run / "report.json"));
+  // A surface with a window has no truth: the first one that has.
+  const record::SimulationTruth truth = journal_of(run).truths.at(0);
+  const double truth_um = 1e3 * truth.cylt_mm;
+  const double cylt_um = report.at("features").at(truth.feature).at("mz").at("deviation_um");
+  EXPECT_NEAR(cylt_um, truth_um, noise_bound_um(plan));
+  EXPECT_GT(truth_um, noise_bound_um(plan) / 2.0);
+}
+
 TEST(Examples, RunConformVerifyAndWriteTheirReports) {
   const auto plans = plans_in(example(""));
   EXPECT_EQ(plans.size(), 18U);
-  const TemporaryFolder folder;
   std::set<std::string> parts;
   for (const fs::path& plan : plans) {
     if (needs_server(plan)) continue;  // ipp_run_test.cpp
     SCOPED_TRACE(plan.filename().string());
-    const fs::path run = folder / plan.stem().string();
-    const Outcome ran = rondure({"run", plan, "--out", run, "--format", "html,json,csv,qif,dmis"});
+    const std::string name = plan.stem().string();
+    const fs::path run = example_runs() / name;
     const json report = json::parse(read(run / "report.json"));
     const std::string verdict = report.at("verdict");
-    EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
+    const Outcome ran = example_outcome(name);
+    EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1);
     EXPECT_THAT(ran.err, IsEmpty());
     std::vector<std::string> files = {"SHA256SUMS",  "journal.db", "report.dmo", "report.html",
                                       "report.json", "report.qif", "results.csv"};
@@ -143,27 +155,28 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
       EXPECT_THAT(verified.out, HasSubstr(file));
     }
   }
-  run_until_a_fault(folder.path());
-  EXPECT_EQ(reports_fault(folder.path()), "");
-  EXPECT_EQ(qif_fault(folder.path()), "");
+  const TemporaryFolder stopped;
+  run_until_a_fault(stopped.path());
+  for (const fs::path& folder : {example_runs(), stopped.path()}) {
+    EXPECT_EQ(reports_fault(folder), "");
+    EXPECT_EQ(qif_fault(folder), "");
+  }
 }
 
+// With the seed of each plan, and with another one with RONDURE_FULL=1 (./test.sh --full).
 TEST(Examples, TheReportedCyltAgreesWithTheHiddenTruthWithinTheNoise) {
+  const bool full = std::getenv("RONDURE_FULL") != nullptr;
   int simulated = 0;
   for (const fs::path& plan : plans_in(example(""))) {
     const json asked = json::parse(read(plan));
     if (!asked.contains("simulation") || is_analysis(asked) || needs_server(plan)) continue;
     SCOPED_TRACE(plan.filename().string());
     ++simulated;
+    expect_near_truth(example_runs() / plan.stem(), asked);
+    if (!full) continue;
     const TemporaryFolder folder;
     ASSERT_LE(rondure({"run", plan, "--out", folder / "run", "--seed", "1"}).status, 1);
-    const json report = json::parse(read(folder / "run" / "report.json"));
-    // A surface with a window has no truth: the first one that has.
-    const record::SimulationTruth truth = journal_of(folder / "run").truths.at(0);
-    const double truth_um = 1e3 * truth.cylt_mm;
-    const double cylt_um = report.at("features").at(truth.feature).at("mz").at("deviation_um");
-    EXPECT_NEAR(cylt_um, truth_um, noise_bound_um(asked));
-    EXPECT_GT(truth_um, noise_bound_um(asked) / 2.0);
+    expect_near_truth(folder / "run", asked);
   }
   EXPECT_GE(simulated, 5);
 }
@@ -200,10 +213,9 @@ TEST(Examples, OfAShaftDrawingOnlyTheSpoiledCallOutsFail) {
 }
 
 TEST(Examples, FourAnalysesUnderIso14253EndWithAVerdictEach) {
-  const TemporaryFolder folder;
-  const Outcome ran = rondure({"run", example("16_four_analyses.json"), "--out", folder / "run"});
-  EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
-  const json report = json::parse(read(folder / "run" / "report.json"));
+  const fs::path run = example_runs() / "16_four_analyses";
+  EXPECT_EQ(example_outcome("16_four_analyses").status, 0);
+  const json report = json::parse(read(run / "report.json"));
   EXPECT_EQ(report.at("verdict"), "conforms");
   ASSERT_EQ(report.at("features").size(), 4U);
   for (const json& feature : report.at("features")) {
@@ -233,7 +245,8 @@ TEST(Examples, EveryTypeOfFeatureIsVoidOutsideTheTemperatureLimits) {
 
 TEST(Examples, OneSeedGivesTheSameTouchesAndAnotherGivesOthers) {
   const TemporaryFolder folder;
-  const std::string plan = example("01_spool_simulated.json");
+  const fs::path plan = folder / "plan.json";
+  write_plan(plan, {});
   for (const char* run : {"a", "b"})
     ASSERT_EQ(rondure({"run", plan, "--out", folder / run}).status, 0);
   ASSERT_LE(rondure({"run", plan, "--out", folder / "c", "--seed", "5"}).status, 1);
@@ -247,9 +260,8 @@ TEST(Examples, TheDefaultSeedIsThatOfThePlan) {
   const fs::path plan = example("14_bore_simulated.json");
   const json asked = json::parse(read(plan));
   const std::string seed = asked.at("/simulation/seed"_json_pointer).dump();
-  ASSERT_LE(rondure({"run", plan, "--out", folder / "a"}).status, 1);
-  ASSERT_LE(rondure({"run", plan, "--out", folder / "b", "--seed", seed}).status, 1);
-  EXPECT_EQ(touches_of(folder / "a"), touches_of(folder / "b"));
+  ASSERT_LE(rondure({"run", plan, "--out", folder / "run", "--seed", seed}).status, 1);
+  EXPECT_EQ(touches_of(example_runs() / plan.stem()), touches_of(folder / "run"));
 }
 
 // Three of the bad plans, all with RONDURE_FULL=1: tests/plans compares the words of each with the

@@ -1,19 +1,45 @@
 #include "tests/app/files.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "record/journal/journal.h"
-#include "tests/app/program.h"
 
 namespace rondure::app::testing {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+void write_changed(const fs::path& file, nlohmann::ordered_json plan,
+                   const std::vector<Change>& changes) {
+  for (const Change& change : changes) {
+    plan[nlohmann::ordered_json::json_pointer(change.pointer)] = change.value;
+  }
+  write(file, plan.dump(2));
+}
+
+/// What run_examples.sh makes: folders `runs` and `told`.
+fs::path made_examples() {
+  const char* const made = std::getenv("RONDURE_EXAMPLE_RUNS");
+  if (made != nullptr) return made;
+  static const TemporaryFolder folder;
+  static const int status = std::system(
+      fmt::format("'{}' '{}' '{}' '{}'", (source_dir() / "tests/app/run_examples.sh").string(),
+                  RONDURE_BINARY, source_dir().string(), (folder / "examples").string())
+          .c_str());
+  EXPECT_EQ(status, 0);
+  return folder / "examples";
+}
+
+}  // namespace
 
 fs::path source_dir() { return RONDURE_SOURCE_DIR; }
 
@@ -60,12 +86,56 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
 }
 
 void write_plan(const fs::path& file, const std::vector<Change>& changes) {
-  auto plan = nlohmann::ordered_json::parse(read(example("01_spool_simulated.json")));
+  auto plan = example_plan("01_spool_simulated");
+  leave_out_intervals(plan);
+  write_changed(file, std::move(plan), changes);
+}
+
+void write_plan_with_intervals(const fs::path& file, const std::vector<Change>& changes) {
+  write_changed(file, example_plan("01_spool_simulated"), changes);
+}
+
+nlohmann::ordered_json example_plan(const std::string& name) {
+  auto plan = nlohmann::ordered_json::parse(read(example(name + ".json")));
   plan.erase("$schema");
-  for (const Change& change : changes) {
-    plan[nlohmann::ordered_json::json_pointer(change.pointer)] = change.value;
+  const auto from_anywhere = [](nlohmann::ordered_json& file) {
+    file = example(file.get<std::string>()).string();
+  };
+  for (auto& feature : plan["features"]) {
+    if (feature.contains("source")) from_anywhere(feature["source"]["file"]);
   }
-  write(file, plan.dump(2));
+  const nlohmann::ordered_json::json_pointer calibration("/fixture/calibration/file");
+  if (plan.contains(calibration)) from_anywhere(plan[calibration]);
+  return plan;
+}
+
+nlohmann::ordered_json two_crank_pins() {
+  auto plan = example_plan("07_crank_pin");
+  plan["simulation"]["contour"]["parts"] = 2;
+  plan["simulation"]["contour"]["gauge_points"] = 360;
+  return plan;
+}
+
+fs::path example_runs() { return made_examples() / "runs"; }
+
+Outcome example_outcome(const std::string& name) {
+  const fs::path told = made_examples() / "told";
+  Outcome out;
+  out.status = std::stoi(read(told / (name + ".status")));
+  out.out = read(told / (name + ".out"));
+  out.err = read(told / (name + ".err"));
+  return out;
+}
+
+Outcome run_without_intervals(const std::string& name, const std::vector<std::string>& words,
+                              const Surroundings& surroundings) {
+  const TemporaryFolder folder;
+  auto plan = example_plan(name);
+  leave_out_intervals(plan);
+  write(folder / (name + ".json"), plan.dump(2));
+  std::vector<std::string> all = {"run", folder / (name + ".json")};
+  all.insert(all.end(), words.begin(), words.end());
+  return rondure(all, surroundings);
 }
 
 record::RunRecord journal_of(const fs::path& run) {

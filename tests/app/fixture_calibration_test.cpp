@@ -21,18 +21,10 @@ using ::testing::HasSubstr;
 
 constexpr const char* kFile = "fixture-calibration.json";
 
-/// Example 03, calibrated once, and the plan that inspects with the result.
+/// Example 03, calibrated, and the plan that inspects with the result.
 class CalibratedFixture : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    calibrated_ = rondure({"run", example("03_calibrate_fixture.json"), "--out", run()});
-  }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
-  static fs::path run() { return *folder_ / "calibration"; }
+  static fs::path run() { return example_runs() / "03_calibrate_fixture"; }
 
   /// Example 03 with the calibration `bytes`, and changes.
   static fs::path inspection(const fs::path& folder, const std::string& bytes,
@@ -44,15 +36,10 @@ class CalibratedFixture : public ::testing::Test {
     write(folder / "plan.json", plan.dump());
     return folder / "plan.json";
   }
-
-  static TemporaryFolder* folder_;
-  static Outcome calibrated_;
 };
-TemporaryFolder* CalibratedFixture::folder_ = nullptr;
-Outcome CalibratedFixture::calibrated_;
 
 TEST_F(CalibratedFixture, LeavesAtMostNineTenthsOfAMicrometre) {
-  EXPECT_EQ(calibrated_.status, 0) << calibrated_.err << calibrated_.out;
+  EXPECT_EQ(example_outcome("03_calibrate_fixture").status, 0);
   const json report = json::parse(read(run() / "report.json"));
   const json& found = report.at("/features/0/rotary_axes"_json_pointer);
   std::cout << found.at("verification").dump(1) << "\n";

@@ -25,11 +25,8 @@ class ForgedRun : public ::testing::Test {
  protected:
   /// Runs the axle of example 09, 38.2 um out of round, under another tolerance.
   [[nodiscard]] fs::path run_axle(const std::string& name, int tolerance_um) const {
-    auto plan = nlohmann::ordered_json::parse(read(example("09_axle_points_file.json")));
-    plan.erase("$schema");
-    plan["decision_rule"] = {{"rule", "simple-acceptance"}};
-    plan["features"][0]["source"]["file"] =
-        (source_dir() / "tests/data/axle_mzc_3/points.csv").string();
+    auto plan = example_plan("09_axle_points_file");
+    leave_out_intervals(plan);
     plan["features"][0]["characteristics"][0]["tolerance_um"] = tolerance_um;
     write(folder_ / (name + ".json"), plan.dump());
     (void)rondure({"run", folder_ / (name + ".json"), "--out", folder_ / name, "--serial", name});
@@ -159,7 +156,7 @@ TEST_F(ForgedRun, ATriggerInAnInterruptedJournalIsRefusedByName) {
 
 TEST_F(ForgedRun, NothingIsComputedBehindABrokenChain) {
   const fs::path run = folder_ / "run";
-  ASSERT_NE(rondure({"run", example("07_crank_pin.json"), "--out", run, "--quiet"}).status, 2);
+  fs::copy(example_runs() / "07_crank_pin", run);
   const std::string bytes = read(run / "journal.db");
   for (const char* sql :
        {"update series set name = 'x' where id = 1", "update setting set name = 'x' where id = 3",
@@ -201,7 +198,7 @@ TEST_F(ForgedRun, AnotherVersionAndAMissingListAreSaid) {
 
 /// A change of a record whose digests are made again, and what the program must say of it.
 struct Resealed {
-  const char* plan;
+  const char* example;
   std::function<void(record::RunRecord&)> change;
   const char* told;
 };
@@ -231,65 +228,59 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
     };
   };
   const std::vector<Resealed> cases = {
-      {"05_spindle_three_probe.json", rename_series("data", "x"),
-       "series \"x\" is none of a spindle"},
-      {"05_spindle_three_probe.json", set("samples", 1e9), "setting \"samples\" is 1e+09, outside"},
-      {"05_spindle_three_probe.json", rename("layout", "x"), "setting \"layout\" is missing"},
-      {"05_spindle_three_probe.json", rename("filter", "x"), "setting \"filter\" is missing"},
-      {"05_spindle_three_probe.json",
+      {"05_spindle_three_probe", rename_series("data", "x"), "series \"x\" is none of a spindle"},
+      {"05_spindle_three_probe", set("samples", 1e9), "setting \"samples\" is 1e+09, outside"},
+      {"05_spindle_three_probe", rename("layout", "x"), "setting \"layout\" is missing"},
+      {"05_spindle_three_probe", rename("filter", "x"), "setting \"filter\" is missing"},
+      {"05_spindle_three_probe",
        [](auto& run) {
          run.features.front().settings.push_back({"x", 1.0, {}});
        },
        "setting \"x\" is none of this run"},
-      {"05_spindle_three_probe.json",
+      {"05_spindle_three_probe",
        [](auto& run) {
          std::erase_if(run.settings, [](const record::Setting& setting) {
            return setting.name == "decision_rule/measurand";
          });
        },
        "setting \"decision_rule/measurand\" is missing"},
-      {"05_spindle_three_probe.json",
-       [](auto& run) { run.series.front().columns.front().name = "x"; }, "has no column alpha_deg"},
-      {"05_spindle_three_probe.json", [](auto& run) { run.series.clear(); }, "series are missing"},
-      {"06_wheel.json", set("count", -5.0), "setting \"count\" is -5, outside"},
-      {"06_wheel.json", set("surface/step_mm", -1.0), "setting \"surface/step_mm\" is -1"},
-      {"07_crank_pin.json", rename_series("pin 2", "pin 9"), "series \"pin 2\" is missing"},
-      {"07_crank_pin.json", rename_series("axes 1", "x"), "series \"x\" is none of a contour"},
-      {"07_crank_pin.json",
+      {"05_spindle_three_probe", [](auto& run) { run.series.front().columns.front().name = "x"; },
+       "has no column alpha_deg"},
+      {"05_spindle_three_probe", [](auto& run) { run.series.clear(); }, "series are missing"},
+      {"06_wheel", set("count", -5.0), "setting \"count\" is -5, outside"},
+      {"06_wheel", set("surface/step_mm", -1.0), "setting \"surface/step_mm\" is -1"},
+      {"07_crank_pin", rename_series("pin 2", "pin 9"), "series \"pin 2\" is missing"},
+      {"07_crank_pin", rename_series("axes 1", "x"), "series \"x\" is none of a contour"},
+      {"07_crank_pin",
        [](auto& run) {
          run.features.front().characteristics.front().form = record::Form::kHarmonicLimits;
          run.features.front().characteristics.front().harmonic_limits = {{2, 2147483647, 0.001}};
        },
        "a mask goes from order 2 to 2147483647"},
-      {"03_calibrate_fixture.json", rename("balls/id", "x"), "setting \"balls/id\" is missing"},
-      {"03_calibrate_fixture.json", [](auto& run) { run.touches.back().layer = 17; },
+      {"03_calibrate_fixture", rename("balls/id", "x"), "setting \"balls/id\" is missing"},
+      {"03_calibrate_fixture", [](auto& run) { run.touches.back().layer = 17; },
        "layer 17 is none of its feature"},
-      {"09_axle_points_file.json", set("uncertainty/most_trials", 1e9),
+      {"09_axle_points_file", set("uncertainty/most_trials", 1e9),
        "setting \"uncertainty/most_trials\" is 1e+09, outside"},
-      {"09_axle_points_file.json",
-       [](auto& run) { run.header.decision_rule = "simple-acceptance"; },
+      {"09_axle_points_file", [](auto& run) { run.header.decision_rule = "simple-acceptance"; },
        "the head names the decision rule \"simple-acceptance\", the settings \"n-to-1\""},
-      {"01_spool_simulated.json", [](auto& run) { run.touches.back().approach *= 1e8; },
+      {"01_spool_simulated", [](auto& run) { run.touches.back().approach *= 1e8; },
        "its direction has the length 1e+08, not 1"},
-      {"01_spool_simulated.json", [](auto& run) { run.touches.back().layer = 2147483647; },
+      {"01_spool_simulated", [](auto& run) { run.touches.back().layer = 2147483647; },
        "are outside 0..100000000"},
-      {"01_spool_simulated.json", [](auto& run) { run.touches.back().pose = 4711; },
+      {"01_spool_simulated", [](auto& run) { run.touches.back().pose = 4711; },
        "pose 4711 is not there"},
-      {"01_spool_simulated.json",
-       [](auto& run) { run.features.front().points_per_layer = 2147483647; },
+      {"01_spool_simulated", [](auto& run) { run.features.front().points_per_layer = 2147483647; },
        "layers of 2147483647 points"},
-      {"13_pose_search_virtual.json",
+      {"13_pose_search_virtual",
        [](auto& run) { run.features.front().search_steps_deg.front() = 1e-300; },
        "a search step of 1e-300 deg"},
-      {"01_spool_simulated.json",
-       [](auto& run) { run.features.front().shape = record::Shape::kWheel; },
+      {"01_spool_simulated", [](auto& run) { run.features.front().shape = record::Shape::kWheel; },
        "a wheel is not measured by the strategy"},
   };
   for (const Resealed& c : cases) {
-    SCOPED_TRACE(std::string(c.plan) + ": " + c.told);
-    const fs::path run = folder_ / c.plan;
-    if (!fs::exists(run)) (void)rondure({"run", example(c.plan), "--out", run, "--quiet"});
-    record::RunRecord told = journal_of(run);
+    SCOPED_TRACE(std::string(c.example) + ": " + c.told);
+    record::RunRecord told = journal_of(example_runs() / c.example);
     c.change(told);
     fs::remove_all(folder_ / "forged");
     write_resealed(told, folder_ / "forged");

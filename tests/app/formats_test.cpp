@@ -163,8 +163,9 @@ TEST_F(Formats, ThePlanMayAskForThem) {
 
 TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
   const auto run = folder_ / "pins";
-  ASSERT_EQ(rondure({"run", example("07_crank_pin.json"), "--out", run, "--archive", "none",
-                     "--format", "corrections", "--quiet"})
+  write(folder_ / "plan.json", two_crank_pins().dump());
+  ASSERT_EQ(rondure({"run", folder_ / "plan.json", "--out", run, "--archive", "none", "--format",
+                     "corrections", "--quiet"})
                 .status,
             0);
   EXPECT_THAT(names_in(run),

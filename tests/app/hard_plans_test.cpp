@@ -70,7 +70,10 @@ TEST(HardPlan, AFarStartPoseDoesNotLeadTheFitAstray) {
 
 TEST(HardPlan, APerfectPartConformsAndVerifies) {
   const HardRun run(
-      {{"/simulation", json::object()}, {"/uncertainty", {{"probe", {{"repeatability_um", 0}}}}}});
+      {{"/simulation", json::object()},
+       {"/decision_rule/rule", "iso-14253-1"},
+       {"/uncertainty",
+        {{"most_trials", 2000}, {"budget_trials", 0}, {"probe", {{"repeatability_um", 0}}}}}});
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err << run.outcome.out;
   EXPECT_LT(run.value_um(), 1e-6);
   EXPECT_EQ(rondure({"verify", run.folder / "run"}).status, 0);

@@ -29,10 +29,11 @@ using ::testing::HasSubstr;
 
 constexpr const char* kPlan = "02_spool_over_ippdme.json";
 
-/// An example plan with a port and drivers of its own.
+/// An example plan without intervals, with a port and drivers of its own.
 void write_wire_plan(const fs::path& file, std::uint16_t port, const char* driver = "ippdme",
                      const char* name = kPlan) {
   json plan = json::parse(read(example(name)));
+  leave_out_intervals(plan);
   plan["machine"]["port"] = port;
   plan["machine"]["driver"] = driver;
   plan["fixture"]["driver"] = driver;

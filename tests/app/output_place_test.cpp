@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 Outcome run_spool_into(const fs::path& place, const Surroundings& surroundings = {}) {
-  return rondure({"run", example("01_spool_simulated.json"), "--out", place}, surroundings);
+  return run_without_intervals("01_spool_simulated", {"--out", place}, surroundings);
 }
 
 TEST(OutputPlace, AFolderThatIsNotEmptyIsLeftAlone) {
@@ -138,11 +138,14 @@ TEST(FullDisk, LeavesAnOlderReportAsItWas) {
 TEST(StandardOutput, ThatTakesNothingIsNotSilent) {
   const TemporaryFolder folder;
   const fs::path points = source_dir() / "tests/data/axle_mzc_3/points.csv";
+  auto plan = example_plan("09_axle_points_file");
+  leave_out_intervals(plan);
+  write(folder / "plan.json", plan.dump());
   const std::vector<std::vector<std::string>> commands = {
-      {"run", example("09_axle_points_file.json"), "--out", folder / "run"},
+      {"run", folder / "plan.json", "--out", folder / "run"},
       {"verify", folder / "run"},
       {"report", folder / "run"},
-      {"validate", example("09_axle_points_file.json")},
+      {"validate", folder / "plan.json"},
       {"fit", "circle", points, "--json"},
       {"--help"},
       {"--version"}};
@@ -164,8 +167,8 @@ TEST(StandardOutput, ClosedIsNoErrorWhenNothingIsPrinted) {
   const TemporaryFolder folder;
   Surroundings closed;
   closed.standard_output = "closed";
-  const Outcome outcome = rondure(
-      {"run", example("09_axle_points_file.json"), "--out", folder / "run", "--quiet"}, closed);
+  const Outcome outcome =
+      run_without_intervals("09_axle_points_file", {"--out", folder / "run", "--quiet"}, closed);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
 }

@@ -21,8 +21,7 @@ TEST(ResumeArchive, DeliversARunThatDiedBehindItsReportsAndOnce) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
   // As it is left by a death between the last report and the push.
-  ASSERT_EQ(rondure({"run", example("01_spool_simulated.json"), "--out", run, "--archive", "none"})
-                .status,
+  ASSERT_EQ(run_without_intervals("01_spool_simulated", {"--out", run, "--archive", "none"}).status,
             0);
   const auto names = names_in(run);
   const std::string sums = read(run / "SHA256SUMS");
@@ -42,8 +41,7 @@ TEST(ResumeArchive, DeliversARunThatDiedBehindItsReportsAndOnce) {
 TEST(ResumeArchive, ThatIsAwayLetsTheRunWait) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
-  ASSERT_EQ(rondure({"run", example("01_spool_simulated.json"), "--out", run, "--archive", "none"})
-                .status,
+  ASSERT_EQ(run_without_intervals("01_spool_simulated", {"--out", run, "--archive", "none"}).status,
             0);
   const fs::path away = folder / "away" / "archive.db";
   const Outcome resumed = rondure({"run", run, "--resume", "--archive", away});

@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 class SignedRun : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet",
-                       "--format", "json,csv"})
+    ASSERT_EQ(run_without_intervals("09_axle_points_file",
+                                    {"--out", run_, "--quiet", "--format", "json,csv"})
                   .status,
               0);
     make_keys("mine");
@@ -69,8 +69,8 @@ TEST_F(SignedRun, IsCheckedByTheOpensslCommandToo) {
 TEST_F(SignedRun, AForgerWhoMakesTheWholeRunAgainIsFound) {
   const std::string signature = read(run_ / "SHA256SUMS.sig");
   fs::remove_all(run_);
-  ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet",
-                     "--serial", "another part", "--format", "json,csv"})
+  ASSERT_EQ(run_without_intervals("09_axle_points_file", {"--out", run_, "--quiet", "--serial",
+                                                          "another part", "--format", "json,csv"})
                 .status,
             0);
   write(run_ / "SHA256SUMS.sig", signature);

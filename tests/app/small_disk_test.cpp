@@ -59,7 +59,9 @@ std::string bits_with_room(const fs::path& plan) {
 }
 
 TEST(SmallDisk, KeepsEveryTouchAndTheRunGoesOnWhenThereIsRoom) {
-  const fs::path plan = example("01_spool_simulated.json");
+  const TemporaryFolder plans;
+  const fs::path plan = plans / "plan.json";
+  write_plan(plan, {});
   const std::string whole = bits_with_room(plan);
   int stopped = 0;
   // From no room for a journal to no room for the archive.

@@ -106,7 +106,7 @@ TEST(StopSignals, ARunThatNobodyReadsIsArchivedLikeAnyOther) {
   Surroundings pipe;
   pipe.standard_output = "unread";
   const Outcome outcome =
-      rondure({"run", example("01_spool_simulated.json"), "--out", folder / "run"}, pipe);
+      run_without_intervals("01_spool_simulated", {"--out", folder / "run"}, pipe);
   EXPECT_EQ(outcome.status, 2) << "what was printed is lost, and nothing else";
   EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
   EXPECT_THAT(rondure({"history", folder / "archive.db"}).out, HasSubstr("conforms"));

@@ -17,11 +17,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A finished run of the first example.
+/// A finished run of the first example, without intervals.
 class FinishedRun : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(rondure({"run", example("01_spool_simulated.json"), "--out", run_}).status, 0);
+    ASSERT_EQ(run_without_intervals("01_spool_simulated", {"--out", run_}).status, 0);
     ASSERT_EQ(verify().status, 0);
   }
 

@@ -1,5 +1,6 @@
-// The live page of `rondure run --watch`: the real program on the first example, whose simulated
-// machine is slowed down, asked over HTTP. What the page looks like: tests/browser/live.mjs.
+// The live page of `rondure run --watch`: the real program on the first example without intervals,
+// whose simulated machine is slowed down, asked over HTTP. What the page looks like:
+// tests/browser/live.mjs.
 
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -29,27 +30,32 @@
 namespace rondure::app::testing {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kExample = "01_spool_simulated.json";
+/// Writes the plan into the folder of its run.
+fs::path plan_in(const TemporaryFolder& folder) {
+  write_plan(folder / "plan.json", {});
+  return folder / "plan.json";
+}
 
 std::vector<std::string> run_words(const TemporaryFolder& folder, const std::string& speed,
                                    const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"run",          example(kExample), "--out",
-                                    folder / "run", "--watch",         "--archive",
-                                    "none",         "--speed",         speed};
+  std::vector<std::string> words = {"run",          plan_in(folder), "--out",
+                                    folder / "run", "--watch",       "--archive",
+                                    "none",         "--speed",       speed};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
-/// The journal of the example without anybody watching.
+/// The journal of the same run without anybody watching.
 const std::string& unwatched_bits() {
   static const std::string bits = [] {
     const TemporaryFolder folder;
-    const Outcome outcome = rondure({"run", example(kExample), "--out", folder / "run", "--archive",
+    const Outcome outcome = rondure({"run", plan_in(folder), "--out", folder / "run", "--archive",
                                      "none", "--format", "json", "--quiet"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return record::measured_bits(journal_of(folder / "run"));
@@ -362,7 +368,7 @@ TEST(Watch, KeepsHostileTextsText) {
 TEST(Watch, SaysWhatToDoAboutAPortInUseBeforeAnythingMoves) {
   const TemporaryFolder folder;
   WatchedRun run(run_words(folder, "100"));
-  const Outcome second = rondure({"run", example(kExample), "--out", folder / "second",
+  const Outcome second = rondure({"run", folder / "plan.json", "--out", folder / "second",
                                   "--watch=" + std::to_string(run.port())});
   EXPECT_EQ(second.status, 2);
   EXPECT_THAT(second.err, AllOf(HasSubstr(std::to_string(run.port())), HasSubstr("in use"),
@@ -374,7 +380,7 @@ TEST(Watch, SaysWhatToDoAboutAPortInUseBeforeAnythingMoves) {
 TEST(Watch, ServesAtThePortThatWasAskedForAlsoWithPipedOutput) {
   const TemporaryFolder folder;
   const std::uint16_t port = free_port();
-  WatchedRun run({"run", example(kExample), "--out", folder / "run", "--archive", "none", "--quiet",
+  WatchedRun run({"run", plan_in(folder), "--out", folder / "run", "--archive", "none", "--quiet",
                   "--watch=" + std::to_string(port), "--speed", "1000"});
   EXPECT_EQ(run.port(), port);
   const Outcome outcome = run.program().wait();
@@ -383,7 +389,7 @@ TEST(Watch, ServesAtThePortThatWasAskedForAlsoWithPipedOutput) {
 }
 
 TEST(Watch, RefusesArgumentsThatMeanNothing) {
-  const std::string plan = example(kExample);
+  const std::string plan = example("01_spool_simulated.json");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"run", plan, "--control"},
         {"run", plan, "--watch=0"},
