@@ -1,4 +1,5 @@
-// Runs of the example plans, each measured once a file, in a folder that goes away at the end.
+// Runs of the example plans: those of this pass of ctest (tests/app/run_examples.sh), others measured once a file,
+// in a folder that goes away at the end.
 
 import {spawnSync} from 'node:child_process';
 import {existsSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
@@ -21,6 +22,14 @@ export function rondure(args, allowed = [0, 1]) {
 
 const made = new Map();
 
+/// The run of an example that all tests share; null where there is none, or where its page also shows earlier runs.
+function shared(plan, more) {
+  const directory = join(process.env.RONDURE_EXAMPLE_RUNS ?? '', 'runs', plan);
+  const is = process.env.RONDURE_EXAMPLE_RUNS && more.length === 0 && existsSync(join(directory, 'report.html')) &&
+             !existsSync(join(directory, 'earlier.json'));
+  return is ? directory : null;
+}
+
 /// A run of an example plan ("01_spool_simulated"), or of a plan file of one's own.
 /// returns {directory, html, report}: its folder, the path of its page, its report.json as an object
 export function run(plan, more = []) {
@@ -28,8 +37,10 @@ export function run(plan, more = []) {
   if (!made.has(key)) {
     const file = plan.endsWith('.json') ? plan
         : join(process.env.RONDURE_SOURCE_DIR, 'plans/examples', `${plan}.json`);
-    const directory = join(folder, `run-${made.size + 1}`);
-    rondure(['run', file, '--out', directory, '--archive', 'none', '--format', 'html,json', '--quiet', ...more]);
+    const directory = shared(plan, more) ?? join(folder, `run-${made.size + 1}`);
+    if (!existsSync(directory)) {
+      rondure(['run', file, '--out', directory, '--archive', 'none', '--format', 'html,json', '--quiet', ...more]);
+    }
     made.set(key, {
       directory,
       html: join(directory, 'report.html'),
