@@ -130,7 +130,7 @@ TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
   ASSERT_TRUE(newest);
   earlier = *newest;
   const Mutation mutation({reports::earlier_json(earlier)}, json_words());
-  const auto read = record::read_journal(sample_runs().front());
+  const auto read = record::read_journal(spool_run());
   ASSERT_TRUE(read);
   const auto evaluation = evaluation::evaluate(read->record);
   ASSERT_TRUE(evaluation);
@@ -167,7 +167,7 @@ TEST(KeptFuzz, NoDamagedCalibrationUpsetsTheFixture) {
 }
 
 TEST(KeptFuzz, NoDamagedListOfDigestsUpsetsItsReader) {
-  const fs::path run = sample_runs().front();
+  const fs::path run = spool_run();
   const Mutation mutation({app::testing::read(run / record::kChecksumsName)},
                           {"  ", " *", "\n", "\\", "../", "/etc/passwd", "\r", "\xff", "journal.db",
                            std::string(64, '0'), std::string(1, '\0')});

@@ -1,6 +1,7 @@
 // The program itself on damaged runs and data files. With RONDURE_FULL=1 2000 cases a door.
 
 #include <chrono>
+#include <cstdlib>
 #include <string>
 #include <thread>
 #include <vector>
@@ -62,18 +63,17 @@ TEST(ProgramFuzz, NoResealedRunUpsetsAVerb) {
 }
 
 TEST(ProgramFuzz, NoDamagedFileUpsetsAPlan) {
-  const std::string plan = app::testing::read(app::testing::example("09_axle_points_file.json"));
-  const std::string source = "../../tests/data/axle_mzc_3/points.csv";
-  ASSERT_NE(plan.find(source), std::string::npos);
+  auto plan = app::testing::example_plan("09_axle_points_file");
+  plan["features"][0]["source"]["file"] = "points.csv";
+  // The trials of damaged touches are run by JournalFuzz, without a process for each.
+  if (std::getenv("RONDURE_FULL") == nullptr) app::testing::leave_out_intervals(plan);
   const fs::path folder = work_folder() / "program-plan";
   const TableMutation rows(
       {app::testing::read(app::testing::source_dir() / "tests/data/axle_mzc_3/points.csv")});
-  try_cases({4, 2'000}, [&](unsigned seed) {
+  try_cases({12, 2'000}, [&](unsigned seed) {
     fs::remove_all(folder);
     fs::create_directory(folder);
-    std::string text = plan;
-    text.replace(text.find(source), source.size(), "points.csv");
-    app::testing::write(folder / "plan.json", text);
+    app::testing::write(folder / "plan.json", plan.dump());
     app::testing::write(folder / "points.csv", rows.input(seed));
     return wrong_with_call({"run", (folder / "plan.json").string(), "--out",
                             (folder / "run").string(), "--format", "json,csv", "--archive",

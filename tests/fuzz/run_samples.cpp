@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 /// Fewer touches, trials and rows, where a plan has many.
 void shorten(Json& plan) {
-  const std::array<std::pair<const char*, int>, 11> least = {{{"layers", 2},
+  const std::array<std::pair<const char*, int>, 13> least = {{{"layers", 2},
                                                               {"points_per_layer", 6},
                                                               {"max_poses", 2},
                                                               {"repeats", 2},
@@ -38,8 +38,10 @@ void shorten(Json& plan) {
                                                               {"samples", 128},
                                                               {"highest_order", 10},
                                                               {"most_trials", 2000},
-                                                              {"budget_trials", 500},
-                                                              {"cutoff_upr", 10}}};
+                                                              {"budget_trials", 100},
+                                                              {"cutoff_upr", 10},
+                                                              {"parts", 2},
+                                                              {"gauge_points", 360}}};
   for (auto& [key, value] : plan.items()) {
     if (value.is_structured()) shorten(value);
     for (const auto& [name, number] : least) {
@@ -49,19 +51,8 @@ void shorten(Json& plan) {
 }
 
 fs::path run_of(const std::string& name, bool short_plan) {
-  const fs::path example = app::testing::example(name + ".json");
-  Json plan = Json::parse(app::testing::read(example));
+  Json plan = app::testing::example_plan(name);
   if (short_plan) shorten(plan);
-  for (auto& feature : plan["features"]) {
-    if (feature.contains("source")) {
-      auto& file = feature["source"]["file"];
-      file = (example.parent_path() / file.get<std::string>()).string();
-    }
-  }
-  if (plan.contains("fixture") && plan["fixture"].contains("calibration")) {
-    auto& file = plan["fixture"]["calibration"]["file"];
-    file = (example.parent_path() / file.get<std::string>()).string();
-  }
   const fs::path file = work_folder() / (name + ".json");
   app::testing::write(file, plan.dump());
   const fs::path out = work_folder() / name;
@@ -89,12 +80,17 @@ void reseal(const fs::path& file) {
 
 }  // namespace
 
+const fs::path& spool_run() {
+  static const fs::path run = run_of("01_spool_simulated", true);
+  return run;
+}
+
 const std::vector<fs::path>& sample_runs() {
   static const std::vector<fs::path> runs = [] {
-    std::vector<fs::path> out;
+    std::vector<fs::path> out = {spool_run()};
     for (const char* name :
-         {"01_spool_simulated", "03_inspect_calibrated", "04_part_in_two_poses",
-          "05_spindle_three_probe", "06_wheel", "07_crank_pin", "09_axle_points_file"}) {
+         {"03_inspect_calibrated", "04_part_in_two_poses", "05_spindle_three_probe", "06_wheel",
+          "07_crank_pin", "09_axle_points_file"}) {
       out.push_back(run_of(name, true));
     }
     out.push_back(run_of("03_calibrate_fixture", false));

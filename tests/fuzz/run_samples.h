@@ -10,6 +10,9 @@ namespace rondure::fuzz {
 /// kind of feature.
 [[nodiscard]] const std::vector<std::filesystem::path>& sample_runs();
 
+/// The one of the first example, made alone.
+[[nodiscard]] const std::filesystem::path& spool_run();
+
 /// Damages the rows of a copy of one of them, and computes chain, seal and SHA256SUMS anew, so that
 /// the journal passes the checks. The same seed makes the same journal.
 /// @param directory  Emptied first.
