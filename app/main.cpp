@@ -16,6 +16,7 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/word_option.h"
+#include "cmm/ipp_server/profile.h"
 #include "core/numbers.h"
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"
@@ -200,6 +201,11 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
       ->type_name("FACTOR");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
+  std::vector<std::string> profiles;
+  for (const auto& profile : cmm::ipp::profiles()) profiles.emplace_back(profile.name);
+  verb->add_option("--profile", arguments.profile,
+                   "How it answers: as other servers do too (default: as-specified)")
+      ->check(CLI::IsMember(profiles));
   verb->add_option("--silence-limit", arguments.silence_limit_s,
                    "A client that says nothing for so long, while nothing moves, loses its place\n"
                    "to the next one that connects (default: 60)")

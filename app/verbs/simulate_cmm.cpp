@@ -8,6 +8,7 @@
 
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "cmm/ipp_server/profile.h"
 #include "cmm/ipp_server/server.h"
 #include "cmm/ipp_server/service.h"
 #include "plans/cell/served_cell.h"
@@ -40,6 +41,9 @@ std::string greeting(const SimulateCmmArguments& arguments, plans::ServedCell& c
 cmm::ipp::ServerOptions options_of(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   cmm::ipp::ServerOptions out = plans::server_options(plan);
   out.speed = arguments.speed;
+  for (const auto& profile : cmm::ipp::profiles()) {
+    if (profile.name == arguments.profile) out.controller.profile = profile;
+  }
   return out;
 }
 

@@ -44,7 +44,8 @@ struct SimulateCmmArguments {
   double speed = 1.0;  ///< Simulated seconds per second; infinity: no waiting.
   std::optional<std::uint64_t> seed;
   double silence_limit_s = 60.0;  ///< Another client may replace one that is silent for this time.
-  std::string wire_log;           ///< File; empty: none.
+  std::string profile = "as-specified";  ///< Name of one of cmm::ipp::profiles().
+  std::string wire_log;                  ///< File; empty: none.
 };
 [[nodiscard]] int simulate_cmm(const SimulateCmmArguments& arguments);
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include "core/numbers.h"
 
 namespace rondure::cmm::ipp {
@@ -63,6 +65,7 @@ std::string in_digits(double value) {
 }  // namespace
 
 std::string wire_number(double value, NumberForm form) {
+  if (form == NumberForm::kFiveDecimals) return fmt::format("{:.5f}", value);
   std::string text = in_digits(value);
   for (int digits = kDigits - 1;
        form == NumberForm::kSixteenCharacters && text.size() > kCharacters && digits > 0;

@@ -13,6 +13,7 @@ enum class NumberForm {
   kSixteenDigits,  ///< At most 16 digits, as the protocol allows.
   /// Including sign, point and exponent, for servers that refuse longer numbers.
   kSixteenCharacters,
+  kFiveDecimals,  ///< "-0.25000", as some servers write every number.
 };
 
 /// Writes a number for the wire: the shortest text that reads back to the same double, at most 16

@@ -69,12 +69,9 @@ Server::Outcome Server::clear_all_errors() {
 }
 
 Server::Outcome Server::extended_status() {
-  const auto flag = [](const char* name, bool value) {
-    return std::vector<Item>{call_item(name, {value ? 1.0 : 0.0})};
-  };
   Reply out;
-  out.lines.push_back(flag("IsHomed", controller_.is_homed()));
-  out.lines.push_back(flag("IsUserEnabled", controller_.is_user_enabled()));
+  out.lines.push_back({flag_item("IsHomed", controller_.is_homed())});
+  out.lines.push_back({flag_item("IsUserEnabled", controller_.is_user_enabled())});
   if (error_) {
     const std::string text = fmt::format("{:04} {}", error_->number, error_->what);
     out.lines.push_back({string_item(std::string_view(text).substr(0, 1000))});
@@ -115,8 +112,7 @@ void Server::receive_event(const Waiting& waiting, double now_s) {
   }
   if (command.method == "AbortE") return abort_all(waiting, now_s);
   if (command.method == "GetErrStatusE") {
-    const Item status = call_item("ErrStatus", {error_ ? 1.0 : 0.0});
-    return conclude(waiting, Reply{{{status}}, 0});
+    return conclude(waiting, one_line(flag_item("ErrStatus", error_.has_value())));
   }
   conclude(waiting, refusal(kUnsupportedCommand, command.method + " is not supported"));
 }
@@ -128,7 +124,8 @@ void Server::abort_all(const Waiting& waiting, double now_s) {
     report(stopped, kAborted);
     say(complete_line(stopped.tag));
   }
-  abort_waiting(false);
+  abort_waiting(profile().abort_is_silent);
+  if (profile().abort_is_silent) daemons_.clear();
   if (!error_) error_ = Failure{kAborted, "stopped by AbortE"};
   say(complete_line(waiting.tag));
 }

@@ -20,8 +20,6 @@ constexpr std::array<std::string_view, 9> kOfServer = {
     "GetXtdErrStatus", "OnMoveReportE", "StopDaemon", "StopAllDaemons"};
 constexpr double kMaxOrigin_mm = 1e6;  // limit for a coordinate system
 
-double as_number(bool value) { return value ? 1.0 : 0.0; }
-
 }  // namespace
 
 Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation) {
@@ -43,14 +41,15 @@ Controller::Controller(Backend& backend, const ControllerOptions& options)
     : backend_(backend),
       options_(options),
       parameters_(options.defaults, backend.machine().capabilities().least,
-                  backend.machine().capabilities().greatest) {
+                  backend.machine().capabilities().greatest, options.profile.least_retract_mm) {
+  if (options.profile.writes_five_decimals) options_.numbers = NumberForm::kFiveDecimals;
   if (auto status = machine().status()) tool_ = status->tool;
   begin_session();
 }
 
 void Controller::begin_session() {
   touch_report_ = {"X", "Y", "Z"};
-  scan_report_ = {"X", "Y", "Z", "Q"};
+  scan_report_ = options_.profile.in_order({"X", "Y", "Z", "Q"});
 }
 
 bool Controller::is_motion(std::string_view method) { return is_one_of(method, kMotions); }
@@ -65,14 +64,14 @@ const std::vector<Controller::Entry>& Controller::entries() {
       {"GetMachineClass",
        [](Controller& c, const Arguments&) {
          const bool table = !c.backend_.table_angles_deg().empty();
-         return one_line(call_item("GetMachineClass",
-                                   {name_item(table ? "CartCMMWithRotaryTable" : "CartCMM")}));
+         const char* name = table ? "CartCMMWithRotaryTable" : "CartCMM";
+         return one_line(call_item(
+             "GetMachineClass",
+             {c.options_.profile.quotes_machine_class ? string_item(name) : name_item(name)}));
        },
        false},
       {"IsHomed",
-       [](Controller& c, const Arguments&) {
-         return one_line(call_item("IsHomed", {as_number(c.is_homed())}));
-       },
+       [](Controller& c, const Arguments&) { return one_line(flag_item("IsHomed", c.is_homed())); },
        false},
       {"EnableUser",
        [](Controller& c, const Arguments&) {
@@ -88,7 +87,7 @@ const std::vector<Controller::Entry>& Controller::entries() {
        false},
       {"IsUserEnabled",
        [](Controller& c, const Arguments&) {
-         return one_line(call_item("IsUserEnabled", {as_number(c.user_enabled_)}));
+         return one_line(flag_item("IsUserEnabled", c.user_enabled_));
        },
        false},
       {"GetErrorInfo", &Controller::get_error_info},
@@ -151,9 +150,12 @@ Outcome Controller::get_error_info(const Arguments& arguments) {
 
 Outcome Controller::get_supported_commands(const Arguments&) {
   Reply out;
-  for (const Entry& entry : entries()) out.lines.push_back({string_item(entry.method)});
-  for (const std::string_view method : kMotions) out.lines.push_back({string_item(method)});
-  for (const std::string_view method : kOfServer) out.lines.push_back({string_item(method)});
+  const auto add = [&](std::string_view method) {
+    if (options_.profile.knows(method)) out.lines.push_back({string_item(method)});
+  };
+  for (const Entry& entry : entries()) add(entry.method);
+  for (const std::string_view method : kMotions) add(method);
+  for (const std::string_view method : kOfServer) add(method);
   return out;
 }
 
@@ -177,6 +179,7 @@ Outcome Controller::set_coord_system(const Arguments& arguments) {
   }
   csy_ = name;
   X_CW_ = name == "MachineCsy" ? Eigen::Isometry3d::Identity() : machine_to_csy(part_csy_);
+  if (name == "PartCsy" && options_.profile.adds_origin) X_CW_.translation() = part_csy_.x0_mm;
   return Reply{};
 }
 

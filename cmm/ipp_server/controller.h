@@ -14,6 +14,7 @@
 #include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/outcome.h"
 #include "cmm/ipp_server/parameters.h"
+#include "cmm/ipp_server/profile.h"
 #include "cmm/machine.h"
 
 namespace rondure::cmm::ipp {
@@ -40,6 +41,7 @@ struct ControllerOptions {
   double tip_radius_mm = 2.0;      ///< Tool.AvrRadius().
   double temperature_degC = 20.0;  ///< Part temperature, until the first touch has measured it.
   std::string version = "1.4";     ///< GetDMEVersion().
+  Profile profile;
 };
 
 /// A part of a motion.

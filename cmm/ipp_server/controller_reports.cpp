@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kNumbersInALine = 400;  // numbers of a scan per line: some 8000 characters
 constexpr std::array<std::string_view, 9> kTouchValues = {
     "X", "Y", "Z", "IJK", "ER", "Q", "Part.Temperature", "Scale.Temperature", "Time"};
 constexpr std::array<std::string_view, 5> kScanValues = {"X", "Y", "Z", "ER", "Q"};
@@ -24,15 +23,15 @@ constexpr std::array<std::string_view, 5> kScanValues = {"X", "Y", "Z", "ER", "Q
 /// @param values  The names it may hold; `form` and `kind` word a refusal.
 Outcome set_report(std::vector<std::string>& report, const Arguments& arguments,
                    std::span<const std::string_view> values, std::string_view form,
-                   std::string_view kind) {
+                   std::string_view kind, const Profile& profile) {
   const auto names = empty_calls(arguments);
   if (!names) return wrong_arguments(form);
   for (const std::string& name : *names) {
-    if (!is_one_of(name, values)) {
+    if (!is_one_of(name, values) || !profile.knows(name)) {
       return refusal(kNotRecognized, fmt::format("{} is no {}", name, kind));
     }
   }
-  report = *names;
+  report = profile.in_order(*names);
   return Reply{};
 }
 
@@ -44,7 +43,7 @@ tl::expected<std::vector<Item>, Failure> Controller::position_report(
   const std::vector<double> angles_deg = backend_.table_angles_deg();
   std::vector<Item> out;
   if (names.size() > kMaxNames) return refusal(kIncorrectArguments, "too many names");
-  for (const std::string& name : names) {
+  for (const std::string& name : options_.profile.in_order(names)) {
     if (name == "X" || name == "Y" || name == "Z") {
       out.push_back(call_item(name, {p_mm[name[0] - 'X']}));
     } else if (name == "R" && !angles_deg.empty()) {
@@ -66,12 +65,12 @@ Outcome Controller::get_position(const Arguments& arguments) {
 
 Outcome Controller::set_touch_report(const Arguments& arguments) {
   return set_report(touch_report_, arguments, kTouchValues, "(X(), Y(), Z(), IJK(), ER(), Q())",
-                    "value of a touch");
+                    "value of a touch", options_.profile);
 }
 
 Outcome Controller::set_scan_report(const Arguments& arguments) {
   return set_report(scan_report_, arguments, kScanValues, "(X(), Y(), Z(), Q())",
-                    "column of a scan");
+                    "column of a scan", options_.profile);
 }
 
 Outcome Controller::temperature_sensors(const Arguments&) {
@@ -106,7 +105,11 @@ Reply Controller::align_reply(const std::vector<Alignment>& wanted,
   out.lines.emplace_back();
   for (std::size_t i = 0; i < reached.size() && i < wanted.size(); ++i) {
     const Vector3d& v = reached[i];
-    for (const double value : {v.x(), v.y(), v.z()}) out.lines[0].push_back(number_item(value));
+    std::vector<Item> values = call_item("", v).arguments;
+    if (options_.profile.brackets_vectors) {
+      values = {Item{Item::Kind::kVector, 0.0, "", std::move(values)}};
+    }
+    for (Item& value : values) out.lines[0].push_back(std::move(value));
     const double off_deg =
         std::atan2(v.cross(wanted[i].machine).norm(), v.dot(wanted[i].machine)) / core::kDegree;
     if (limits_deg[i] > 0.0 && off_deg > limits_deg[i]) out.report = kNotAligned;
@@ -120,7 +123,8 @@ std::vector<double> Controller::report_values(const std::string& name, const Tou
     return {(X_CW_ * reading.tip_W_mm)[name[0] - 'X']};
   }
   if (name == "IJK") {
-    const Vector3d ijk = X_CW_.linear() * direction_W;
+    const Vector3d ijk = options_.profile.tells_tool_axis ? Vector3d(Vector3d::UnitZ())
+                                                          : X_CW_.linear() * direction_W;
     return {ijk.x(), ijk.y(), ijk.z()};
   }
   if (name == "ER") {
@@ -152,7 +156,8 @@ Reply Controller::touch_reply(const TouchReading& reading, const Vector3d& direc
 Reply Controller::scan_reply(const std::vector<TouchReading>& readings) const {
   Reply out;
   for (const TouchReading& reading : readings) {
-    if (out.lines.empty() || out.lines.back().size() + scan_report_.size() > kNumbersInALine) {
+    if (out.lines.empty() ||
+        out.lines.back().size() + scan_report_.size() > options_.profile.numbers_in_a_line) {
       out.lines.emplace_back();
     }
     for (const std::string& name : scan_report_) {

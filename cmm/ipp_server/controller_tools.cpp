@@ -96,6 +96,7 @@ Outcome Controller::change_tool(const Arguments& arguments) {
 }
 
 std::optional<Item> Controller::property(const std::string& name) const {
+  if (!options_.profile.knows(name)) return std::nullopt;
   const auto number = [&name](double value) { return call_item(name, {value}); };
   const bool found = name.starts_with(kFoundTool);
   if (found || name.starts_with(kTool)) {
@@ -162,6 +163,7 @@ int Controller::set_simulation(std::string_view name, double value) {
 }
 
 int Controller::set_property(const std::string& name, double value) {
+  if (!options_.profile.knows(name)) return kBadProperty;
   if (name.starts_with(kSimulation)) {
     return set_simulation(std::string_view(name).substr(kSimulation.size()), value);
   }
@@ -207,7 +209,7 @@ Outcome Controller::enum_all_properties(const Arguments& arguments) {
   if (!prefix) return refusal(kIncorrectArguments, "the argument is not a property, as Tool()");
   Reply out;
   for (const auto& [name, type] : property_list(parameters_)) {
-    if (name.starts_with(*prefix)) {
+    if (name.starts_with(*prefix) && options_.profile.knows(name)) {
       out.lines.push_back(pair_of_strings(name.substr(prefix->size()), type));
     }
   }

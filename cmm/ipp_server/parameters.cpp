@@ -22,21 +22,22 @@ std::string_view take_aspect(std::string_view& name) {
 }  // namespace
 
 ToolParameters::ToolParameters(const ParameterDefaults& defaults, const Speeds& least,
-                               const Speeds& greatest) {
+                               const Speeds& greatest, double least_retract_mm) {
   const auto add = [this](std::string name, double def, double min, double max) {
     parameters_.push_back({std::move(name), def, min, max, def});
   };
   const Speeds& def = defaults.speeds;
+  const double retract_mm = std::max(defaults.retract_mm, least_retract_mm);
   add("GoToPar.Speed", def.travel_mm_s, least.travel_mm_s, greatest.travel_mm_s);
   add("GoToPar.Accel", kAccel_mm_s2, 1.0, kMaxAccel_mm_s2);
   add("PtMeasPar.Speed", def.touch_mm_s, least.touch_mm_s, greatest.touch_mm_s);
   add("PtMeasPar.Accel", kAccel_mm_s2, 1.0, kMaxAccel_mm_s2);
   add("PtMeasPar.Approach", defaults.approach_mm, 0.0, kMaxDistance_mm);
   add("PtMeasPar.Search", defaults.search_mm, 0.0, kMaxDistance_mm);
-  add("PtMeasPar.Retract", defaults.retract_mm, -1.0, kMaxDistance_mm);
+  add("PtMeasPar.Retract", retract_mm, least_retract_mm, kMaxDistance_mm);
   add("ScanPar.Speed", def.scan_mm_s, least.scan_mm_s, greatest.scan_mm_s);
   add("ScanPar.Accel", kAccel_mm_s2, 1.0, kMaxAccel_mm_s2);
-  add("ScanPar.Retract", defaults.retract_mm, -1.0, kMaxDistance_mm);
+  add("ScanPar.Retract", retract_mm, least_retract_mm, kMaxDistance_mm);
 }
 
 std::optional<double> ToolParameters::get(std::string_view name) const {

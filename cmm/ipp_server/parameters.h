@@ -22,7 +22,9 @@ struct ParameterDefaults {
 class ToolParameters {
  public:
   /// @param least, greatest  Speeds the machine accepts.
-  ToolParameters(const ParameterDefaults& defaults, const Speeds& least, const Speeds& greatest);
+  /// @param least_retract_mm  Negative: the tip can return to the start of the search.
+  ToolParameters(const ParameterDefaults& defaults, const Speeds& least, const Speeds& greatest,
+                 double least_retract_mm);
 
   /// Gets a value by its name after "Tool.": "PtMeasPar.Speed", "PtMeasPar.Speed.Max".
   [[nodiscard]] std::optional<double> get(std::string_view name) const;

@@ -55,7 +55,8 @@ void Server::receive(const RawLine& line, double now_s) {
   run(now_s);
   auto command = parse_command(line);
   if (!command) return refuse(line, command.error(), now_s);
-  Waiting waiting{command->tag, echo_of(to_line(*command)), std::move(*command), std::nullopt};
+  std::string echo = echo_of(to_line(*command, controller_.options().numbers));
+  Waiting waiting{command->tag, std::move(echo), std::move(*command), std::nullopt};
   if (waiting.tag.event) return receive_event(waiting, now_s);
   if (is_in_use(waiting.tag)) {
     return refuse(line, {kIllegalTag, {}, "the tag belongs to a command in progress"}, now_s);
@@ -112,6 +113,9 @@ std::optional<Failure> Server::gate(const Command& command) const {
   const bool takes_back =
       method == "GetErrStatusE" || method == "GetXtdErrStatus" || method == "ClearAllErrors";
   if (error_ && !takes_back) return Failure{kUseClearAllErrors, error_->what};
+  if (!profile().knows(method)) {
+    return Failure{kUnsupportedCommand, method + " is not supported by this server"};
+  }
   return std::nullopt;
 }
 
@@ -189,7 +193,8 @@ void Server::conclude(const Waiting& waiting, const Outcome& outcome) {
 }
 
 void Server::report(const Waiting& waiting, int number) {
-  say(error_line(waiting.tag, error_report(number, waiting.text)));
+  const int told = profile().told(number, waiting.command.method);
+  say(error_line(waiting.tag, error_report(told, waiting.text)));
 }
 
 void Server::enter_error_state(const Failure& failure) {

@@ -92,6 +92,7 @@ class Server {
   void begin_phase(double now_s);
   void end_phase();
   [[nodiscard]] std::optional<Failure> gate(const Command& command) const;
+  [[nodiscard]] const Profile& profile() const { return controller_.options().profile; }
   void conclude(const Waiting& waiting, const Outcome& outcome);
   void report(const Waiting& waiting, int number);
   void enter_error_state(const Failure& failure);

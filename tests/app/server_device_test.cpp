@@ -25,10 +25,11 @@ using ::testing::Not;
 /// The virtual machine of the example over the wire.
 class Cmm {
  public:
-  Cmm()
+  explicit Cmm(const std::string& profile = "as-specified")
       : port_(free_port()),
         program_({"simulate-cmm", example("02_spool_over_ippdme.json"), "--port",
-                  std::to_string(port_), "--speed", "inf", "--wire-log", folder_ / "wire.log"}) {
+                  std::to_string(port_), "--speed", "inf", "--wire-log", folder_ / "wire.log",
+                  "--profile", profile}) {
     EXPECT_TRUE(wait_for_port(port_));
   }
   [[nodiscard]] std::string place() const { return fmt::format("127.0.0.1:{}", port_); }
@@ -41,6 +42,11 @@ class Cmm {
   Program program_;
 };
 
+void expect_eighty_columns(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+}
+
 TEST(ServerDevice, SaysWhatTheServerCanInEightyColumnsAndMovesNothing) {
   const Cmm cmm;
   const Outcome told = rondure({"devices", "ippdme", cmm.place()});
@@ -50,8 +56,7 @@ TEST(ServerDevice, SaysWhatTheServerCanInEightyColumnsAndMovesNothing) {
   EXPECT_THAT(told.out, HasSubstr("rotary axes         yes (AlignPart)\n"));
   EXPECT_THAT(told.out, HasSubstr("PtMeasPar.Retract"));
   EXPECT_THAT(told.out, HasSubstr("\"driver\": \"ippdme\""));
-  std::istringstream lines(told.out);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  expect_eighty_columns(told.out);
   const std::string log = cmm.log();
   EXPECT_THAT(log, HasSubstr("EndSession()"));
   for (const char* moving :
@@ -59,6 +64,19 @@ TEST(ServerDevice, SaysWhatTheServerCanInEightyColumnsAndMovesNothing) {
         "SetProp(", "SetCoordSystem(", "SetCsyTransformation(", "EnableUser("}) {
     EXPECT_THAT(log, Not(HasSubstr(moving)));
   }
+}
+
+TEST(ServerDevice, SaysWhatAServerThatOnlyTouchesLacksInEightyColumns) {
+  const Cmm cmm("touches-only");
+  const Outcome told = rondure({"devices", "ippdme", cmm.place()});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("I++ DME of unknown version, CartCMMWithRotaryTable\n"));
+  EXPECT_THAT(told.out, HasSubstr("rotary axes         yes (AlignPart)"));
+  EXPECT_THAT(told.out, HasSubstr("part temperature    results are void unless the plan says"));
+  EXPECT_THAT(told.out, HasSubstr("circle scans        a plan with sampling.method \"scan\""));
+  EXPECT_THAT(told.out, HasSubstr("GetDMEVersion(): error 0507"));
+  EXPECT_THAT(told.out, HasSubstr("\"retract\": \"by-distance\""));
+  expect_eighty_columns(told.out);
 }
 
 TEST(ServerDevice, ItsKeysArePartOfAPlanThatRuns) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/app/cutting_proxy.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 #include "wire/tcp_line.h"
@@ -15,6 +16,7 @@
 namespace rondure::app::testing {
 namespace {
 
+using nlohmann::json;
 using ::testing::HasSubstr;
 
 std::string spool() { return RONDURE_SOURCE_DIR "/plans/examples/01_spool_simulated.json"; }
@@ -22,8 +24,8 @@ std::string spool() { return RONDURE_SOURCE_DIR "/plans/examples/01_spool_simula
 /// The program as a server, on a port that it chose.
 class Serving {
  public:
-  explicit Serving(const std::vector<std::string>& more = {})
-      : program_(arguments(folder_, more), surroundings(folder_)) {
+  explicit Serving(const std::vector<std::string>& more = {}, const std::string& plan = spool())
+      : program_(arguments(folder_, more, plan), surroundings(folder_)) {
     while (port_ == 0 && !program_.ended()) {
       const std::string text = read(folder_ / "out");
       const std::size_t at = text.find("listens at 127.0.0.1:");
@@ -44,9 +46,10 @@ class Serving {
 
  private:
   static std::vector<std::string> arguments(const TemporaryFolder& folder,
-                                            const std::vector<std::string>& more) {
-    std::vector<std::string> out = {"simulate-cmm", spool(), "--port",     "0",
-                                    "--speed",      "inf",   "--wire-log", folder / "wire.log"};
+                                            const std::vector<std::string>& more,
+                                            const std::string& plan) {
+    std::vector<std::string> out = {"simulate-cmm", plan,  "--port",     "0",
+                                    "--speed",      "inf", "--wire-log", folder / "wire.log"};
     out.insert(out.end(), more.begin(), more.end());
     return out;
   }
@@ -111,6 +114,9 @@ TEST(SimulateCmm, RefusesAPortInUseAPlanWithoutASimulationAndAStandstill) {
     EXPECT_EQ(standstill.status, 2) << speed;
     EXPECT_THAT(standstill.err, HasSubstr("--speed")) << speed;
   }
+  const Outcome no_profile = rondure({"simulate-cmm", spool(), "--profile", "as-dreamt"});
+  EXPECT_EQ(no_profile.status, 2);
+  EXPECT_THAT(no_profile.err, HasSubstr("--profile"));
 }
 
 /// A run over the wire, halted in the middle of its touches.
@@ -142,7 +148,7 @@ class HaltedRun {
     return {"run", folder / "plan.json", "--out", folder / name, "--archive", "none"};
   }
   static std::vector<std::string> prepare(const TemporaryFolder& folder, std::uint16_t port) {
-    nlohmann::json plan = nlohmann::json::parse(read(example("02_spool_over_ippdme.json")));
+    json plan = json::parse(read(example("02_spool_over_ippdme.json")));
     plan["machine"]["port"] = port;
     plan["machine"]["answer_limit_s"] = 300;  // the clock of the halted run goes on
     plan["machine"]["motion_limit_s"] = 300;
@@ -180,6 +186,103 @@ TEST(SimulateCmm, AClientThatWasHaltedLosesItsPlaceAndGoesOnWhenItIsResumed) {
   ASSERT_EQ(one.touches.size(), two.touches.size());
   for (std::size_t i = 0; i < one.touches.size(); ++i) {
     EXPECT_EQ(one.touches[i].tip_mm, two.touches[i].tip_mm) << "touch " << i;
+  }
+}
+
+/// Whole runs over a server that is not known as a simulation: no word of Simulation, values in
+/// alphabetical order, surface points, five decimals, and the same part behind it.
+class SimulateCmmProfile : public ::testing::Test {
+ protected:
+  static constexpr double kSame_um = 0.05;  // five decimals of a millimetre, and of directions
+
+  /// The example with a part that is measured without scatter.
+  static json quiet_plan(bool scanned) {
+    json plan = json::parse(read(example("02_spool_over_ippdme.json")));
+    plan.merge_patch(R"({"simulation": {"probe": {"repeatability_um": 0},
+                                        "fixture": {"repeatability_deg": 0}},
+                         "reports": {"formats": ["json"]}, "uncertainty": null,
+                         "decision_rule": {"rule": "simple-acceptance"}})"_json);
+    plan["environment"]["assumed_degC"] = plan["simulation"]["temperature_degC"];
+    if (scanned) {
+      plan["features"][0]["sampling"] = {
+          {"method", "scan"}, {"layers", 4}, {"points_per_layer", 120}, {"margin_mm", 5}};
+      plan["features"][0]["pose_search"]["repeats"] = 1;
+    }
+    return plan;
+  }
+
+  /// Serves the part; its scans are those of real servers.
+  std::unique_ptr<Serving> served(const std::string& profile) const {
+    json plan = quiet_plan(false);
+    plan["simulation"]["machine"] = {
+        {"scan_start_deg", 1}, {"scan_step_percent", 3}, {"scan_dropped_percent", 2}};
+    write(folder_ / "served.json", plan.dump());
+    return std::make_unique<Serving>(std::vector<std::string>{"--profile", profile},
+                                     folder_ / "served.json");
+  }
+
+  /// Runs a plan over a port, or with the simulated drivers at port 0.
+  Outcome run(json plan, std::uint16_t port, const std::string& name, bool resume = false) const {
+    plan["machine"]["driver"] = plan["fixture"]["driver"] = port == 0 ? "simulated" : "ippdme";
+    plan["machine"]["port"] = port == 0 ? 1294 : port;
+    if (port != 0) plan.erase("simulation");  // the other side knows it
+    write(folder_ / (name + ".json"), plan.dump());
+    std::vector<std::string> words = {
+        "run", folder_ / (name + ".json"), "--out", folder_ / name, "--archive", "none"};
+    if (resume) words.emplace_back("--resume");
+    return rondure(words);
+  }
+
+  double cylindricity_um(const std::string& name) const {
+    return json::parse(read(folder_ / name / "report.json"))
+        .at("/features/0/mz/deviation_um"_json_pointer);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SimulateCmmProfile, GivesTheCylindricityOfTheSimulatedDriver) {
+  struct Case {
+    std::string profile;
+    bool scanned;
+    std::string retract;
+  };
+  const std::vector<Case> cases = {{"as-recorded", false, "to-approach"},
+                                   {"as-recorded", true, "to-approach"},
+                                   {"touches-only", false, "by-distance"}};
+  for (const bool scanned : {false, true}) {
+    const Outcome own = run(quiet_plan(scanned), 0, scanned ? "own-scans" : "own-touches");
+    ASSERT_EQ(own.status, 0) << own.err;
+  }
+  for (const auto& [profile, scanned, retract] : cases) {
+    const std::string name = profile + (scanned ? "-scans" : "-touches");
+    SCOPED_TRACE(name);
+    json plan = quiet_plan(scanned);
+    plan["machine"]["retract"] = retract;
+    const auto serving = served(profile);
+    const Outcome ran = run(plan, serving->port(), name);
+    ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+    EXPECT_EQ(rondure({"verify", folder_ / name}).status, 0);
+    EXPECT_FALSE(journal_of(folder_ / name).header.simulated);
+    const double own_um = cylindricity_um(scanned ? "own-scans" : "own-touches");
+    EXPECT_NEAR(cylindricity_um(name), own_um, kSame_um);
+    std::printf("%s: CYLt %.3f um, %.3f um in one process\n", name.c_str(), cylindricity_um(name),
+                own_um);
+  }
+}
+
+TEST_F(SimulateCmmProfile, ARunThatWasCutGoesOnInANewSessionAndGivesTheSameCylindricity) {
+  const auto serving = served("as-recorded");
+  CuttingProxy proxy(serving->port());
+  ASSERT_EQ(run(quiet_plan(false), proxy.port(), "whole").status, 0);
+  const std::uint64_t bytes = proxy.take_count();
+  for (const char* name : {"2", "3", "5"}) {  // cut at this part of the run
+    proxy.cut_after(bytes / static_cast<std::uint64_t>(name[0] - '0'));
+    const Outcome stopped = run(quiet_plan(false), proxy.port(), name);
+    EXPECT_EQ(stopped.status, 3) << stopped.err;
+    const Outcome ended = run(quiet_plan(false), proxy.port(), name, true);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_NEAR(cylindricity_um(name), cylindricity_um("whole"), kSame_um);
   }
 }
 

@@ -1,14 +1,15 @@
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "ipp_talk.h"
-#include "tests/cmm/seen_server.h"
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -65,50 +66,29 @@ bool say_the_same(const std::string& a, const std::string& b) {
   return *p == *q;
 }
 
-ServerOptions as_recorded() {
+Talk talk_of(const Profile& profile) {
   ServerOptions options;
   options.speed = 1.0;
   options.controller.defaults = {{100.0, 20.0, 10.0}, 10.0, 10.0, 10.0};
-  options.controller.tip_radius_mm = IdealMachine::kTipRadius_mm;
-  return options;
+  options.controller.profile = profile;
+  return Talk(options);
 }
 
-/// The double of the recorded server, an ideal machine and a clock.
-class SeenTalk {
- public:
-  SeenTalk() : server_(backend_, as_recorded_profile()) {}
-
-  std::vector<std::string> say(const std::string& line) {
-    server_.receive({line}, now_s_);
-    return server_.take_output();
+/// The answers to a recorded command. The abort comes while the machine moves; everything before it
+/// has come to its end.
+std::vector<std::string> said(Talk& talk, const std::string& command) {
+  std::vector<std::string> out = talk.say(command);
+  if (command == "00900 GoTo(X(300))") return out;
+  for (std::string& line : talk.wait(command == "00901 GoTo(Y(200))" ? 1.0 : 10.0)) {
+    out.push_back(std::move(line));
   }
-  std::vector<std::string> wait(double seconds) {
-    std::vector<std::string> out;
-    for (const double until_s = now_s_ + seconds; now_s_ < until_s;) {
-      now_s_ += 0.01;
-      server_.advance(now_s_);
-      for (std::string& line : server_.take_output()) out.push_back(std::move(line));
-    }
-    return out;
-  }
-  [[nodiscard]] Eigen::Vector3d position() { return backend_.machine().position_W_mm(); }
+  return out;
+}
 
- private:
-  static SeenProfile as_recorded_profile() {
-    SeenProfile profile;
-    profile.speed = 1.0;
-    profile.tip_radius_mm = IdealMachine::kTipRadius_mm;
-    profile.defaults = as_recorded().controller.defaults;
-    return profile;
-  }
+bool is_of_daemon(const std::string& line) { return line.starts_with("E0100 #"); }
 
-  IdealBackend backend_;
-  SeenServer server_;
-  double now_s_ = 0.0;
-};
-
-TEST(IppDialogue, TheDoubleAnswersTheRecordedClientAsTheRecordedServerDid) {
-  SeenTalk talk;
+TEST(IppDialogue, TheRecordedProfileAnswersTheRecordedClientAsTheRecordedServerDid) {
+  Talk talk = talk_of(as_recorded());
   const std::vector<Exchange> all = recorded();
   ASSERT_EQ(all.size(), 45U);
   std::size_t moves_reported = 0;
@@ -116,20 +96,10 @@ TEST(IppDialogue, TheDoubleAnswersTheRecordedClientAsTheRecordedServerDid) {
   double start_x_mm = 0.0;
   for (const Exchange& exchange : all) {
     SCOPED_TRACE(exchange.client);
-    std::vector<std::string> said = talk.say(exchange.client);
-    // The abort comes while the machine moves; everything before it has come to its end.
-    const bool moves = exchange.client == "00900 GoTo(X(300))";
-    if (moves) start_x_mm = talk.position().x();
-    const bool is_watched = exchange.client == "00901 GoTo(Y(200))";
-    if (!moves) {
-      for (std::string& line : talk.wait(is_watched ? 1.0 : 10.0)) said.push_back(std::move(line));
-    }
-    std::vector<std::string> answers;
-    for (const std::string& line : said) {
-      if (!line.starts_with("E0100 #")) {
-        answers.push_back(line);
-        continue;
-      }
+    if (exchange.client == "00900 GoTo(X(300))") start_x_mm = talk.machine().position.x();
+    std::vector<std::string> answers = said(talk, exchange.client);
+    for (const std::string& line : answers) {
+      if (!is_of_daemon(line)) continue;
       const auto report = parse_response(line);
       ASSERT_TRUE(report.has_value());
       const double x_mm = single_number(*find_call(report->data, "X")).value_or(-1.0);
@@ -137,36 +107,28 @@ TEST(IppDialogue, TheDoubleAnswersTheRecordedClientAsTheRecordedServerDid) {
       last_x_mm = x_mm;
       ++moves_reported;
     }
-    std::vector<std::string> wanted;
-    for (const std::string& line : exchange.server) {
-      if (!line.starts_with("E0100 #")) wanted.push_back(line);
-    }
+    std::erase_if(answers, is_of_daemon);
+    std::vector<std::string> wanted = exchange.server;
+    std::erase_if(wanted, is_of_daemon);
     ASSERT_EQ(answers.size(), wanted.size()) << ::testing::PrintToString(answers);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       EXPECT_TRUE(say_the_same(answers[i], wanted[i])) << answers[i] << "\n" << wanted[i];
     }
   }
   EXPECT_GE(moves_reported, 2U);
-  EXPECT_NEAR(talk.position().x(), start_x_mm + 50.0, 1.0);  // 50 mm/s for a second
-  EXPECT_NEAR(talk.position().x(), last_x_mm, 20.0);
+  EXPECT_NEAR(talk.machine().position.x(), start_x_mm + 50.0, 1.0);  // 50 mm/s for a second
+  EXPECT_NEAR(talk.machine().position.x(), last_x_mm, 20.0);
 }
 
 TEST(IppDialogue, BySpecificationItDiffersOnlyWhereThePageSaysSo) {
-  Talk talk(as_recorded());
+  Talk talk = talk_of({});
   std::vector<std::string> differing;
   for (const Exchange& exchange : recorded()) {
-    std::vector<std::string> said = talk.say(exchange.client);
-    const bool moves = exchange.client == "00900 GoTo(X(300))";
-    if (!moves) {
-      for (std::string& line : talk.wait(exchange.client == "00901 GoTo(Y(200))" ? 1.0 : 10.0)) {
-        said.push_back(std::move(line));
-      }
+    const std::vector<std::string> answers = said(talk, exchange.client);
+    if (!std::equal(answers.begin(), answers.end(), exchange.server.begin(), exchange.server.end(),
+                    say_the_same)) {
+      differing.push_back(exchange.client.substr(0, exchange.client.find('(')));
     }
-    bool same = said.size() == exchange.server.size();
-    for (std::size_t i = 0; same && i < said.size(); ++i) {
-      same = say_the_same(said[i], exchange.server[i]);
-    }
-    if (!same) differing.push_back(exchange.client.substr(0, exchange.client.find('(')));
   }
   // Class as a name; translation subtracted; values in the order asked for; bare numbers of
   // AlignPart; times of the daemon; the pending command of an abort is answered; daemons survive
@@ -177,31 +139,50 @@ TEST(IppDialogue, BySpecificationItDiffersOnlyWhereThePageSaysSo) {
                                       "00901 GoTo", "E0101 AbortE", "00904 StopDaemon"}));
 }
 
-TEST(IppDialogue, TheDoubleRefusesWhatTheRecordedServerRefused) {
-  SeenTalk talk;
-  const auto refused = [&talk](const std::string& command) {
-    talk.wait(10.0);
-    int number = 0;
-    for (const std::string& line : talk.say("09998 " + command)) {
-      const auto response = parse_response(line);
-      if (response && response->kind == Response::Kind::kError) number = response->error.number;
-    }
-    talk.say("09997 ClearAllErrors()");
-    return number;
+TEST(IppDialogue, EachProfileRefusesWhatItsServerDoes) {
+  struct Refused {
+    const char* command;
+    std::vector<int> errors;  ///< As specified, as recorded, touches only.
   };
-  EXPECT_EQ(refused("IsHomed()"), 8);
-  for (const char* command : {"StartSession()", "Home()", "ChangeTool(\"Probe1\")"}) {
-    EXPECT_EQ(refused(command), 0) << command;
+  const std::vector<Refused> table = {
+      {"StartSession()", {8, 507, 507}},
+      {"GoTo(X(1),R(90))", {502, 502, 502}},
+      {"SetCoordSystem(Sideways)", {505, 502, 502}},
+      {"GetProp(Tool.Reach())", {510, 502, 502}},
+      {"GetProp(Simulation.NextTouch())", {0, 502, 502}},
+      {"SetProp(Simulation.NextTouch(7))", {0, 502, 502}},
+      {"GetProp(Part.Temperature())", {0, 502, 502}},
+      {"OnPtMeasReport(X(),Y(),Z(),ER(),Part.Temperature())", {0, 502, 502}},
+      {"GetSupportedCommands()", {0, 507, 507}},
+      {"GetDMEVersion()", {0, 0, 507}},
+      {"SetProp(Tool.PtMeasPar.Retract(-1))", {0, 0, 504}},
+      {"GetProp(Tool.ScanPar.Speed())", {0, 0, 502}},
+      {"OnScanReport(X(),Y(),Z())", {0, 0, 507}},
+      {"ScanOnCircle(0,0,10,20,0,10,0,0,1,90,0,30)", {0, 0, 507}},
+  };
+  for (std::size_t i = 0; i < profiles().size(); ++i) {
+    SCOPED_TRACE(profiles()[i].name);
+    ServerOptions options;
+    options.controller.profile = profiles()[i];
+    Talk talk(options);
+    EXPECT_EQ(talk.error("IsHomed()"), 8);
+    talk.begin();
+    for (const auto& [command, errors] : table)
+      EXPECT_EQ(talk.error(command), errors[i]) << command;
+    talk.say("00001 FooBar()");
+    EXPECT_EQ(talk.say("00002 EndSession()").at(1),
+              "00002 ! Error(2, 0514, \"00002 EndSession()\", \"Use ClearAllErrors to continue\")");
   }
-  EXPECT_EQ(refused("StartSession()"), 507);
-  EXPECT_EQ(refused("GoTo(X(1),R(90))"), 502);
-  EXPECT_EQ(refused("GetProp(Simulation.NextTouch())"), 502);
-  EXPECT_EQ(refused("GetProp(Part.Temperature())"), 502);
-  EXPECT_EQ(refused("OnPtMeasReport(X(),Y(),Z(),ER(),Part.Temperature())"), 502);
-  EXPECT_EQ(refused("GetSupportedCommands()"), 507);
-  talk.say("00001 FooBar()");
-  EXPECT_EQ(talk.say("00002 EndSession()").at(1),
-            "00002 ! Error(2, 0514, \"00002 EndSession()\", \"Use ClearAllErrors to continue\")");
+}
+
+TEST(IppDialogue, TheRecordedProfileWritesFiveDecimalsAndSortsTheValues) {
+  Talk talk = talk_of(as_recorded());
+  talk.begin();
+  EXPECT_EQ(talk.ask("GetProp(Tool.PtMeasPar.Approach())"), "# Tool.PtMeasPar.Approach(10.00000)");
+  EXPECT_EQ(talk.ask("IsHomed()"), "# IsHomed(1)");
+  EXPECT_EQ(talk.ask("Get(Z(),R(),X(),Y())"), "# R(0.00000), X(0.00000), Y(0.00000), Z(0.00000)");
+  EXPECT_EQ(talk.ask("AlignPart(1,0,0,0,1,0,0,0,1,0,0,1,0,0)"),
+            "# (0.00000,1.00000,0.00000), (0.00000,0.00000,1.00000)");
 }
 
 TEST(IppDialogue, TheComparisonSeesDifferences) {

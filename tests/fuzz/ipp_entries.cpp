@@ -78,6 +78,9 @@ std::string try_ipp_server(std::string_view bytes) {
   const auto choice = static_cast<unsigned char>(bytes[0]);
   ServerOptions options;
   if ((choice & 2U) != 0) options.speed = 10.0;
+  const auto& profiles = cmm::ipp::profiles();
+  const cmm::ipp::Profile& profile = profiles[choice / 4U % profiles.size()];
+  options.controller.profile = profile;
   cmm::IdealBackend backend;
   Server server(backend, options);
   Account account;
@@ -102,7 +105,7 @@ std::string try_ipp_server(std::string_view bytes) {
   }
   const bool still_moves = server.next_event_s().has_value();
   if (auto problem = drain(server, account); !problem.empty()) return problem;
-  return still_moves ? std::string() : account.balance();
+  return still_moves || profile.abort_is_silent ? std::string() : account.balance();
 }
 
 }  // namespace rondure::fuzz

@@ -66,7 +66,7 @@ std::vector<std::string> server_corpus() {
   std::vector<std::string> out;
   for (std::size_t first = 0; first < lines.size(); first += 2) {
     std::string text = begin + "00803 ChangeTool(\"Probe1\")\r\n";
-    text[0] = static_cast<char>(first % 4);
+    text[0] = static_cast<char>(first % 12);
     for (std::size_t i = first; i < std::min(first + 8, lines.size()); ++i)
       text += lines[i] + "\r\n";
     out.push_back(std::move(text));

@@ -34,6 +34,11 @@ inline constexpr std::size_t kMaxNames = 64;  ///< Per command: the answer must 
 /// An answer of one item.
 [[nodiscard]] inline Outcome one_line(Item item) { return Reply{{{std::move(item)}}, 0}; }
 
+/// IsHomed(1): without decimals whatever the form of numbers is.
+[[nodiscard]] inline Item flag_item(std::string_view method, bool value) {
+  return call_item(method, {name_item(value ? "1" : "0")});
+}
+
 [[nodiscard]] inline bool is_one_of(std::string_view name,
                                     std::span<const std::string_view> names) {
   return std::find(names.begin(), names.end(), name) != names.end();
