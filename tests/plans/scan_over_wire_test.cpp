@@ -41,12 +41,10 @@ constexpr std::uint64_t kSeed = 20261121;
 /// The virtual cell of a plan behind a socket, for one client after the other.
 class WireServer {
  public:
-  /// @param scans  Whether the server knows scans at all.
   /// @param late  Points it leaves out at the start of each scan.
-  WireServer(const Plan& plan, bool scans, std::size_t late = 0)
+  explicit WireServer(const Plan& plan, std::size_t late = 0, const cmm::ipp::Profile& profile = {})
       : cell_(plan, kSeed),
-        server_(cell_, server_options(plan)),
-        scans_(scans),
+        server_(cell_, with_profile(server_options(plan), profile)),
         late_(late),
         listener_(wire::TcpListener::open("127.0.0.1", 0).value()),
         thread_([this] { serve(); }) {}
@@ -64,6 +62,12 @@ class WireServer {
   [[nodiscard]] int motions() const { return motions_; }
 
  private:
+  static cmm::ipp::ServerOptions with_profile(cmm::ipp::ServerOptions options,
+                                              const cmm::ipp::Profile& profile) {
+    options.controller.profile = profile;
+    return options;
+  }
+
   void serve() {
     while (!stop_) {
       auto client = listener_.accept(std::chrono::milliseconds(20));
@@ -76,14 +80,6 @@ class WireServer {
   }
 
   void answer(const std::string& text, wire::LineTransport& client) {
-    const std::string tag = text.substr(0, text.find(' '));
-    if (!scans_ && text.find(" OnScanReport(") != std::string::npos) {
-      (void)client.write_line(tag + " &");
-      (void)client.write_line(
-          tag + " ! Error(3, 0501, \"OnScanReport(X(), Y(), Z())\", \"Unsupported command\")");
-      (void)client.write_line(tag + " %");
-      return;
-    }
     for (const std::string_view motion : {" Home(", " GoTo(", " AlignPart(", " PtMeas(", " Scan"}) {
       if (text.find(motion) != std::string::npos) ++motions_;
     }
@@ -100,7 +96,6 @@ class WireServer {
 
   ServedCell cell_;
   cmm::ipp::Server server_;
-  bool scans_;
   Spoil spoil_;
   std::size_t late_;
   wire::TcpListener listener_;
@@ -194,7 +189,7 @@ TEST(TurnedPartOverWire, HasTheBitsOfTheRunInOneProcess) {
   const Plan inside = testing::turned_part();
   const record::Scratch scratch;
   const auto wanted = run_of(inside, scratch / "inside");
-  WireServer server(inside, true);
+  WireServer server(inside);
   const auto run = run_of(over_wire(inside, server.port()), scratch / "wire");
   EXPECT_GT(run.touches.size(), 60U);
   expect_same(run, wanted);
@@ -210,7 +205,7 @@ TEST(ScanOverWire, HasTheBitsOfTheRunInOneProcessAlsoWhenItIsResumed) {
   const auto wanted = run_of(inside, scratch / "inside");
   ASSERT_EQ(wanted.touches.back().temperature_degC, 21.5);
   ASSERT_EQ(wanted.touches.back().scale_temperature_degC, 20.8);
-  const WireServer server(inside, true);
+  const WireServer server(inside);
   const Plan plan = over_wire(inside, server.port());
   expect_same(run_of(plan, scratch / "wire"), wanted);
   RunOptions options = seeded_options(scratch / "cut");
@@ -238,7 +233,7 @@ TEST(ScanOverWire, IrregularPassesAreNotAveragedByIndex) {
     for (const int repeats : {1, 5}) {
       SCOPED_TRACE(::testing::Message() << points << " points, " << repeats << " repeats");
       const Plan inside = three_lobes(repeats, points, 0.0);
-      const WireServer server(inside, true);
+      const WireServer server(inside);
       const auto run =
           run_of(over_wire(inside, server.port()), scratch / fmt::format("{}-{}", points, repeats));
       const auto evaluation = evaluation::evaluate(run);
@@ -267,7 +262,7 @@ TEST(ScanOverWire, TheIntervalOfIrregularPassesHoldsTheTruth) {
   Plan inside = three_lobes(5, 120, 0.3);
   inside.uncertainty.emplace().most_trials = test::cases(2'000, 10'000);
   inside.uncertainty->probe.emplace();  // its repeatability comes from the passes
-  const WireServer server(inside, true);
+  const WireServer server(inside);
   const auto run = run_of(over_wire(inside, server.port()), scratch / "run");
   const auto evaluation = evaluation::evaluate(run);
   ASSERT_TRUE(evaluation);
@@ -342,7 +337,7 @@ TEST(ScanOverWire, AWrongAnswerStopsTheRunWhichResumesToTheSameValue) {
   int number = 0;
   for (const WrongAnswer& wrong : wrong_answers()) {
     SCOPED_TRACE(wrong.command + " " + wrong.says);
-    WireServer server(inside, true);
+    WireServer server(inside);
     server.spoil(
         [&wrong, left = wrong.which](const std::string& command, std::string& line) mutable {
           const bool data = line.size() > 8 && line[6] == '#';
@@ -372,7 +367,7 @@ TEST(ScanOverWire, ARunWhoseScansBeginBesideTheStartIsResumed) {
   inside.simulation->machine.drift_y_um = 0.0;
   inside.simulation->machine.drift_z_um = 0.0;
   const record::Scratch scratch;
-  const WireServer server(inside, true, 2);
+  const WireServer server(inside, 2);
   const Plan plan = over_wire(inside, server.port());
   RunOptions options = seeded_options(scratch / "cut");
   options.before_move = [left = 2](const NextMove& move) mutable -> core::Result<void> {
@@ -391,17 +386,26 @@ TEST(ScanOverWire, ARunWhoseScansBeginBesideTheStartIsResumed) {
 }
 
 TEST(ScanOverWire, AMachineThatDoesNotScanIsRefusedBeforeItMoves) {
-  const WireServer server(shaft(), false);
-  const record::Scratch scratch;
-  const auto refused = run_plan(over_wire(shaft(), server.port()), seeded_options(scratch / "run"));
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, core::Code::kMachine);
-  EXPECT_EQ(refused.error().where, "/features/0/sampling/method");
-  EXPECT_THAT(refused.error().what,
-              AllOf(HasSubstr("feature seat is to be scanned"), HasSubstr("does not scan circles"),
-                    HasSubstr("give \"method\": \"touch\""), HasSubstr("nothing has moved")));
-  EXPECT_EQ(server.motions(), 0);
-  EXPECT_FALSE(std::filesystem::exists(scratch / "run")) << "there is nothing to record";
+  cmm::ipp::Profile no_parameters = cmm::ipp::as_recorded();
+  no_parameters.lacks.emplace_back("Tool.ScanPar");
+  Plan plan = shaft();
+  plan.machine->retract = MachinePlan::Retract::kByDistance;
+  for (const auto& [profile, why] : {std::pair(cmm::ipp::touches_only(), "OnScanReport"),
+                                     std::pair(no_parameters, "Tool.ScanPar")}) {
+    SCOPED_TRACE(why);
+    const WireServer server(shaft(), 0, profile);
+    const record::Scratch scratch;
+    const auto refused = run_plan(over_wire(plan, server.port()), seeded_options(scratch / "run"));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, core::Code::kMachine);
+    EXPECT_EQ(refused.error().where, "/features/0/sampling/method");
+    EXPECT_THAT(refused.error().what,
+                AllOf(HasSubstr("feature seat is to be scanned"),
+                      HasSubstr("does not scan circles"), HasSubstr(why),
+                      HasSubstr("give \"method\": \"touch\""), HasSubstr("nothing has moved")));
+    EXPECT_EQ(server.motions(), 0);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "run")) << "there is nothing to record";
+  }
 }
 
 TEST(ScanOverWire, AMachineThatDoesNotScanTouches) {
