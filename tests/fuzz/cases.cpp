@@ -15,6 +15,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/app/files.h"
+
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/common_interface_defs.h>
 #endif
@@ -103,8 +105,10 @@ class Watch {
 
 std::string repeat_command(unsigned seed) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  return fmt::format("RONDURE_FUZZ_SEED={} build/{}/tests/fuzz/fuzz_tests --gtest_filter={}.{}",
-                     seed, kSanitized ? "asan" : "release", test->test_suite_name(), test->name());
+  const auto program = std::filesystem::proximate(std::filesystem::read_symlink("/proc/self/exe"),
+                                                  app::testing::source_dir());
+  return fmt::format("RONDURE_FUZZ_SEED={} {} --gtest_filter={}.{}", seed, program.string(),
+                     test->test_suite_name(), test->name());
 }
 
 std::string result_of(unsigned seed, const std::function<std::string(unsigned)>& try_case) {

@@ -1,6 +1,5 @@
-// What is kept of earlier runs: archives, the results beside a run, calibrations, lists of digests.
+// What is kept of earlier runs: archives, the results beside a run.
 
-#include <algorithm>
 #include <array>
 #include <random>
 #include <string>
@@ -10,9 +9,7 @@
 #include "app/verbs/verbs.h"
 #include "core/utf8.h"
 #include "evaluation/evaluate.h"
-#include "fixture/calibration.h"
 #include "record/archive/archive.h"
-#include "record/checksums.h"
 #include "record/journal/journal.h"
 #include "reports/history/earlier_results.h"
 #include "reports/history/history.h"
@@ -22,6 +19,7 @@
 #include "tests/fuzz/overheard.h"
 #include "tests/fuzz/row_damage.h"
 #include "tests/fuzz/run_samples.h"
+#include "tests/fuzz/seeds.h"
 
 namespace rondure::fuzz {
 namespace {
@@ -91,34 +89,6 @@ TEST(KeptFuzz, NoDamagedArchiveUpsetsTheHistory) {
   });
 }
 
-std::vector<std::string> json_words() {
-  return {"null",
-          "-1",
-          "0",
-          "1e308",
-          "1e999",
-          "\"\"",
-          "[]",
-          "{}",
-          "true",
-          "\"mm\"",
-          "\"um\"",
-          "[[[[",
-          "]]]",
-          "NaN",
-          "\\u0000",
-          "\\ud800",
-          "\xff",
-          "\x1b",
-          ",",
-          ":",
-          "9223372036854775807",
-          "-5e-324",
-          "\"1970-01-01T00:00:00Z\"",
-          "360",
-          "0.5"};
-}
-
 TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
   reports::EarlierResults earlier;
   auto archive = record::Archive::open(
@@ -143,46 +113,6 @@ TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
                          reports::capability_in_words(chart).english();
       for (const core::Phrase& sentence : reports::history_sentences(chart)) text += sentence;
       if (auto wrong = wrong_with_text(text); !wrong.empty()) return wrong;
-    }
-    return {};
-  });
-}
-
-TEST(KeptFuzz, NoDamagedCalibrationUpsetsTheFixture) {
-  const Mutation mutation(
-      {app::testing::read(app::testing::example("03_calibration/fixture-calibration.json"))},
-      json_words());
-  try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
-    const auto parsed = fixture::parse_calibration(mutation.input(seed), "calibration.json");
-    if (!parsed) return wrong_with_text(core::printable(core::to_line(parsed.error())));
-    const auto again = fixture::parse_calibration(fixture::calibration_text(*parsed), "again");
-    if (!again) return "its own text is not read back: " + again.error().what;
-    const fixture::Kinematics kinematics = fixture::compensated({}, *parsed);
-    for (const double angle : {-1.0, 0.0, 0.3}) {
-      const Eigen::Isometry3d pose = fixture::body_to_machine(kinematics, {angle, -angle});
-      if (!pose.matrix().allFinite()) return "a pose that is not finite";
-    }
-    return {};
-  });
-}
-
-TEST(KeptFuzz, NoDamagedListOfDigestsUpsetsItsReader) {
-  const fs::path run = spool_run();
-  const Mutation mutation({app::testing::read(run / record::kChecksumsName)},
-                          {"  ", " *", "\n", "\\", "../", "/etc/passwd", "\r", "\xff", "journal.db",
-                           std::string(64, '0'), std::string(1, '\0')});
-  const fs::path folder = work_folder() / "digests";
-  fs::create_directory(folder);
-  try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
-    app::testing::write(folder / record::kChecksumsName, mutation.input(seed));
-    const auto read = record::read_checksums(folder);
-    if (!read) return wrong_with_text(core::printable(core::to_line(read.error())));
-    for (const record::Checksum& line : *read) {
-      const fs::path file(line.file);
-      const bool climbs = std::find(file.begin(), file.end(), "..") != file.end();
-      if (file.is_absolute() || climbs || line.sha256.size() != 64) {
-        return "a place outside: " + line.file;
-      }
     }
     return {};
   });

@@ -4,7 +4,16 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
+
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/internal/database.h"
+#include "record/journal/internal/chain.h"
+#include "record/journal/internal/schema.h"
+#include "record/journal/journal.h"
+#include "record/sha256.h"
 
 namespace rondure::fuzz {
 namespace {
@@ -114,6 +123,29 @@ void damage_rows(const std::filesystem::path& file, const std::vector<std::strin
     }
   }
   rows.tell("commit");
+}
+
+void reseal(const std::filesystem::path& directory) {
+  const std::filesystem::path file = directory / record::kJournalName;
+  {
+    soci::session sql(soci::sqlite3, record::connection_string(file).value());
+    sql << "pragma journal_mode = memory";
+    sql << "pragma synchronous = off";
+    soci::transaction all(sql);
+    sql << "delete from chain";
+    sql << "delete from seal";
+    {
+      record::Chain chain(sql);
+      for (const record::Table& table : record::chained_tables()) chain.append_all(table.name);
+    }
+    record::insert_seal(sql, record::kSchemaVersion);
+    all.commit();
+  }
+  const auto bytes = record::read_file(file);
+  if (!bytes ||
+      !record::update_checksums(directory, {{record::kJournalName, record::sha256_hex(*bytes)}})) {
+    throw std::runtime_error("no " + std::string(record::kChecksumsName));
+  }
 }
 
 }  // namespace rondure::fuzz

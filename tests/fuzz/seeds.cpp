@@ -68,4 +68,69 @@ const std::vector<std::string>& contour_tables() {
   return tables;
 }
 
+const std::vector<std::string>& table_words() {
+  static const std::vector<std::string> all = {"NaN",
+                                               "-INF",
+                                               "1e400",
+                                               "1e9",
+                                               "-1e9",
+                                               "1e-320",
+                                               "0",
+                                               "\n",
+                                               ",",
+                                               ",,",
+                                               "\r\n",
+                                               "#",
+                                               "\t",
+                                               ";",
+                                               "\"",
+                                               "1,5",
+                                               "x",
+                                               "x_mm",
+                                               "y",
+                                               "z",
+                                               "+",
+                                               "reference",
+                                               "\xef\xbb\xbf",
+                                               "\xff\xfe",
+                                               "\xc3",
+                                               "\x1b[2J",
+                                               "\xef\xbf\xbf",
+                                               "theta_deg",
+                                               "r_um",
+                                               "axis",
+                                               "alpha_deg",
+                                               "beta_deg"};
+  return all;
+}
+
+const std::vector<std::string>& json_words() {
+  static const std::vector<std::string> all = {"null",
+                                               "-1",
+                                               "0",
+                                               "1e308",
+                                               "1e999",
+                                               "\"\"",
+                                               "[]",
+                                               "{}",
+                                               "true",
+                                               "\"mm\"",
+                                               "\"um\"",
+                                               "[[[[",
+                                               "]]]",
+                                               "NaN",
+                                               "\\u0000",
+                                               "\\ud800",
+                                               "\xff",
+                                               "\x1b",
+                                               ",",
+                                               ":",
+                                               "9223372036854775807",
+                                               "-5e-324",
+                                               "\"1970-01-01T00:00:00Z\"",
+                                               "360",
+                                               "0.5"};
+  return all;
+}
+
 }  // namespace rondure::fuzz

@@ -16,4 +16,9 @@ namespace rondure::fuzz {
 /// Axes, then pin, then further tables.
 [[nodiscard]] const std::vector<std::string>& contour_tables();
 
+// Words to put into damaged files.
+
+[[nodiscard]] const std::vector<std::string>& table_words();
+[[nodiscard]] const std::vector<std::string>& json_words();
+
 }  // namespace rondure::fuzz

@@ -13,42 +13,6 @@
 namespace rondure::fuzz {
 namespace {
 
-const std::vector<std::string>& table_words() {
-  static const std::vector<std::string> all = {"NaN",
-                                               "-INF",
-                                               "1e400",
-                                               "1e9",
-                                               "-1e9",
-                                               "1e-320",
-                                               "0",
-                                               "\n",
-                                               ",",
-                                               ",,",
-                                               "\r\n",
-                                               "#",
-                                               "\t",
-                                               ";",
-                                               "\"",
-                                               "1,5",
-                                               "x",
-                                               "x_mm",
-                                               "y",
-                                               "z",
-                                               "+",
-                                               "reference",
-                                               "\xef\xbb\xbf",
-                                               "\xff\xfe",
-                                               "\xc3",
-                                               "\x1b[2J",
-                                               "\xef\xbf\xbf",
-                                               "theta_deg",
-                                               "r_um",
-                                               "axis",
-                                               "alpha_deg",
-                                               "beta_deg"};
-  return all;
-}
-
 /// Three of four cases are tables that can be read; the first byte is any.
 void try_door(unsigned quick, const std::vector<std::string>& tables,
               std::string (*entry)(std::string_view)) {
