@@ -110,8 +110,8 @@ TEST(Documents, NameSourcesThatAreThere) {
   }
   std::size_t checked = 0;
   for (const fs::path& document : all) {
-    for (const auto& quoted :
-         matches_of(text_of(document), R"(`(([a-z]+)/[\w/]+\.(h|cpp|py|sh))`)")) {
+    const std::string text = text_of(document);  // matches refer to it
+    for (const auto& quoted : matches_of(text, R"(`(([a-z]+)/[\w/]+\.(h|cpp|py|sh))`)")) {
       if (rooms.count(quoted[2]) == 0 && quoted[2] != "tests") continue;
       EXPECT_TRUE(fs::exists(root / quoted.str(1))) << document << ": " << quoted[1];
       ++checked;
