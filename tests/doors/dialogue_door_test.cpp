@@ -88,8 +88,10 @@ TEST(IppDoor, StandsLinesThatEndTooEarly) {
   ASSERT_GT(lines.size(), 50U);
   for (const std::string& line : lines) {
     for (std::size_t size = 0; size <= line.size(); ++size) {
-      const Exact exact(std::string_view(line).substr(0, size));
-      ASSERT_EQ(fuzz::try_ipp_grammar(exact.view()), "") << exact.view();
+      for (const std::string_view half : half_words()) {
+        const Exact exact(line.substr(0, size).append(half));
+        ASSERT_EQ(fuzz::try_ipp_grammar(exact.view()), "") << exact.view();
+      }
     }
   }
 }
@@ -147,7 +149,7 @@ std::vector<std::string> apt_answers() {
 TEST(ThorlabsDoor, StandsDamagedFrames) {
   const fuzz::Mutation mutation(apt_answers(), {"\x81\x50", "\x01\x50", std::string(90, '\xff'),
                                                 std::string(3, '\0'), "\x06\x00"});
-  fuzz::try_cases({3000}, [&](unsigned seed) -> std::string {
+  fuzz::try_cases({20'000}, [&](unsigned seed) -> std::string {
     QuickClock clock;
     unsigned number = seed;
     const auto answers = apt_answers();
@@ -231,7 +233,7 @@ TEST(ZaberDoor, StandsDamagedLines) {
   const fuzz::Mutation mutation(
       zaber_lines(), {"\n", "\r\n", ":", ":8D", "\\", "cont", "AGAIN", "99999999999999999999", "FF",
                       "@", "#", "!", " ", "\xff", std::string(5000, 'x')});
-  fuzz::try_cases({6000}, [&](unsigned seed) -> std::string {
+  fuzz::try_cases({20'000}, [&](unsigned seed) -> std::string {
     if (auto wrong = wrong_with_zaber_line(mutation.input(seed)); !wrong.empty()) return wrong;
     QuickClock clock;
     unsigned number = seed;
@@ -253,7 +255,10 @@ TEST(ZaberDoor, StandsDamagedLines) {
 TEST(ZaberDoor, StandsLinesThatEndTooEarly) {
   for (const std::string& line : zaber_lines()) {
     for (std::size_t size = 0; size <= line.size(); ++size) {
-      ASSERT_EQ(wrong_with_zaber_line(line.substr(0, size)), "") << line.substr(0, size);
+      for (const std::string_view half : half_words()) {
+        const std::string cut = line.substr(0, size).append(half);
+        ASSERT_EQ(wrong_with_zaber_line(cut), "") << cut;
+      }
     }
   }
 }
@@ -269,7 +274,7 @@ TEST(UsbDoor, StandsTransfersOfAnyLength) {
 
 TEST(UsbDoor, StandsDevicesThatDescribeAndSayAnything) {
   using Kind = wire::UsbEndpoint::Kind;
-  fuzz::try_cases({3000}, [](unsigned seed) -> std::string {
+  fuzz::try_cases({20'000}, [](unsigned seed) -> std::string {
     std::mt19937 random(seed);
     wire::MemoryUsbState state;
     state.info.vendor = 0x0403;
@@ -316,7 +321,7 @@ TEST(IndicatorDoor, StandsDamagedReadings) {
                                          "01A+0123.456\r", "911\r"};
   const fuzz::Mutation mutation(good, {"\r", "\n", "mm", "in", "1e400", "-", ".", "\xff",
                                        std::string(300, '0'), std::string(1, '\0')});
-  fuzz::try_cases({4000}, [&](unsigned seed) -> std::string {
+  fuzz::try_cases({20'000}, [&](unsigned seed) -> std::string {
     const std::string text = mutation.input(seed);
     const Exact exact(text);
     const auto reading = cmm::digimatic_reading(exact.view());

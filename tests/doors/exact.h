@@ -32,4 +32,12 @@ class Exact {
   return out;
 }
 
+/// Words and marks in the middle of which a text may end; none among them.
+[[nodiscard]] inline const std::vector<std::string_view>& half_words() {
+  static const std::vector<std::string_view> all = {
+      "",   "NaN",     "-Infinity", "1e999",    "nul", "-", "+", "1e", ".",
+      "\"", "\"\\u00", "\xc3",      "\xef\xbb", "/",   "'", "(", "#",  "\r"};
+  return all;
+}
+
 }  // namespace rondure::doors

@@ -75,7 +75,7 @@ fs::path copied_run(std::size_t index) {
 TEST(JournalDoor, StandsDamagedRowsThatWereSealedAgain) {
   std::vector<std::string> tables;
   for (const record::Table& table : record::chained_tables()) tables.emplace_back(table.name);
-  fuzz::try_cases({1500}, [&](unsigned seed) {
+  fuzz::try_cases({3000}, [&](unsigned seed) {
     std::mt19937 random(seed);
     const fs::path run = copied_run(random() % 3);
     fuzz::damage_rows(run / record::kJournalName, tables, random);
@@ -146,7 +146,7 @@ TEST(ArchiveDoor, StandsDamage) {
   const std::string good = app::testing::read(good_archive());
   ASSERT_GT(good.size(), 10'000U);
   const fs::path file = fuzz::work_folder() / "damaged-archive.db";
-  fuzz::try_cases({2000}, [&](unsigned seed) {
+  fuzz::try_cases({5000}, [&](unsigned seed) {
     std::mt19937 random(seed);
     for (const char* beside : {"-wal", "-shm", "-journal"}) fs::remove(file.string() + beside);
     const bool by_rows = random() % 3 != 0;

@@ -156,7 +156,7 @@ TEST(PlanDoor, ReadsTheGoodPlans) {
 
 TEST(PlanDoor, StandsDamagedBytes) {
   const fuzz::Mutation mutation(good_plans(), fuzz::json_words());
-  fuzz::try_cases({3000}, [&](unsigned seed) { return wrong_with_plan(mutation.input(seed)); });
+  fuzz::try_cases({20'000}, [&](unsigned seed) { return wrong_with_plan(mutation.input(seed)); });
 }
 
 TEST(PlanDoor, StandsDamagedValues) {
@@ -166,7 +166,10 @@ TEST(PlanDoor, StandsDamagedValues) {
 TEST(PlanDoor, StandsPlansThatEndTooEarly) {
   for (const std::string& text : good_plans()) {
     for (const std::size_t size : cuts_of(text.size(), 60)) {
-      ASSERT_EQ(wrong_with_plan(text.substr(0, size)), "") << size << " bytes of " << text;
+      for (const std::string_view half : half_words()) {
+        const std::string cut = text.substr(0, size).append(half);
+        ASSERT_EQ(wrong_with_plan(cut), "") << cut;
+      }
     }
   }
 }
