@@ -37,6 +37,7 @@ constexpr int kClock_s = 60 * kProcessor_s;  // others may be at work
 std::array<char, 512> g_repeat = {};
 
 void say_repeat(const char* what) {
+  if (g_repeat.front() == '\0') return;  // not in a case
   for (const char* text : {"\n", what, ": ", static_cast<const char*>(g_repeat.data()), "\n"}) {
     if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
   }
@@ -94,6 +95,7 @@ class Watch {
   }
   ~Watch() {
     wind_clocks(0, 0);
+    g_repeat.front() = '\0';
     if (!kSanitized) ::setrlimit(RLIMIT_DATA, &before_);
   }
   Watch(const Watch&) = delete;
