@@ -119,6 +119,14 @@ TEST(SimulateCmm, RefusesAPortInUseAPlanWithoutASimulationAndAStandstill) {
   EXPECT_THAT(no_profile.err, HasSubstr("--profile"));
 }
 
+/// The example over the wire, evaluated without trials and reported as JSON alone.
+json light_plan() {
+  json plan = json::parse(read(example("02_spool_over_ippdme.json")));
+  plan.merge_patch(R"({"reports": {"formats": ["json"]}, "uncertainty": null,
+                       "decision_rule": {"rule": "simple-acceptance"}})"_json);
+  return plan;
+}
+
 /// A run over the wire, halted in the middle of its touches.
 class HaltedRun {
  public:
@@ -148,7 +156,7 @@ class HaltedRun {
     return {"run", folder / "plan.json", "--out", folder / name, "--archive", "none"};
   }
   static std::vector<std::string> prepare(const TemporaryFolder& folder, std::uint16_t port) {
-    json plan = json::parse(read(example("02_spool_over_ippdme.json")));
+    json plan = light_plan();
     plan["machine"]["port"] = port;
     plan["machine"]["answer_limit_s"] = 300;  // the clock of the halted run goes on
     plan["machine"]["motion_limit_s"] = 300;
@@ -197,11 +205,9 @@ class SimulateCmmProfile : public ::testing::Test {
 
   /// The example with a part that is measured without scatter.
   static json quiet_plan(bool scanned) {
-    json plan = json::parse(read(example("02_spool_over_ippdme.json")));
-    plan.merge_patch(R"({"simulation": {"probe": {"repeatability_um": 0},
-                                        "fixture": {"repeatability_deg": 0}},
-                         "reports": {"formats": ["json"]}, "uncertainty": null,
-                         "decision_rule": {"rule": "simple-acceptance"}})"_json);
+    json plan = light_plan();
+    plan["simulation"]["probe"]["repeatability_um"] = 0;
+    plan["simulation"]["fixture"]["repeatability_deg"] = 0;
     plan["environment"]["assumed_degC"] = plan["simulation"]["temperature_degC"];
     if (scanned) {
       plan["features"][0]["sampling"] = {
