@@ -484,11 +484,12 @@ TEST(Wheel, StatesTheUncertaintyOfTheCentreItGives) {
     QuadrupleChoice choice;
   };
   using Choice = QuadrupleChoice;
+  const std::size_t many = test::full() ? 20000 : 2000;
   for (const Row& row :
        {Row{16, WheelMean::kLeastSquares, Choice::kAll},
         Row{100, WheelMean::kLeastSquares, Choice::kAll},
-        Row{20000, WheelMean::kLeastSquares, Choice::kAll},
-        Row{16, WheelMean::kWeighted, Choice::kAll}, Row{20000, WheelMean::kWeighted, Choice::kAll},
+        Row{many, WheelMean::kLeastSquares, Choice::kAll},
+        Row{16, WheelMean::kWeighted, Choice::kAll}, Row{many, WheelMean::kWeighted, Choice::kAll},
         Row{16, WheelMean::kAsPublished, Choice::kBest},
         Row{2000, WheelMean::kAsPublished, Choice::kAll}}) {
     for (const double arc_deg : {360.0, 120.0}) {
@@ -496,7 +497,10 @@ TEST(Wheel, StatesTheUncertaintyOfTheCentreItGives) {
                                         << name_of(row.mean) << ", " << name_of(row.choice));
       WheelOptions options = plain(row.mean);
       options.quadruples.choice = row.choice;
-      const Stated found = stated(row.points, arc_deg, options, row.points > 1000 ? 60 : 600);
+      // Single bad quadruples rule the best of them, so that 200 runs scatter too much there.
+      const int few = row.choice == Choice::kBest ? 600 : 200;
+      const Stated found =
+          stated(row.points, arc_deg, options, row.points > 1000 ? 60 : test::cases(few, 600));
       const double slack = row.points > 1000 ? 0.25 : 0.15;
       std::printf("%6zu points, %3.0f deg, %s, %s: centre %.2f, radius %.2f\n", row.points, arc_deg,
                   std::string(name_of(row.mean)).c_str(), std::string(name_of(row.choice)).c_str(),
