@@ -138,7 +138,7 @@ void reseal(const std::filesystem::path& directory) {
       record::Chain chain(sql);
       for (const record::Table& table : record::chained_tables()) chain.append_all(table.name);
     }
-    record::insert_seal(sql, record::kSchemaVersion);
+    record::insert_seal(sql);
     all.commit();
   }
   const auto bytes = record::read_file(file);
