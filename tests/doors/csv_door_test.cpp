@@ -70,8 +70,7 @@ std::string wrong_with_series(std::string_view text) {
 std::string wrong_with_table(const std::string& text) {
   const Exact exact(text);
   for (const auto& wrong :
-       {wrong_with(record::parse_points_csv(exact.view(), "table.csv")),
-        wrong_with(record::parse_feature_csv(exact.view(), "table.csv", "")),
+       {wrong_with(record::parse_feature_csv(exact.view(), "table.csv", "")),
         wrong_with(record::parse_feature_csv(exact.view(), "table.csv", "bore")),
         wrong_with(record::parse_profile_csv(exact.view(), "table.csv")),
         wrong_with(record::parse_ball_csv(exact.view(), "table.csv")),
