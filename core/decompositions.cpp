@@ -11,6 +11,11 @@ template SelfAdjointEigenSolver<Matrix4d>& SelfAdjointEigenSolver<Matrix4d>::com
 template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(
     const EigenBase<MatrixXd>&, int);
 template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
+template LDLT<Matrix2d>& LDLT<Matrix2d>::compute(const EigenBase<Matrix2d>&);
+template LDLT<Matrix3d>& LDLT<Matrix3d>::compute(const EigenBase<Matrix3d>&);
+template LDLT<Matrix4d>& LDLT<Matrix4d>::compute(const EigenBase<Matrix4d>&);
+template LDLT<Matrix<double, 5, 5>>& LDLT<Matrix<double, 5, 5>>::compute(
+    const EigenBase<Matrix<double, 5, 5>>&);
 template LDLT<Matrix<double, 6, 6>>& LDLT<Matrix<double, 6, 6>>::compute(
     const EigenBase<Matrix<double, 6, 6>>&);
 template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
