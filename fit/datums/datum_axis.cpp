@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/decompositions.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/least_squares/cylinder.h"

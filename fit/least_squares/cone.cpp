@@ -67,7 +67,7 @@ ConeFrame algebraic_cone(SpacePoints points, const Eigen::Vector3d& direction, d
     right += q.squaredNorm() * row;
   }
   // Two sections leave the term h^2 open; the others do not change with it.
-  const Eigen::VectorXd x = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(normal).solve(right);
+  const Eigen::VectorXd x = core::solve_pivoted_qr(normal, right);
   const Eigen::Vector2d center = length * x.head<2>();
   const Eigen::Vector2d drift = x.segment<2>(2);
   double hh = 0.0, he = 0.0, mean_h = 0.0, mean_e = 0.0;

@@ -42,7 +42,7 @@ core::Result<SphereModel> algebraic_sphere(SpacePoints points, const Eigen::Vect
                       "all points lie in one plane: the height of a sphere's centre above it is "
                       "undetermined (fit circle)");
   }
-  const Eigen::Vector3d center = scatter.ldlt().solve(cubes);
+  const Eigen::Vector3d center = core::solve_ldlt(scatter, cubes);
   return SphereModel{center, std::sqrt(center.squaredNorm() +
                                        scatter.trace() / static_cast<double>(points.size()))};
 }

@@ -118,9 +118,8 @@ Eigen::MatrixXd pose_covariance(const JointModel& model, const Eigen::VectorXd& 
   // The unknowns of the cylinder are in mm, all others near 1, so they are scaled before inversion.
   const Eigen::VectorXd size = derivatives.colwise().norm().cwiseMax(1e-300).transpose();
   const Eigen::MatrixXd scaled = derivatives * size.cwiseInverse().asDiagonal();
-  const int n = model.unknowns();
-  const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd normal = scaled.transpose() * scaled;
+  const Eigen::MatrixXd inverse = core::inverse_ldlt(normal);
   const int m = 6 * model.pose_count();
   const Eigen::VectorXd s = size.tail(m).cwiseInverse();
   const Eigen::MatrixXd block = s.asDiagonal() * inverse.bottomRightCorner(m, m) * s.asDiagonal();

@@ -97,7 +97,7 @@ Eigen::VectorXd least_squares(const AngularProfile& profile, int highest) {
     normal.noalias() += basis.leftCols(count) * basis.leftCols(count).transpose();
     right.noalias() += basis.leftCols(count) * values;
   }
-  Eigen::VectorXd x = normal.ldlt().solve(right);
+  Eigen::VectorXd x = core::solve_ldlt(normal, right);
   x(0) += level;
   return x;
 }

@@ -130,7 +130,7 @@ void RotaryModel::make_least_squares() {
     }
     root /= root.maxCoeff();
     const Eigen::MatrixXd weighted = root.asDiagonal() * rows;
-    fit_.emplace_back(weighted.colPivHouseholderQr().solve(Eigen::MatrixXd(root.asDiagonal())));
+    fit_.push_back(core::solve_pivoted_qr(weighted, Eigen::MatrixXd(root.asDiagonal())));
   }
 }
 

@@ -20,7 +20,7 @@ Eigen::Vector3d plot_centre(std::span<const double> alpha_rad, const std::vector
     normal += row * row.transpose();
     right += row * values[n];
   }
-  return normal.ldlt().solve(right);
+  return core::solve_ldlt(normal, right);
 }
 
 /// Largest difference of the revolutions at one angle.

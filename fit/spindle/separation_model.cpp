@@ -59,8 +59,7 @@ SeparationModel::SeparationModel(const ThreeProbeResult& result) : result_(resul
   highest_motion_ = std::max(2, std::min(highest, static_cast<int>((count - 1) / 3)));
   work_ = waves(result.alpha_rad, highest_motion_);
   const Eigen::MatrixXd normal = work_.transpose() * work_;
-  normal_inverse_ = Eigen::LDLT<Eigen::MatrixXd>(normal).solve(
-      Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  normal_inverse_ = core::inverse_ldlt(normal);
   const std::size_t rows = kPerUndulation * static_cast<std::size_t>(highest);
   std::vector<double> theta;
   for (std::size_t n = 0; n < count; ++n) theta.push_back(result.profile.angle_rad(n));

@@ -44,7 +44,7 @@ template <class Model, class SumsAt>
   for (int i = 0; i < kIterationLimit; ++i) {
     auto damped = sums.matrix;
     damped.diagonal() *= 1.0 + damping;
-    const Step step = damped.ldlt().solve(sums.right);
+    const Step step = core::solve_ldlt(damped, sums.right);
     if (!step.allFinite()) return false;
     const double size = step.cwiseAbs().maxCoeff();
     const double scale = model.scale_mm();
@@ -92,7 +92,7 @@ template <class Model, class SumsAt>
   double last = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kPassLimit; ++pass) {
     if (pass > 0) sums = sums_at(model, false);
-    last_step = factors.solve(sums.right);
+    last_step = core::solve_ldlt(factors, sums.right);
     if (!last_step.allFinite()) return false;
     const double size = last_step.cwiseAbs().maxCoeff();
     const double scale = model.scale_mm();

@@ -48,7 +48,7 @@ Equations equations_at(const std::vector<Vector3d>& places, std::span<const Stat
     out.weights.emplace_back((balls[i].measured_mm2 + balls[i].nominal_mm2).inverse());
     normal += rows.transpose() * out.weights[i] * rows;
   }
-  out.inverse = normal.ldlt().solve(Matrix6::Identity());
+  out.inverse = core::inverse_ldlt(normal);
   out.back.topRightCorner<3, 3>() = cross_matrix(out.centroid) / out.length;
   out.back.bottomRightCorner<3, 3>() = Matrix3d::Identity() / out.length;
   return out;
@@ -116,7 +116,7 @@ Vector6 printed_errors(const PublishedMatrix& printed, std::span<const StationBa
   PublishedMatrix scaled = printed;
   scaled.rightCols<3>() /= 100.0;
   const Matrix6 normal = scaled.transpose() * scaled;
-  Vector6 out = normal.ldlt().solve(scaled.transpose() * dp);
+  Vector6 out = core::solve_ldlt(normal, Vector6(scaled.transpose() * dp));
   out.tail<3>() /= 100.0;
   return out;
 }

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "core/decompositions.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/zone/ending.h"
 #include "fit/zone/internal/quadratic_program.h"
@@ -39,6 +39,37 @@ struct CoupledContact {
   std::size_t bound = 0;
   double multiplier = 0.0;  ///< Those of one bound sum to 1.
 };
+
+/// The equations of Newton's method at the optimum of a coupled zone: unknowns are the moves of the
+/// place, those of the bounds, and the multipliers.
+class OptimumEquations {
+ public:
+  OptimumEquations(Eigen::Index place, Eigen::Index bounds, std::size_t contacts);
+
+  /// Sets contact i, of a bound that is now at `value`.
+  void set(std::size_t i, const CoupledContact& contact, double sign, const MeasuredRow& row,
+           double value);
+  /// @return The unknowns; nothing if the equations are singular.
+  [[nodiscard]] std::optional<Eigen::VectorXd> solution() const;
+
+ private:
+  Eigen::Index place_ = 0;
+  Eigen::Index primal_ = 0;
+  Eigen::MatrixXd system_;
+  Eigen::VectorXd right_;
+};
+
+/// A symmetric matrix without the part of its negative eigenvalues.
+Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix);
+
+/// Orthonormal columns that span what is orthogonal to all columns of a matrix of full rank.
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& normals);
+
+/// The part of a vector in the span of orthonormal columns.
+Eigen::VectorXd part_along(const Eigen::MatrixXd& columns, const Eigen::VectorXd& v);
+
+/// Least eigenvalue of a symmetric matrix in the span of orthonormal columns.
+double least_curvature(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns);
 
 template <class Model>
 struct CoupledZone {
@@ -161,9 +192,7 @@ class CoupledDescent {
     for (const CoupledContact& c : last_) {
       out += c.multiplier * bounds_[c.bound].sign() * state_.model.row(c.row).hessian;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(out);
-    return principal.eigenvectors() * principal.eigenvalues().cwiseMax(0.0).asDiagonal() *
-           principal.eigenvectors().transpose();
+    return without_negative_part(out);
   }
 
   [[nodiscard]] std::vector<CoupledContact> contacts_of(const QuadraticStep& step) const {
@@ -206,7 +235,7 @@ class CoupledDescent {
   bool meet_next(const Eigen::VectorXd& toward, CoupledZone<Model>& at) const {
     if (static_cast<Eigen::Index>(at.contacts.size()) >= kPlace + count()) return false;
     const Eigen::MatrixXd along = kept_moves(at);
-    const Eigen::VectorXd move = along * (along.transpose() * toward);
+    const Eigen::VectorXd move = part_along(along, toward);
     if (!(move.norm() > 1e-6 * toward.norm())) return false;
     double nearest = std::numeric_limits<double>::infinity();
     CoupledContact next;
@@ -249,32 +278,20 @@ class CoupledDescent {
 
   /// @return The size of the step in the place; not a number if the equations are singular.
   double newton_step(CoupledZone<Model>& at) const {
-    const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
-    const Eigen::Index primal = kPlace + count();
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(primal + contacts, primal + contacts);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(primal + contacts);
-    right.segment(kPlace, count()).setOnes();
-    for (Eigen::Index i = 0; i < contacts; ++i) {
-      const CoupledContact& c = at.contacts[static_cast<std::size_t>(i)];
-      const MeasuredRow row = at.model.row(c.row);
-      const double sign = bounds_[c.bound].sign();
-      const auto bound = static_cast<Eigen::Index>(c.bound);
-      system.topLeftCorner(kPlace, kPlace) += c.multiplier * sign * row.hessian;
-      system.block(0, primal + i, kPlace, 1) = sign * row.gradient;
-      system(kPlace + bound, primal + i) = 1.0;
-      system.block(primal + i, 0, 1, kPlace) = -row.gradient.transpose();
-      system(primal + i, kPlace + bound) = 1.0;
-      right(primal + i) = row.value - at.bounds(bound);
+    OptimumEquations equations(kPlace, count(), at.contacts.size());
+    for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+      const CoupledContact& c = at.contacts[i];
+      equations.set(i, c, bounds_[c.bound].sign(), at.model.row(c.row),
+                    at.bounds(static_cast<Eigen::Index>(c.bound)));
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(system);
-    if (!factors.isInvertible()) return std::numeric_limits<double>::quiet_NaN();
-    const Eigen::VectorXd step = factors.solve(right);
-    at.model = at.model.moved(step.head(kPlace));
-    at.bounds += step.segment(kPlace, count());
-    for (Eigen::Index i = 0; i < contacts; ++i) {
-      at.contacts[static_cast<std::size_t>(i)].multiplier = step(primal + i);
+    const std::optional<Eigen::VectorXd> step = equations.solution();
+    if (!step) return std::numeric_limits<double>::quiet_NaN();
+    at.model = at.model.moved(step->head(kPlace));
+    at.bounds += step->segment(kPlace, count());
+    for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+      at.contacts[i].multiplier = (*step)(kPlace + count() + static_cast<Eigen::Index>(i));
     }
-    return step.head(kPlace).cwiseAbs().maxCoeff();
+    return step->head(kPlace).cwiseAbs().maxCoeff();
   }
 
   bool accept(CoupledZone<Model>& at) {
@@ -299,9 +316,7 @@ class CoupledDescent {
       normals.col(i).head(kPlace) = -at.model.slope(c.row).second;
       normals(kPlace + static_cast<Eigen::Index>(c.bound), i) = 1.0;
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals);
-    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(primal, primal);
-    return all.rightCols(primal - contacts);
+    return orthogonal_complement(normals);
   }
 
   /// Whether the value does not fall in any direction that keeps all contacts.
@@ -314,10 +329,7 @@ class CoupledDescent {
       curvature.topLeftCorner(kPlace, kPlace) +=
           c.multiplier * bounds_[c.bound].sign() * at.model.row(c.row).hessian;
     }
-    const Eigen::MatrixXd along = kept_moves(at);
-    const Eigen::MatrixXd reduced = along.transpose() * curvature * along;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(reduced);
-    return principal.eigenvalues()(0) > 0.0;
+    return least_curvature(curvature, kept_moves(at)) > 0.0;
   }
 
   std::vector<CoupledBound> bounds_;

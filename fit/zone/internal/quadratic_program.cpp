@@ -68,7 +68,7 @@ class ActiveLimits {
     if (size() == 0) return out;
     const Eigen::HouseholderQR<Eigen::MatrixXd> factors(normals_);
     for (int pass = 0; pass < 2; ++pass) {  // the second pass removes the rounding of the first
-      const Eigen::VectorXd more = factors.solve(rest);
+      const Eigen::VectorXd more = core::solve_qr(factors, rest);
       out += more;
       rest -= normals_ * more;
     }
