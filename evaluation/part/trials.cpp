@@ -171,9 +171,7 @@ void without_motion(std::span<const TouchedPoint> points, const Vector3d& middle
     const Vector3d turned = (point.position_mm - middle_mm).cross(point.normal);
     motions.row(i) << point.normal.transpose(), turned.transpose();
   }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(motions);
-  qr.setThreshold(1e-9);
-  const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(count, qr.rank());
+  const MatrixXd basis = core::column_space(motions, 1e-9);
   for (VectorXd& column : columns) {
     column.head(count) -= basis * (basis.transpose() * column.head(count));
   }
@@ -187,7 +185,7 @@ VectorXd radius_weights(std::span<const TouchedPoint> touches) {
     design.row(i) << touches[static_cast<std::size_t>(i)].normal.transpose(), 1.0;
   }
   const MatrixXd normal = design.transpose() * design;
-  return design * normal.ldlt().solve(Eigen::Vector4d::Unit(3));
+  return design * core::solve_ldlt(normal, VectorXd(Eigen::Vector4d::Unit(3)));
 }
 
 }  // namespace

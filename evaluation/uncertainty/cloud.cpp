@@ -88,9 +88,7 @@ Eigen::MatrixXd rigid_basis(const FormCloud& cloud) {
     basis.row(i).head(3) << 1.0, c, s;
     if (unknowns == 5) basis.row(i).tail(2) << q * c, q * s;
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
-  qr.setThreshold(1e-9);
-  return Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank()));
+  return core::column_space(basis, 1e-9);
 }
 
 }  // namespace rondure::evaluation

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
+#include "core/decompositions.h"
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/uncertainty/curve_trials.h"
@@ -125,8 +125,8 @@ class Edge {
     }
     // Householder columns stay orthonormal also where an arc hardly tells the orders apart.
     columns_.compute(basis);
-    found_ = columns_.householderQ().adjoint() * curve;
-    oval_ = columns_.householderQ().adjoint() * oval;
+    found_ = core::q_transposed_times(columns_, curve);
+    oval_ = core::q_transposed_times(columns_, oval);
   }
 
   [[nodiscard]] MeasuredCurve measured(double point_mm) const {
@@ -153,7 +153,7 @@ class Edge {
         Eigen::Map<const Eigen::VectorXd>(coefficients_mm.data(), found_.size()) +
         drawn.squareness_rad * oval_;
     if (quantity == Quantity::kLsRoundness) parts.head(3).setZero();  // the fit takes them out
-    const Eigen::VectorXd curve = columns_.householderQ() * parts;
+    const Eigen::VectorXd curve = core::q_times(columns_, parts);
     if (quantity == Quantity::kLsRoundness) return curve.maxCoeff() - curve.minCoeff();
     std::vector<Eigen::Vector2d> points_mm;
     points_mm.reserve(normals_.size());
@@ -183,7 +183,7 @@ class Edge {
       const double change = per_u([&](double k) {
         Eigen::VectorXd moved = Eigen::VectorXd::Zero(found_.size());
         moved(i) = k * point_mm;
-        const Eigen::VectorXd parts = found_ + columns_.householderQ().adjoint() * moved;
+        const Eigen::VectorXd parts = found_ + core::q_transposed_times(columns_, moved);
         return value(quantity, {parts.data(), static_cast<std::size_t>(parts.size())}, {});
       });
       squares += change * change;
@@ -200,7 +200,7 @@ class Edge {
       rows.row(i) << n.x(), n.y(), 1.0;
       oval(i) = radius_mm_ * n.x() * n.y();  // R / 2 sin 2 theta
     }
-    return rows.colPivHouseholderQr().solve(oval)(2);
+    return core::solve_pivoted_qr(rows, oval)(2);
   }
 
  private:
@@ -218,7 +218,7 @@ class Edge {
   [[nodiscard]] std::vector<Eigen::Index> deciding(Quantity quantity, double point_mm) const {
     constexpr Eigen::Index kMany = 500;
     std::vector<Eigen::Index> out;
-    const Eigen::VectorXd curve = columns_.householderQ() * found_;
+    const Eigen::VectorXd curve = core::q_times(columns_, found_);
     if (quantity == Quantity::kMzRoundness) {
       std::vector<Eigen::Vector2d> points_mm;
       for (std::size_t i = 0; i < normals_.size(); ++i) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include "core/decompositions.h"
 #include "core/phrase.h"
 #include "core/statistics.h"
 #include "core/units.h"
@@ -56,7 +55,9 @@ Eigen::VectorXd residuals(std::span<const double> angle_rad, const Eigen::Vector
     }
   }
   const Eigen::MatrixXd weighted = columns.transpose() * weights.asDiagonal();
-  const Eigen::VectorXd terms = (weighted * columns).ldlt().solve(weighted * r);
+  const Eigen::MatrixXd normal = weighted * columns;
+  const Eigen::VectorXd right = weighted * r;
+  const Eigen::VectorXd terms = core::solve_ldlt(normal, right);
   return r - columns * terms;
 }
 

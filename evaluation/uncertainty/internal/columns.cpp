@@ -236,11 +236,10 @@ void FormColumns::make_rigid(const FormCloud& cloud, const VectorXd& root_weight
     if (unknowns == 5) raw.row(i).tail(2) << q[i] * c, q[i] * s;
   }
   raw = root_weights.asDiagonal() * raw;
-  const Eigen::HouseholderQR<MatrixXd> qr(raw);
+  const core::ThinQr qr = core::thin_qr(raw);
   const double root_n = std::sqrt(static_cast<double>(n));
-  rigid_ = qr.householderQ() * MatrixXd::Identity(n, unknowns) * root_n;
-  const MatrixXd upper = qr.matrixQR().topRows(unknowns).triangularView<Eigen::Upper>();
-  rigid_map_ = root_n * upper.inverse();
+  rigid_ = qr.q * root_n;
+  rigid_map_ = root_n * qr.r.inverse();
 }
 
 VectorXd FormColumns::heights_1(const VectorXd& heights_mm) const {

@@ -397,7 +397,7 @@ void FormModel::first_state() {
   } else {
     MatrixXd normal = gram_(used, used);
     normal.diagonal().array() += 20.0 * noise_mm2_ / power_mm2_ + 1e-9 * n;
-    const VectorXd found = normal.llt().solve(VectorXd(products(used)));
+    const VectorXd found = core::solve_llt(normal, VectorXd(products(used)));
     coefficients_(used) = found;
   }
   size_mm2_.assign(bands_.size(), power_mm2_ / 20.0);
