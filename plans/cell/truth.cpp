@@ -10,9 +10,9 @@
 #include <utility>
 #include <variant>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/decompositions.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 #include "plans/cell/internal/hidden_errors.h"
@@ -180,7 +180,7 @@ std::optional<Line> least_squares(const std::vector<std::vector<Vector3d>>& surf
       right -= d.gradient.transpose() * d.value;
     }
     normal.diagonal().array() += 1e-12 * normal.diagonal().maxCoeff();
-    const VectorXd step = normal.ldlt().solve(right);
+    const VectorXd step = core::solve_ldlt(normal, right);
     x += step;
     if (step.norm() < 1e-14) return line_of(x, middle_mm);
   }
@@ -258,7 +258,7 @@ std::optional<Vector3d> center_of(const std::vector<Vector3d>& section) {
       normal += row * row.transpose();
       right -= row * (off.norm() - mean);
     }
-    const Vector3d step = normal.ldlt().solve(right);
+    const Vector3d step = core::solve_ldlt(normal, right);
     center += step.head<2>();
     if (step.head<2>().norm() < 1e-14) return Vector3d(center.x(), center.y(), z_mm);
   }
@@ -314,7 +314,9 @@ std::optional<Vector3d> face_normal(const Truth& face, bool ls) {
     const Eigen::RowVectorXd mean = h.gradient.colwise().mean();
     h.gradient.rowwise() -= mean;
     h.value.array() -= h.value.mean();
-    x -= (h.gradient.transpose() * h.gradient).ldlt().solve(h.gradient.transpose() * h.value);
+    const MatrixXd normal = h.gradient.transpose() * h.gradient;
+    const VectorXd right = h.gradient.transpose() * h.value;
+    x -= core::solve_ldlt(normal, right);
   }
   const double out_of = face.plan->nominal.faces != record::Faces::kDown ? 1.0 : -1.0;
   if (ls) return out_of * of(x).normalized();

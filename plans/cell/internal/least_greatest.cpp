@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include "core/decompositions.h"
 
 namespace rondure::plans {
 namespace {
@@ -51,7 +51,7 @@ std::optional<VectorXd> least_greatest(const Groups& groups, VectorXd start) {
       MatrixXd damped = at.hessian;
       damped.diagonal() *= 1.0 + damping;
       damped.diagonal().array() += 1e-15 * at.hessian.diagonal().maxCoeff() + 1e-300;
-      const VectorXd step = -damped.ldlt().solve(at.gradient);
+      const VectorXd step = -core::solve_ldlt(damped, at.gradient);
       expected_mm = -0.5 * at.gradient.dot(step);
       if (!step.allFinite() || expected_mm < 1e-3 * kSettled_mm) break;
       const Bound next = bound_of(groups(x + step), x.size(), sharpness);
