@@ -19,6 +19,7 @@ extern template SelfAdjointEigenSolver<Matrix4d>& SelfAdjointEigenSolver<Matrix4
     const EigenBase<Matrix4d>&, int);
 extern template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(
     const EigenBase<MatrixXd>&, int);
+extern template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 extern template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 extern template LDLT<Matrix2d>& LDLT<Matrix2d>::compute(const EigenBase<Matrix2d>&);
 extern template LDLT<Matrix3d>& LDLT<Matrix3d>::compute(const EigenBase<Matrix3d>&);
@@ -56,6 +57,19 @@ template <int N>
 /// x of matrix x = right for a positive definite matrix, by Cholesky.
 [[nodiscard]] Eigen::VectorXd solve_llt(const Eigen::MatrixXd& matrix,
                                         const Eigen::VectorXd& right);
+
+/// Lower triangular L with matrix = L L^T for a positive definite matrix, by Cholesky.
+[[nodiscard]] Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& matrix);
+
+/// Inverse of a square matrix, by LU with partial pivoting.
+[[nodiscard]] Eigen::MatrixXd inverse_lu(const Eigen::MatrixXd& matrix);
+
+/// The orthonormal factors of matrix = u diag(singular values, falling) v^T, both square.
+struct SingularVectors {
+  Eigen::MatrixXd u;
+  Eigen::MatrixXd v;
+};
+[[nodiscard]] SingularVectors singular_vectors(const Eigen::MatrixXd& matrix);
 
 /// Least-squares solution of matrix x = right, by QR with column pivoting.
 [[nodiscard]] Eigen::VectorXd solve_pivoted_qr(const Eigen::MatrixXd& matrix,

@@ -1,3 +1,6 @@
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
 #include "core/decompositions.h"
 
 namespace rondure::core {
@@ -54,6 +57,15 @@ template MatrixXd inverse_ldlt(const MatrixXd&);
 
 VectorXd solve_llt(const MatrixXd& matrix, const VectorXd& right) {
   return matrix.llt().solve(right);
+}
+
+MatrixXd cholesky_root(const MatrixXd& matrix) { return matrix.llt().matrixL(); }
+
+MatrixXd inverse_lu(const MatrixXd& matrix) { return matrix.inverse(); }
+
+SingularVectors singular_vectors(const MatrixXd& matrix) {
+  const Eigen::JacobiSVD<MatrixXd> split(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {split.matrixU(), split.matrixV()};
 }
 
 VectorXd solve_pivoted_qr(const MatrixXd& matrix, const VectorXd& right) {

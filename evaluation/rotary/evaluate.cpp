@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/SVD>
 
 #include "core/decompositions.h"
 #include "core/numbers.h"
@@ -258,9 +257,8 @@ std::vector<fixture::CommonMode> zero_pose_modes(const RotaryResult& facts,
   fit::Matrix6 to_beta = fit::Matrix6::Identity();  // t + w x d
   to_beta.topRightCorner<3, 3>() = -fit::cross_matrix(offset_mm);
   const Eigen::MatrixXd alike = beta.matrixL().solve(to_beta * alpha_root);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> split(alike, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const fit::Matrix6 beta_root =
-      fit::Matrix6(beta.matrixL()) * split.matrixU() * split.matrixV().transpose();
+  const core::SingularVectors split = core::singular_vectors(alike);
+  const fit::Matrix6 beta_root = fit::Matrix6(beta.matrixL()) * split.u * split.v.transpose();
   const auto turned = [](const fit::RotaryTable& table, const fit::Vector6& mode) {
     std::vector<fixture::ErrorVector> out;
     for (const fit::RotaryTableRow& row : table.rows) {

@@ -200,7 +200,7 @@ core::Result<void> set_zones(const JointModel& model, const Eigen::VectorXd& x,
   const auto zone = fitter.fit(joint.joint_B_mm, options.axis_B);
   if (!zone) return fail(zone.error());
   joint.joint_mm = zone->width_mm();
-  joint.u_joint_mm = spread_mm(model, x, unit.llt().matrixL(), joint, options.draws);
+  joint.u_joint_mm = spread_mm(model, x, core::cholesky_root(unit), joint, options.draws);
   joint.u_naive_mm = spread_mm(model, x, Eigen::MatrixXd::Identity(unit.rows(), unit.rows()), joint,
                                options.draws);
   return {};

@@ -239,7 +239,7 @@ void FormColumns::make_rigid(const FormCloud& cloud, const VectorXd& root_weight
   const core::ThinQr qr = core::thin_qr(raw);
   const double root_n = std::sqrt(static_cast<double>(n));
   rigid_ = qr.q * root_n;
-  rigid_map_ = root_n * qr.r.inverse();
+  rigid_map_ = root_n * core::inverse_lu(qr.r);
 }
 
 VectorXd FormColumns::heights_1(const VectorXd& heights_mm) const {
