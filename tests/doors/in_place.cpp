@@ -7,7 +7,7 @@
 #include "plans/checks/internal/plan_reach.h"
 #include "web/page.h"
 
-// Of the eight decompositions of core/decompositions.cpp the readers use two.
+// Of the decompositions of core/decompositions.cpp the readers use two.
 namespace Eigen {
 
 template SelfAdjointEigenSolver<Matrix3d>& SelfAdjointEigenSolver<Matrix3d>::compute(
