@@ -42,7 +42,7 @@ above() {  # ROOM
     for room in core fit wire record fixture cmm plans evaluation reports web app; do
       [[ "$found" == *" $room "* ]] && continue
       for below in $found; do
-        if grep -qE "rondure::$below(_error_model)?\b" "$room/CMakeLists.txt"; then
+        if grep -qE "rondure::$below\b" "$room/CMakeLists.txt"; then
           found+="$room " more=yes
           break
         fi
@@ -61,11 +61,13 @@ rooms_of() {
       tests/*) room=${file#tests/} room=${room%%/*} ;;
       *) room=${file%%/*} ;;
     esac
+    [[ "$file" != */error_model.* ]] || found+="$(above evaluation) "  # the one part of these rooms that it links
     case " $rooms " in
       *" $room "*) [[ "$file" == tests/* ]] && found+="$room " || found+="$(above "$room") " ;;
       *) found+="house " ;;  # documents
     esac
   done
+  [ "$found" != " " ] || return 0
   # The tests of the program's devices and doors, and those of the pages, see what the program does.
   [[ "$found" != *" app "* ]] || found+="usb fuzz "
   [[ "$found" != *" reports "* && "$found" != *" web "* ]] || found+="browser "
