@@ -12,7 +12,6 @@ template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::com
     const EigenBase<MatrixXd>&, int);
 template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
-template LDLT<Matrix2d>& LDLT<Matrix2d>::compute(const EigenBase<Matrix2d>&);
 template LDLT<Matrix3d>& LDLT<Matrix3d>::compute(const EigenBase<Matrix3d>&);
 template LDLT<Matrix4d>& LDLT<Matrix4d>::compute(const EigenBase<Matrix4d>&);
 template LDLT<Matrix<double, 5, 5>>& LDLT<Matrix<double, 5, 5>>::compute(

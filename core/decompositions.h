@@ -21,7 +21,6 @@ extern template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixX
     const EigenBase<MatrixXd>&, int);
 extern template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 extern template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
-extern template LDLT<Matrix2d>& LDLT<Matrix2d>::compute(const EigenBase<Matrix2d>&);
 extern template LDLT<Matrix3d>& LDLT<Matrix3d>::compute(const EigenBase<Matrix3d>&);
 extern template LDLT<Matrix4d>& LDLT<Matrix4d>::compute(const EigenBase<Matrix4d>&);
 extern template LDLT<Matrix<double, 5, 5>>& LDLT<Matrix<double, 5, 5>>::compute(
@@ -39,7 +38,7 @@ namespace rondure::core {
 // matrix that is not regular gives what Eigen gives, numbers that are not finite included, unless
 // the function says otherwise.
 
-/// x of matrix x = right for a symmetric matrix, by LDLT. N: 2 to 6, or Eigen::Dynamic.
+/// x of matrix x = right for a symmetric matrix, by LDLT. N: 3 to 6, or Eigen::Dynamic.
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, 1> solve_ldlt(const Eigen::Matrix<double, N, N>& matrix,
                                                      const Eigen::Matrix<double, N, 1>& right);

@@ -20,10 +20,6 @@ Eigen::Matrix<double, N, 1> solve_ldlt(const Eigen::LDLT<Eigen::Matrix<double, N
   return factors.solve(right);
 }
 
-template Eigen::Matrix<double, 2, 1> solve_ldlt(const Eigen::Matrix<double, 2, 2>&,
-                                                const Eigen::Matrix<double, 2, 1>&);
-template Eigen::Matrix<double, 2, 1> solve_ldlt(const Eigen::LDLT<Eigen::Matrix<double, 2, 2>>&,
-                                                const Eigen::Matrix<double, 2, 1>&);
 template Eigen::Matrix<double, 3, 1> solve_ldlt(const Eigen::Matrix<double, 3, 3>&,
                                                 const Eigen::Matrix<double, 3, 1>&);
 template Eigen::Matrix<double, 3, 1> solve_ldlt(const Eigen::LDLT<Eigen::Matrix<double, 3, 3>>&,
