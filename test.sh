@@ -78,7 +78,7 @@ rooms_of() {
 test_rooms() {  # ROOM...
   local room targets=()
   for room in "$@"; do
-    [[ " $rooms " == *" $room "* ]] || { echo "There is no room '$room'. Rooms: $rooms" >&2; exit 2; }
+    [[ " $rooms " == *" $room "* ]] || { echo "There is no room '$room'. Rooms: $rooms" | fold -s -w 79 >&2; exit 2; }
     case "$room" in
       browser | package) targets+=(rondure) ;;
       *) targets+=("${room}_tests") ;;
@@ -113,7 +113,8 @@ esac
 ensure_packages $rondure_build_packages $rondure_test_packages
 [ $# -eq 0 ] && mode=all || mode=$1
 if [ "$mode" = --changed ]; then
-  set -- $(changed_rooms "${2:-}")
+  changed=$(changed_rooms "${2:-}")
+  set -- $changed
   [ $# -gt 0 ] || { echo "Nothing has changed."; exit 0; }
   echo "Rooms: $*"
   [ "$1" != all ] || mode=all
