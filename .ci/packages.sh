@@ -96,7 +96,7 @@ build() {
   local full=OFF cache=build/$preset/CMakeCache.txt
   [ -z "${RONDURE_FULL:-}" ] || [ "$preset" != release ] || full=ON
   if [ ! -f "build/$preset/build.ninja" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ] ||
-    { [ "$testing" = ON ] && ! grep -q '^BUILD_TESTING:BOOL=ON' "$cache"; } || ! grep -q "^RONDURE_FULL:BOOL=$full" "$cache"; then
+    { [ "$testing" = ON ] && ! { grep -q '^BUILD_TESTING:BOOL=ON' "$cache" && grep -q "^RONDURE_FULL:BOOL=$full" "$cache"; }; }; then
     cmake --preset "$preset" -DBUILD_TESTING="$testing" -DRONDURE_FULL="$full" >"$log" 2>&1 || {
       echo "Configuring the build failed:" >&2
       explain_failure "$log" 'CMake Error'
