@@ -597,6 +597,9 @@ TEST(Uncertainty, RefusesWhatItCannotUse) {
   for (const Refusal& refusal : refusals) {
     SCOPED_TRACE(refusal.what);
     Question now;
+    if (test::full()) {
+      EXPECT_TRUE(measurement_uncertainty(now.cloud, now.influences, now.form, now.options));
+    }
     refusal.spoil(now);
     const auto result = measurement_uncertainty(now.cloud, now.influences, now.form, now.options);
     ASSERT_FALSE(result.has_value());
