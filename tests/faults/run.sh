@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Measures what the tests find: plants faults in a copy of the sources, and runs the tests once for each. See README.md.
+# Measures what the tests find: plants faults in a copy of the sources, and runs for each the tests that reach it. See
+# README.md.
 #   run.sh                         60 faults drawn by seed 1, and those by hand; goes on where it was stopped
 #   run.sh --seed S --count N      other faults
 #   run.sh --only 3,17             some of them
@@ -14,7 +15,7 @@ seed=1 count=60 work=$root/build/faults suite=default only="" preset=release tar
 while [ $# -gt 0 ]; do
   case "$1" in
     --seed | --count | --work | --suite | --only | --preset | --targets | --tests | --commit | --faults) ;;
-    *) sed -n '2,9s/^# \?//p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,10s/^# \?//p' "$0" >&2; exit 2 ;;
   esac
   [ $# -ge 2 ] || { echo "$1 needs a value" >&2; exit 2; }
   printf -v "${1#--}" %s "$2"
@@ -52,50 +53,65 @@ git -C "$tree" diff --quiet ||
   git -C "$tree" -c user.name=faults -c user.email=faults@localhost commit -qam "Faults, switched by RONDURE_FAULT"
 
 cd "$tree"
-[ -f "build/$preset/build.ninja" ] ||
-  cmake --preset "$preset" -DBUILD_TESTING=ON -DCMAKE_COMPILE_WARNING_AS_ERROR=OFF >"$work/configure-$preset.txt"
+[ "$suite" = full ] && full=ON || full=OFF  # builds the oracles, too
+grep -qs "^RONDURE_FULL:.*=$full" "build/$preset/CMakeCache.txt" ||
+  cmake --preset "$preset" -DBUILD_TESTING=ON -DRONDURE_FULL=$full -DCMAKE_COMPILE_WARNING_AS_ERROR=OFF \
+    >"$work/configure-$preset.txt"
 cmake --build --preset "$preset" --target $targets >"$work/build-$preset.txt" 2>&1 ||
   { tail -n 30 "$work/build-$preset.txt" >&2; exit 2; }
+tests_of() { find "build/$preset" -name '*_tests.cmake' -o -name CTestTestfile.cmake; }
+# Each test says its name to the programs that it starts.
+tests_of | xargs sed -i -E \
+  '/RONDURE_FAULT_TEST/!s|^(add_test\(\[=*\[([^]]*)\]=*\] +)|\1/usr/bin/env [==[RONDURE_FAULT_TEST=\2]==] |'
+ctest --preset "$preset" --show-only=json-v1 >"$work/tests.json"
 
-# Without a fault every test must pass. The slowest one says after what time a test hangs.
-name=$suite-$preset${tests:+-$(tr -c 'a-zA-Z0-9\n' _ <<<"$tests")}
+# Without a fault every test must pass; meanwhile each says which faults it reaches. The slowest one says after what
+# time a test hangs.
 TMPDIR=$(mktemp -d)
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
-if [ ! -f "$work/sound-$name.xml" ]; then
-  echo "The tests without a fault ($name)"
-  ctest --preset "$preset" ${tests:+-R "$tests"} --repeat until-pass:2 --output-junit "$work/sound.xml" \
-    </dev/null >"$work/sound-$name.txt" 2>&1 || {
-    tail -n 30 "$work/sound-$name.txt" >&2
+chmod 1777 "$TMPDIR"  # some tests start the program as another user
+reach=$work/reach-$preset
+mkdir -p "$reach"
+chmod 1777 "$reach"
+untraced=$("$here/reach.py" "$work/tests.json" "$reach")
+if [ -n "$untraced" ]; then
+  echo "The tests without a fault"
+  passed=yes
+  env -u RONDURE_FULL RONDURE_FAULT_TRACE="$reach" ctest --preset "$preset" -I "$untraced" ${tests:+-R "$tests"} \
+    --no-tests=ignore --repeat until-pass:2 --output-junit "$work/sound.xml" </dev/null \
+    >"$work/sound-$preset.txt" 2>&1 || passed=no
+  mv "$work/sound.xml" "$reach/$(date +%s).xml"
+  [ $passed = yes ] || {
+    tail -n 30 "$work/sound-$preset.txt" >&2
     echo "Without a fault not all tests pass: nothing is measured." >&2
     exit 2
   }
-  mv "$work/sound.xml" "$work/sound-$name.xml"
 fi
-hangs_after=$(grep -o '<testcase [^>]*' "$work/sound-$name.xml" | sed 's/.* time="\([0-9.]*\)".*/\1/' |
+hangs_after=$(grep -ho '<testcase [^>]*' "$reach"/*.xml | sed 's/.* time="\([0-9.]*\)".*/\1/' |
   awk '{ if ($1 > most) most = $1 } END { print (most > 15 ? int(4 * most) : 60) }')
-find "build/$preset" -name '*_tests.cmake' -o -name CTestTestfile.cmake |
-  xargs sed -i -E "s/\bTIMEOUT \"?[0-9.]+\"?/TIMEOUT $hangs_after/"
+[ "$suite" = default ] || hangs_after=600
+tests_of | xargs sed -i -E "s/\bTIMEOUT \"?[0-9.]+\"?/TIMEOUT $hangs_after/"
 
-# Once for each fault: the tests of its room, then those of the rooms above, then the others, until one fails.
-rooms="core fit wire record fixture cmm plans evaluation reports web app"
+# Once for each fault: of the tests that reach it the quick ones of its room, those of others, and the slow ones, until
+# one fails.
+name=$suite-$preset${tests:+-$(tr -c 'a-zA-Z0-9\n' _ <<<"$tests")}
 results=$work/results-$name.tsv
 [ -f "$results" ] || printf 'number\troom\tplace\tkind\tresult\ttest\tseconds\n' >"$results"
 while IFS=$'\t' read -r number room place kind _; do
   [ "$number" != number ] && ! grep -q "^$number"$'\t' "$results" || continue
   [ -z "$only" ] || [[ ",$only," = *",$number,"* ]] || continue
-  log=$work/fault-$number-$name.txt failed=build/$preset/Testing/Temporary/LastTestsFailed.log
-  above=${rooms#*"$room"}  # with a space before each
-  steps=(-R "^$room\\." -R "^(above${above// /|})\\." -E "^($room${above// /|})\\.")
-  [ -z "$tests" ] || steps=(-R "$tests")
-  start=$SECONDS result="not found" test=""
+  temporary=build/$preset/Testing/Temporary log=$work/fault-$number-$name.txt
+  start=$SECONDS result="not reached" test="" failed=""
   rm -rf "$log" "${TMPDIR:?}"/*
-  for ((step = 0; step < ${#steps[@]}; step += 2)); do
-    rm -f "$failed"
-    RONDURE_FAULT=$number ctest --preset "$preset" --stop-on-failure --no-tests=ignore --repeat until-pass:2 \
-      --timeout "$hangs_after" "${steps[@]:step:2}" </dev/null >>"$log" 2>&1 && continue
-    [ -s "$failed" ] || { echo "ctest did not run: see $log" >&2; exit 2; }
-    result=found test=$(head -n 1 "$failed" | cut -d: -f2-)
+  for step in $("$here/reach.py" "$work/tests.json" "$reach" "$number" "$room"); do
+    result="not found"
+    rm -f "$temporary"/{LastTestsFailed.log,CTestCostData.txt}  # not the slow ones first
+    RONDURE_FAULT=$number ctest --preset "$preset" -I "$step" ${tests:+-R "$tests"} --stop-on-failure \
+      --no-tests=ignore --repeat until-pass:2 --timeout "$hangs_after" </dev/null >>"$log" 2>&1 && continue
+    IFS=: read -r failed test <"$temporary/LastTestsFailed.log" || [ -n "$failed" ] ||
+      { echo "ctest did not run: see $log" >&2; exit 2; }
+    ctest --preset "$preset" -I "0,0,0,$failed" </dev/null >>"$log" 2>&1 && result=found || result="fails without it"
     break
   done
   printf '%s\t' "$number" "$room" "$place" "$kind" "$result" "$test" | tee -a "$results"
