@@ -1,6 +1,11 @@
 #include "core/round_values.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
+
+#include "core/units.h"
 
 namespace rondure::core {
 
@@ -34,6 +39,20 @@ std::vector<double> decade_ticks(double low, double high) {
     }
   }
   return ticks;
+}
+
+double stated_degrees(double angle_rad) {
+  const double deg = angle_rad / kDegree;
+  for (int digits = 1; std::isfinite(deg) && digits <= std::numeric_limits<double>::max_digits10;
+       ++digits) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), deg,
+                                   std::chars_format::general, digits);
+    double stated = 0.0;
+    std::from_chars(text.data(), end.ptr, stated);
+    if (stated * kDegree == angle_rad) return stated;
+  }
+  return deg;
 }
 
 }  // namespace rondure::core

@@ -16,4 +16,8 @@ namespace rondure::core {
 /// decades.
 [[nodiscard]] std::vector<double> decade_ticks(double low, double high);
 
+/// The angle in degrees, as the number with the fewest digits that is this angle to the last bit:
+/// 60 deg of a plan leave as 60, not as 59.99999999999999.
+[[nodiscard]] double stated_degrees(double angle_rad);
+
 }  // namespace rondure::core

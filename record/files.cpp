@@ -1,5 +1,6 @@
 #include "record/files.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -12,6 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "record/sha256.h"
+
 namespace rondure::record {
 namespace {
 
@@ -20,10 +23,15 @@ namespace fs = std::filesystem;
 /// An open file descriptor, closed at the end of its scope.
 class OpenFile {
  public:
-  OpenFile(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  /// @param folder  Descriptor of the folder that a relative path begins in.
+  OpenFile(const fs::path& path, int flags, int folder = AT_FDCWD)
+      : fd_(::openat(folder, path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~OpenFile() { close(); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
+  OpenFile(OpenFile&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  OpenFile& operator=(OpenFile&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
 
   [[nodiscard]] bool ok() const { return fd_ >= 0; }
   [[nodiscard]] int fd() const { return fd_; }
@@ -58,14 +66,107 @@ bool write_through(OpenFile& file, std::string_view bytes) {
 constexpr std::string_view kTemporaryPrefix = ".rondure-";
 constexpr std::string_view kTemporarySuffix = ".tmp";
 
-/// A name in the folder of `path` that cannot be predicted and that no leftover file has. Process
-/// numbers repeat: in a container every program is number 1.
-fs::path temporary_name(const fs::path& path) {
+/// A name that cannot be predicted and that no leftover file has. Process numbers repeat: in a
+/// container every program is number 1.
+std::string temporary_name() {
   std::uint64_t number = 0;
   while (::getrandom(&number, sizeof number, 0) < 0 && errno == EINTR) {
   }
-  return path.parent_path() /
-         fmt::format("{}{:016x}{}", kTemporaryPrefix, number, kTemporarySuffix);
+  return fmt::format("{}{:016x}{}", kTemporaryPrefix, number, kTemporarySuffix);
+}
+
+/// Opens a folder below a directory, no link followed on the way.
+/// @param verb  What is done there, for messages.
+/// @param make  Makes the folder where it is missing.
+core::Result<OpenFile> open_folder(std::string_view verb, const fs::path& directory,
+                                   const fs::path& folder, bool make = false) {
+  OpenFile at(directory.empty() ? fs::path(".") : directory, O_RDONLY | O_DIRECTORY);
+  if (!at.ok()) return cannot(verb, directory, errno);
+  fs::path reached = directory;
+  for (const fs::path& step : folder) {
+    reached /= step;
+    if (step == ".." || step.is_absolute())
+      return cannot(verb, reached, "it lies outside of the directory");
+    if (make && ::mkdirat(at.fd(), step.c_str(), 0777) != 0 && errno != EEXIST)
+      return cannot(verb, reached, errno);
+    OpenFile next(step, O_RDONLY | O_DIRECTORY | O_NOFOLLOW, at.fd());
+    if (!next.ok() && (errno == ENOTDIR || errno == ELOOP)) {
+      return cannot(verb, reached,
+                    "it is a link or a file, not a folder of this run; move it away");
+    }
+    if (!next.ok()) return cannot(verb, reached, errno);
+    at = std::move(next);
+  }
+  return at;
+}
+
+/// Reads a file in pieces.
+/// @param take  Called with each piece, and with the length that the file has now.
+template <class Take>
+core::Result<void> read_pieces(const OpenFile& file, const fs::path& path,
+                               std::uintmax_t most_bytes, const Take& take) {
+  if (!file.ok()) return cannot("read", path, errno);
+  struct stat status = {};
+  if (::fstat(file.fd(), &status) != 0) return cannot("read", path, errno);
+  if (S_ISDIR(status.st_mode)) return cannot("read", path, EISDIR);
+  if (!S_ISREG(status.st_mode)) {
+    return cannot("read", path, "it is a device or a pipe; name a file");
+  }
+  const auto length = static_cast<std::uintmax_t>(status.st_size);
+  std::uintmax_t bytes = length;
+  std::array<char, 1 << 16>
+      piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
+  for (std::uintmax_t taken = 0; bytes <= most_bytes; bytes = std::max(length, taken)) {
+    const ssize_t count = ::read(file.fd(), piece.data(), piece.size());
+    if (count == 0) return {};
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return cannot("read", path, errno);
+    take(std::string_view(piece.data(), static_cast<std::size_t>(count)), length);
+    taken += static_cast<std::uintmax_t>(count);  // it may grow while it is read
+  }
+  return cannot("read", path,
+                fmt::format("it has {} bytes, the limit for such a file is {}", bytes, most_bytes));
+}
+
+core::Result<std::string> read_open(const OpenFile& file, const fs::path& path,
+                                    std::uintmax_t most_bytes) {
+  std::string bytes;
+  const auto read = read_pieces(file, path, most_bytes, [&](std::string_view piece, auto length) {
+    if (bytes.empty()) bytes.reserve(static_cast<std::size_t>(length) + 1);
+    bytes += piece;
+  });
+  if (!read) return core::fail(read.error());
+  return bytes;
+}
+
+// Opened without waiting: a pipe without a writer would block the program forever.
+constexpr int kReadFlags = O_RDONLY | O_NONBLOCK | O_NOCTTY;
+
+/// Writes a file whole into an open folder.
+/// @param path  Of the file, for messages.
+core::Result<void> write_at(const OpenFile& folder, const fs::path& path, std::string_view bytes) {
+  const fs::path name = path.filename();
+  if (name.empty()) return cannot("write", path, EISDIR);
+  struct stat there = {};
+  if (::fstatat(folder.fd(), name.c_str(), &there, 0) == 0) {
+    if (S_ISDIR(there.st_mode)) return cannot("write", path, EISDIR);
+    if (!S_ISREG(there.st_mode)) {  // a file would replace it
+      return cannot("write", path, "it is a device or a pipe; name a file");
+    }
+  }
+  const std::string temporary = temporary_name();
+  OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL, folder.fd());
+  if (!file.ok()) return cannot("write", path, errno);
+  if (!write_through(file, bytes) ||
+      ::renameat(folder.fd(), temporary.c_str(), folder.fd(), name.c_str()) != 0) {
+    const int reason = errno;
+    ::unlinkat(folder.fd(), temporary.c_str(), 0);
+    return cannot("write", path, reason);
+  }
+  // EINVAL comes from file systems on which a folder needs no flush.
+  if (::fsync(folder.fd()) != 0 && errno != EINVAL)
+    return cannot("flush the folder", path.parent_path(), errno);
+  return {};
 }
 
 }  // namespace
@@ -95,27 +196,27 @@ std::string system_reason(int error_number) {
   }
 }
 
-core::Result<std::string> read_file(const fs::path& path) {
-  // Opened without waiting: a pipe without a writer would block the program forever.
-  const OpenFile file(path, O_RDONLY | O_NONBLOCK | O_NOCTTY);
-  if (!file.ok()) return cannot("read", path, errno);
-  struct stat status = {};
-  if (::fstat(file.fd(), &status) != 0) return cannot("read", path, errno);
-  if (S_ISDIR(status.st_mode)) return cannot("read", path, EISDIR);
-  if (!S_ISREG(status.st_mode)) {
-    return cannot("read", path, "it is a device or a pipe; name a file");
-  }
-  std::string bytes;
-  bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
-  std::array<char, 1 << 16>
-      piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
-  while (true) {
-    const ssize_t count = ::read(file.fd(), piece.data(), piece.size());
-    if (count == 0) return bytes;
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return cannot("read", path, errno);
-    bytes.append(piece.data(), static_cast<std::size_t>(count));
-  }
+core::Result<std::string> read_file(const fs::path& path, std::uintmax_t most_bytes) {
+  return read_open(OpenFile(path, kReadFlags), path, most_bytes);
+}
+
+core::Result<std::string> read_inside(const fs::path& directory, const fs::path& name,
+                                      std::uintmax_t most_bytes) {
+  const auto folder = open_folder("read", directory, name.parent_path());
+  if (!folder) return core::fail(folder.error());
+  return read_open(OpenFile(name.filename(), kReadFlags, folder->fd()), directory / name,
+                   most_bytes);
+}
+
+core::Result<std::string> sha256_inside(const fs::path& directory, const fs::path& name) {
+  const auto folder = open_folder("read", directory, name.parent_path());
+  if (!folder) return core::fail(folder.error());
+  Sha256 hash;
+  const auto read =
+      read_pieces(OpenFile(name.filename(), kReadFlags, folder->fd()), directory / name,
+                  kMostJournalBytes, [&](std::string_view piece, auto) { hash.add(piece); });
+  if (!read) return core::fail(read.error());
+  return hash.hex();
 }
 
 core::Result<void> sync_directory(const fs::path& directory) {
@@ -127,32 +228,50 @@ core::Result<void> sync_directory(const fs::path& directory) {
   return {};
 }
 
-void remove_temporaries(const fs::path& directory) {
-  std::error_code ignored;  // a file that cannot be removed does no harm
-  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+void remove_temporaries(const fs::path& directory, const fs::path& folder) {
+  const auto at = open_folder("clear", directory, folder);
+  if (!at) return;  // a file that cannot be removed does no harm
+  std::error_code ignored;
+  // The folder that was opened, whatever its name leads to by now.
+  for (const auto& entry :
+       fs::directory_iterator(fmt::format("/proc/self/fd/{}", at->fd()), ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with(kTemporaryPrefix) && name.ends_with(kTemporarySuffix)) {
-      fs::remove(entry.path(), ignored);
+      ::unlinkat(at->fd(), name.c_str(), 0);
     }
   }
 }
 
 core::Result<void> write_file(const fs::path& path, std::string_view bytes) {
-  std::error_code ignored;  // an error here occurs again below, with its reason
-  if (fs::is_directory(path, ignored)) return cannot("write", path, EISDIR);
-  const fs::file_status there = fs::status(path, ignored);
-  if (fs::exists(there) && !fs::is_regular_file(there)) {  // a file would replace it
-    return cannot("write", path, "it is a device or a pipe; name a file");
+  const OpenFile folder(path.has_parent_path() ? path.parent_path() : fs::path("."),
+                        O_RDONLY | O_DIRECTORY);
+  if (!folder.ok()) return cannot("write", path, errno);
+  return write_at(folder, path, bytes);
+}
+
+core::Result<void> write_inside(const fs::path& directory, const fs::path& name,
+                                std::string_view bytes) {
+  const auto folder = open_folder("write", directory, name.parent_path(), true);
+  if (!folder) return core::fail(folder.error());
+  return write_at(*folder, directory / name, bytes);
+}
+
+core::Result<void> remove_inside(const fs::path& directory, const fs::path& name) {
+  const auto folder = open_folder("remove", directory, name.parent_path());
+  if (!folder) return core::fail(folder.error());
+  if (::unlinkat(folder->fd(), name.filename().c_str(), 0) == 0) return {};
+  return cannot("remove", directory / name, errno);
+}
+
+std::string plain_name(std::string_view name) {
+  constexpr std::size_t kLongest = 100;
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789.-_";
+  std::string out(name.substr(0, kLongest));
+  for (char& c : out) {
+    if (kPlain.find(c) == std::string_view::npos) c = '_';
   }
-  const fs::path temporary = temporary_name(path);
-  OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-  if (!file.ok()) return cannot("write", path, errno);
-  if (!write_through(file, bytes) || ::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
-    ::unlink(temporary.c_str());
-    return cannot("write", path, reason);
-  }
-  return sync_directory(path.parent_path());
+  return out;
 }
 
 }  // namespace rondure::record

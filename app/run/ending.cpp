@@ -1,6 +1,7 @@
 #include "app/run/ending.h"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -140,7 +141,7 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
   }
   if (!arguments.quiet) {
     say(reports::write_summary(evaluated.record, evaluation, sketch_style(), language));
-    for (const fs::path& file : *written) say_line(file.string());
+    say_written(*written);
   }
   if (failed) return kRunFailed;
   (void)archive_run(archive, directory, evaluated.record, evaluation);
@@ -168,7 +169,7 @@ int conclude(const RunToFinish& ending, plans::Run& run) {
 int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   record::remove_temporaries(directory);
-  record::remove_temporaries(directory / reports::kCorrectionsFolder);
+  record::remove_temporaries(directory, reports::kCorrectionsFolder);
   if (auto closed = close_sealed(held.read, directory); !closed) {
     return fail_run(closed.error(), live);
   }
@@ -182,6 +183,17 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
                    directory.string()));
   return conclude_evaluated(ending, *evaluated, nullptr);
+}
+
+void say_written(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    say_line(file.string());
+    if (file.filename() != reports::kCorrectionsFile) continue;
+    std::istringstream summary(record::read_file(file).value_or(""));
+    for (std::string line; std::getline(summary, line);) {
+      if (line.find(": none: ") != std::string::npos) say_line("  " + line);
+    }
+  }
 }
 
 std::optional<record::RunRecord> read_sound_record(const std::string& directory) {

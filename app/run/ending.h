@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ namespace rondure::app {
 /// archived. Measures nothing.
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
+
+/// Prints the names of the files that were written, and of corrections.txt the features that have
+/// none, with the reason: a technician who asked for a table would miss it at the machine.
+void say_written(const std::vector<std::filesystem::path>& files);
 
 /// The record of a run that can be evaluated; none, after a message for every fault, when its
 /// journal cannot be read or is damaged.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/round_values.h"
 #include "core/units.h"
 
 namespace rondure::app {
@@ -131,8 +132,8 @@ std::string tool_line(const plans::ProbePlan& probe) {
 ordered_json stage_json(const plans::Plan& plan, const ForecastStage& stage) {
   ordered_json out = {{"stage", name_of(stage.kind)}, {"feature", feature_of(plan, stage)}};
   if (stage.feature >= 0) {
-    out["alpha_deg"] = stage.pose.alpha_rad / core::kDegree;
-    out["beta_deg"] = stage.pose.beta_rad / core::kDegree;
+    out["alpha_deg"] = core::stated_degrees(stage.pose.alpha_rad);
+    out["beta_deg"] = core::stated_degrees(stage.pose.beta_rad);
     out["final"] = stage.final_cloud;
   }
   out["times"] = stage.times;

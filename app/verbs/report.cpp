@@ -62,7 +62,7 @@ int report(const ReportArguments& arguments) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(*record, *evaluation, sketch_style(), language));
-  for (const auto& file : *written) say_line(file.string());
+  say_written(*written);
   return exit_status(evaluation->verdict);
 }
 

@@ -1,6 +1,6 @@
 #include "reports/data/corrections.h"
 
-#include <algorithm>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/correction/axis_tables.h"
 #include "evaluation/correction/x_of_c.h"
+#include "record/files.h"
 #include "record/sha256.h"
 
 namespace rondure::reports {
@@ -25,30 +27,6 @@ using core::shortest;
 using core::um;
 using evaluation::FeatureResult;
 using record::Shape;
-
-bool gives_correction(const record::Feature& feature) {
-  return feature.shape == Shape::kContour || feature.shape == Shape::kRotaryAxes;
-}
-
-/// The id of a feature as part of a file's name: letters, digits, dot, dash and underscore, the
-/// others as underscores. A name that is taken gets the number of the feature.
-std::vector<std::string> file_names(const record::RunRecord& record) {
-  constexpr std::size_t kLongest = 100;
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789.-_";
-  std::vector<std::string> out;
-  for (const record::Feature& feature : record.features) {
-    std::string name = feature.id.substr(0, kLongest);
-    for (char& c : name) {
-      if (kPlain.find(c) == std::string_view::npos) c = '_';
-    }
-    if (std::find(out.begin(), out.end(), name) != out.end()) {
-      name += fmt::format("-{}", out.size() + 1);
-    }
-    out.push_back(std::move(name));
-  }
-  return out;
-}
 
 /// SHA-256 of all that was recorded for a feature: rows of its series, places of its touches.
 std::string data_hash(const record::RunRecord& record, int feature) {
@@ -146,7 +124,7 @@ std::string axis_rows(const evaluation::AxisFacts& axis) {
       "axis,angle_deg,EX_um,EY_um,EZ_um,EA_urad,EB_urad,EC_urad,u_EX_um,u_EY_um,u_EZ_um,"
       "u_EA_urad,u_EB_urad,u_EC_urad\n";
   for (const fixture::AxisStation& station : axis.motion->stations()) {
-    text += fmt::format("{},{}", axis.key, shortest(station.angle_rad / core::kDegree));
+    text += fmt::format("{},{}", axis.key, shortest(core::stated_degrees(station.angle_rad)));
     const Eigen::Matrix<double, 6, 1> u = station.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
     for (const double v : station.errors.shift_mm) text += "," + shortest(v / kMicrometre);
     for (const double v : station.errors.tilt_rad) text += "," + shortest(v / kMicroradian);
@@ -186,25 +164,30 @@ Handed axis_tables(const record::RunRecord& record, int index, const FeatureResu
   return out;
 }
 
-}  // namespace
-
-bool can_correct(const record::RunRecord& record) {
-  return record.ending == "finished" &&
-         std::any_of(record.features.begin(), record.features.end(), gives_correction);
+/// The tables of any feature.
+Handed tables_of(const record::RunRecord& record, int index, const FeatureResult& result) {
+  const std::string name = record::plain_name(result.feature.id);
+  if (result.feature.shape == Shape::kContour) return contour_tables(record, index, result, name);
+  if (result.feature.shape == Shape::kRotaryAxes) return axis_tables(record, index, result, name);
+  return {{}, "none: only a contour and a calibrated fixture give a correction for a machine"};
 }
+
+}  // namespace
 
 Corrections write_corrections(const record::RunRecord& record,
                               const evaluation::Evaluation& evaluation) {
   Corrections out;
   out.summary = fmt::format("# rondure corrections, run {}\n", printable(record.header.run_id));
-  const auto names = file_names(record);
-  for (std::size_t i = 0; i < evaluation.features.size() && i < names.size(); ++i) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     const FeatureResult& result = evaluation.features[i];
-    if (!gives_correction(result.feature)) continue;
-    const auto index = static_cast<int>(i);
-    Handed handed = result.feature.shape == Shape::kContour
-                        ? contour_tables(record, index, result, names[i])
-                        : axis_tables(record, index, result, names[i]);
+    Handed handed = tables_of(record, static_cast<int>(i), result);
+    for (const CorrectionTable& table : handed.tables) {
+      if (taken.insert(table.file).second) continue;
+      // A control would take the table of another feature. `validate` refuses such names.
+      handed = {{}, fmt::format("none: {} is of another feature; rename one", table.file)};
+      break;
+    }
     out.summary += fmt::format("{}: {}\n", printable(result.feature.id), handed.line);
     for (CorrectionTable& table : handed.tables) out.tables.push_back(std::move(table));
   }

@@ -26,11 +26,9 @@ struct Corrections {
   std::vector<CorrectionTable> tables;
 };
 
-/// Whether a run has features that can give a correction: contours, and a calibration of a fixture.
-[[nodiscard]] bool can_correct(const record::RunRecord& record);
-
-/// The corrections of a run. A feature that is void, or whose predicted gain is not significant,
-/// has no table. Takes the trials of one value for each feature.
+/// The corrections of a run: tables of contours and of a calibrated fixture. A feature that is
+/// void, or whose predicted gain is not significant, has no table. Takes the trials of one value
+/// for each feature.
 [[nodiscard]] Corrections write_corrections(const record::RunRecord& record,
                                             const evaluation::Evaluation& evaluation);
 

@@ -66,7 +66,7 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
 }
 
 /// Writes one export whole, if it is valid; returns its digest.
-core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& path,
+core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& directory,
                                          const record::Header& header, std::string bytes,
                                          Paper paper) {
   if (what.format == Format::kPdf) {
@@ -75,11 +75,8 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
     bytes = std::move(*printed);
   }
   if (auto sound = look_through(what, bytes); !sound) return core::fail(sound.error());
-  if (what.file.find('/') != std::string::npos) {
-    std::error_code ignored;  // an error here occurs again below, with its reason
-    std::filesystem::create_directory(path.parent_path(), ignored);
-  }
-  if (auto done = record::write_file(path, bytes); !done) return core::fail(done.error());
+  if (auto done = record::write_inside(directory, what.file, bytes); !done)
+    return core::fail(done.error());
   return record::Checksum{what.file, record::sha256_hex(bytes)};
 }
 
@@ -97,13 +94,11 @@ core::Result<std::vector<std::string>> remove_old_tables(const std::filesystem::
                     [&](const Rendered& made) { return made.what.file == line.file; })) {
       continue;
     }
-    const auto bytes = record::read_file(directory / line.file);
+    const auto bytes = record::read_inside(directory, line.file);
     if (!bytes || record::sha256_hex(*bytes) != line.sha256) continue;
-    std::error_code failure;
-    if (!std::filesystem::remove(directory / line.file, failure)) {
+    if (auto gone = record::remove_inside(directory, line.file); !gone) {
       return core::fail(core::Code::kFile,
-                        fmt::format("the correction no longer follows and cannot be removed: {}",
-                                    failure.message()),
+                        fmt::format("the correction no longer follows: {}", gone.error().what),
                         line.file);
     }
     removed.push_back(line.file);
@@ -147,7 +142,7 @@ bool applies(const Export& what, const record::RunRecord& record) {
       });
     });
   }
-  if (what.format == Format::kCorrections) return can_correct(record);
+  if (what.format == Format::kCorrections) return record.ending == "finished";
   if (what.file != kCalibrationFile) return true;
   return record.ending == "finished" &&
          std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
@@ -186,6 +181,12 @@ std::vector<Rendered> render_all(const Export& what, const record::RunRecord& re
   return out;
 }
 
+std::uintmax_t most_bytes_of(const Rendered& made) {
+  return made.what.format == Format::kPdf
+             ? record::kMostPointsBytes
+             : std::max<std::uintmax_t>(record::kMostDocumentBytes, made.bytes.size());
+}
+
 Language language_of(const Export& what, std::string_view bytes) {
   if (what.format == Format::kPdf) return language_of_pdf(bytes);
   return what.format == Format::kHtml ? language_of_page(bytes) : Language::kEnglish;
@@ -201,7 +202,7 @@ bool exports_are_current(const std::filesystem::path& directory,
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) return true;
     const auto files = render_all(e, record, evaluation, language, *earlier);
     return std::all_of(files.begin(), files.end(), [&](const Rendered& made) {
-      const auto bytes = record::read_file(directory / made.what.file);
+      const auto bytes = record::read_inside(directory, made.what.file, most_bytes_of(made));
       return bytes && (e.format == Format::kPdf ? is_printed_from(made.bytes, *bytes, paper)
                                                 : *bytes == made.bytes);
     });
@@ -239,8 +240,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
       gone = *std::move(removed);
     }
     for (Rendered& made : files) {
-      auto sum = write_one(made.what, directory / made.what.file, record.header,
-                           std::move(made.bytes), paper);
+      auto sum = write_one(made.what, directory, record.header, std::move(made.bytes), paper);
       if (!sum) {
         done = core::fail(sum.error());
         break;

@@ -26,8 +26,8 @@ struct Export {
 [[nodiscard]] std::vector<std::string> all_formats();
 
 /// Whether a run has this export: series.csv only where series were recorded,
-/// fixture-calibration.json only of a finished calibration of the fixture, corrections.txt only
-/// where a feature can give a correction.
+/// fixture-calibration.json only of a finished calibration of the fixture, corrections.txt only of
+/// a finished run.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
 /// One file with its bytes.
@@ -49,6 +49,10 @@ struct Rendered {
                                  const evaluation::Evaluation& evaluation,
                                  Language language = Language::kEnglish,
                                  const EarlierResults& earlier = {});
+
+/// Most bytes of the file of an export that are read: what the journal gives, or the limit of any
+/// document. Of a PDF, whose bytes are a browser's, 4 GiB.
+[[nodiscard]] std::uintmax_t most_bytes_of(const Rendered& made);
 
 /// The language of a run's file, as the file itself states it.
 [[nodiscard]] Language language_of(const Export& what, std::string_view bytes);

@@ -187,14 +187,19 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   for (const Export& e : exports()) {
     // A table for a machine is checked also where the text that names it was taken away.
     const bool has_tables = e.format == Format::kCorrections && !tables.empty();
-    if (!is_there(e) && !has_tables) continue;
-    const auto first = record::read_file(directory / e.file);
-    if (!first && !has_tables) return core::fail(first.error());
-    const Language language = first ? language_of(e, *first) : Language::kEnglish;
-    for (const auto& [file, made] : render_all(e, record, evaluation, language, *earlier)) {
+    const bool there = is_there(e);
+    if (!there && !has_tables) continue;
+    Language language = Language::kEnglish;
+    if (there && (e.format == Format::kHtml || e.format == Format::kPdf)) {
+      const auto page = record::read_inside(directory, e.file, record::kMostPointsBytes);
+      if (!page) return core::fail(page.error());
+      language = language_of(e, *page);
+    }
+    for (const Rendered& rendered : render_all(e, record, evaluation, language, *earlier)) {
+      const auto& [file, made] = rendered;
       tables.erase(file.file);
-      if (file.file == e.file ? !first : !is_there(file)) continue;
-      const auto bytes = record::read_file(directory / file.file);
+      if (file.file == e.file ? !there : !is_there(file)) continue;
+      const auto bytes = record::read_inside(directory, file.file, most_bytes_of(rendered));
       if (!bytes) return core::fail(bytes.error());
       names += (names.empty() ? "" : ", ") + file.file;
       const auto state = listed.state_of(file.file);

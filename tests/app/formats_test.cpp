@@ -186,6 +186,16 @@ TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
   EXPECT_FALSE(std::filesystem::exists(run / "corrections.txt"));
 }
 
+TEST_F(Formats, CorrectionsSayWhichFeaturesHaveNoneAndWhy) {
+  const Outcome told = rondure({"report", run_, "--format", "corrections"});
+  EXPECT_EQ(told.status, 0);
+  const std::string line =
+      "none: only a contour and a calibrated fixture give a correction for a machine\n";
+  EXPECT_THAT(told.out, HasSubstr(line));
+  EXPECT_THAT(read(run_ / "corrections.txt"), HasSubstr(line));
+  EXPECT_EQ(rondure({"verify", run_}).status, 0);
+}
+
 /// Lines of a terminal, without what ends them.
 std::vector<std::string> lines_of(const std::string& shown) {
   std::istringstream stream(shown);

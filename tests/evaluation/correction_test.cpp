@@ -469,5 +469,49 @@ TEST_F(CorrectionFiles, HaveNamesThatStayInTheirFolder) {
   EXPECT_EQ(made.corrections.tables[0].file, "corrections/.._.._pin_1-x-of-c.csv");
 }
 
+// A journal may hold what `validate` refuses by now.
+TEST_F(CorrectionFiles, NeverHaveTheNameOfAnotherFeature) {
+  record::RunRecord run = GroundPins().record();
+  run.features.push_back(run.features[0]);
+  run.features[0].id = "p_";
+  run.features[1].id = "p;";
+  record::Series copy;
+  const std::size_t series = run.series.size();
+  for (std::size_t i = 0; i < series; ++i) {
+    copy = run.series[i];
+    copy.feature = 1;
+    run.series.push_back(copy);
+  }
+  const Evaluated made(run);
+  ASSERT_EQ(made.corrections.tables.size(), 1U);
+  EXPECT_THAT(made.corrections.summary,
+              HasSubstr("p;: none: corrections/p_-x-of-c.csv is of another feature; rename one\n"));
+}
+
+TEST_F(CorrectionFiles, AreNeitherWrittenNorRemovedWhereALinkLeads) {
+  write(GroundPins().record());
+  const auto elsewhere = scratch / "elsewhere";
+  std::filesystem::rename(directory / "corrections", elsewhere);
+  std::filesystem::create_directory_symlink(elsewhere, directory / "corrections");
+  const std::string kept = *record::read_file(elsewhere / "pin-x-of-c.csv");
+  ASSERT_TRUE(record::write_file(elsewhere / ".rondure-0123.tmp", "x"));
+  record::remove_temporaries(directory, "corrections");
+  EXPECT_TRUE(std::filesystem::exists(elsewhere / ".rondure-0123.tmp"));
+  GroundPins pins;
+  pins.task.uncertainty->skew_ms.reset();  // its table would go, that of the other be written
+  for (const record::RunRecord& run : {pins.record(), GroundPins().record()}) {
+    const auto evaluation = evaluate(run);
+    ASSERT_TRUE(evaluation);
+    (void)reports::write_exports(directory, {"corrections"}, run, *evaluation);
+    EXPECT_EQ(*record::read_file(elsewhere / "pin-x-of-c.csv"), kept);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(elsewhere), {}), 2);
+  }
+  const auto evaluation = evaluate(GroundPins().record());
+  const auto refused =
+      reports::write_exports(directory, {"corrections"}, GroundPins().record(), *evaluation);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("it is a link or a file, not a folder of this run"));
+}
+
 }  // namespace
 }  // namespace rondure::evaluation

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "record/sha256.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {
@@ -73,6 +74,43 @@ TEST(Files, AreWrittenThoughAProcessOfTheSameNumberLeftItsOwnBehind) {
   EXPECT_TRUE(write_file(scratch / "report.html", "x"));
   remove_temporaries(scratch.path());
   EXPECT_THAT(scratch.names(), ElementsAre("report.html"));
+}
+
+TEST(Files, BelowADirectoryAreReachedThroughNoLink) {
+  const Scratch scratch;
+  const Scratch elsewhere;
+  ASSERT_TRUE(write_inside(scratch.path(), "tables/a.csv", "x"));
+  EXPECT_EQ(*read_inside(scratch.path(), "tables/a.csv"), "x");
+  EXPECT_EQ(*sha256_inside(scratch.path(), "tables/a.csv"), sha256_hex("x"));
+  ASSERT_TRUE(remove_inside(scratch.path(), "tables/a.csv"));
+  EXPECT_FALSE(remove_inside(scratch.path(), "tables/a.csv"));
+  ASSERT_TRUE(write_file(elsewhere / "a.csv", "other"));
+  std::filesystem::create_directory_symlink(elsewhere.path(), scratch / "link");
+  for (const char* name : {"link/a.csv", "../a.csv", "tables/../link/a.csv"}) {
+    EXPECT_FALSE(read_inside(scratch.path(), name)) << name;
+    EXPECT_FALSE(sha256_inside(scratch.path(), name)) << name;
+    EXPECT_FALSE(write_inside(scratch.path(), name, "mine")) << name;
+    EXPECT_FALSE(remove_inside(scratch.path(), name)) << name;
+  }
+  EXPECT_THAT(write_inside(scratch.path(), "link/a.csv", "mine").error().what,
+              HasSubstr("it is a link or a file, not a folder of this run; move it away"));
+  EXPECT_EQ(*read_file(elsewhere / "a.csv"), "other");
+  EXPECT_THAT(elsewhere.names(), ElementsAre("a.csv"));
+  // The directory itself may be a link: a user names it.
+  EXPECT_EQ(*read_inside(scratch / "link", "a.csv"), "other");
+}
+
+TEST(Files, LongerThanTheirLimitAreRefusedUnread) {
+  const Scratch scratch;
+  ASSERT_TRUE(write_file(scratch / "long", ""));
+  std::filesystem::resize_file(scratch / "long", kMostDocumentBytes + 1);  // takes no disk
+  const auto refused = read_file(scratch / "long");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what,
+              HasSubstr("it has 67108865 bytes, the limit for such a file is 67108864"));
+  EXPECT_TRUE(read_file(scratch / "long", kMostDocumentBytes + 1));
+  std::filesystem::resize_file(scratch / "long", kMostJournalBytes + 1);
+  EXPECT_THAT(sha256_inside(scratch.path(), "long").error().what, HasSubstr("is 17179869184"));
 }
 
 TEST(Files, ThatCannotBeWrittenAreNamedWithTheReason) {

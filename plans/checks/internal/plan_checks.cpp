@@ -13,6 +13,7 @@
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/schema/json_text.h"
 #include "record/archive/place.h"
+#include "record/files.h"
 
 namespace rondure::plans {
 namespace {
@@ -306,6 +307,25 @@ void check_equipment(const Plan& plan, Findings& findings) {
   }
 }
 
+/// Refuses ids of which two tables of corrections would have one name: a control would take that of
+/// another feature.
+void check_table_names(const Plan& plan, std::size_t index, Findings& findings) {
+  const auto has_tables = [](const FeaturePlan& feature) {
+    return feature.type == record::Shape::kContour || feature.type == record::Shape::kRotaryAxes;
+  };
+  const FeaturePlan& feature = plan.features[index];
+  const std::string name = record::plain_name(feature.id);
+  for (std::size_t k = 0; k < index && has_tables(feature); ++k) {
+    const FeaturePlan& other = plan.features[k];
+    if (!has_tables(other) || other.type != feature.type || other.id == feature.id) continue;
+    if (record::plain_name(other.id) != name) continue;
+    findings.meaning(Code::kMeaning, feature_pointer(index) + "/id",
+                     fmt::format("the tables of corrections of {} and {} would have one name, {}; "
+                                 "choose another id",
+                                 in_quotes(other.id), in_quotes(feature.id), in_quotes(name)));
+  }
+}
+
 void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
   const FeaturePlan& feature = plan.features[index];
   const std::string where = feature_pointer(index);
@@ -314,6 +334,7 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
                      fmt::format("the id {} names feature {} already; choose another",
                                  in_quotes(feature.id), *twin + 1));
   }
+  check_table_names(plan, index, findings);
   check_without_effect(feature, where, findings);
   check_age(feature, where, findings);
   check_drawing(plan, index, findings);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/finding.h"
@@ -21,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 /// The one place where lengths become micrometres and angles degrees.
 [[nodiscard]] inline double in_um(double length_mm) { return length_mm * 1000.0; }
-[[nodiscard]] inline double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
+[[nodiscard]] inline double in_deg(double angle_rad) { return core::stated_degrees(angle_rad); }
 
 [[nodiscard]] inline Json vector_json(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});

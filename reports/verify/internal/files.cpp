@@ -41,10 +41,9 @@ core::Result<ListedFiles> check_listed_files(const fs::path& directory,
       state = ListedFiles::State::kAbsent;
       continue;
     }
-    const auto bytes = record::read_file(directory / line.file);
-    if (!bytes) return core::fail(bytes.error());
-    state = record::sha256_hex(*bytes) == line.sha256 ? ListedFiles::State::kAsWritten
-                                                      : ListedFiles::State::kChanged;
+    const auto sha256 = record::sha256_inside(directory, line.file);
+    if (!sha256) return core::fail(sha256.error());
+    state = *sha256 == line.sha256 ? ListedFiles::State::kAsWritten : ListedFiles::State::kChanged;
   }
   return out;
 }
