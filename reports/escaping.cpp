@@ -22,11 +22,12 @@ std::string clean(std::string_view text) {
   return result;
 }
 
-std::string csv_field(std::string text) {
+std::string csv_field(std::string_view name) {
+  std::string text = clean(name);
   if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos) {
     text.insert(text.begin(), '\'');
   }
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  if (text.find_first_of(",;\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';

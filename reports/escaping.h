@@ -14,10 +14,11 @@ namespace rondure::reports {
 /// U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
-/// A text as a field by RFC 4180: quoted when it holds a comma, a quote or a line break. A text
-/// that a spreadsheet would compute (it begins with = + - @, a tab or CR) gets an apostrophe in
-/// front, which spreadsheets read as the start of text. Not for numbers.
-[[nodiscard]] std::string csv_field(std::string text);
+/// A text as a field by RFC 4180, clean(): quoted when it holds a comma, a semicolon (which
+/// separates fields where a comma is the decimal mark), a quote or a line break. A text that a
+/// spreadsheet would compute (it begins with = + - @, a tab or CR) gets an apostrophe in front,
+/// which spreadsheets read as the start of text. Not for numbers.
+[[nodiscard]] std::string csv_field(std::string_view text);
 
 /// Escapes text for HTML, in elements and in quoted attributes: & < > " ' become entities, control
 /// characters and noncharacters the replacement character.

@@ -11,7 +11,7 @@ namespace rondure::wire {
 
 /// Settings of lines_over().
 struct ByteLinesOptions {
-  std::size_t max_line_bytes = std::size_t{1} << 20;  ///< A longer line ends the connection.
+  std::size_t max_line_bytes = 4096;  ///< A longer line ends the connection.
   Clock* clock = nullptr;  ///< For time limits; nullptr: system_clock(). Outlives the transport.
 };
 

@@ -99,7 +99,7 @@ using Columns = std::vector<std::optional<std::vector<double>>>;
 core::Result<Columns> read_columns(const std::string& file,
                                    const std::vector<ContourQuantity>& quantities,
                                    const std::vector<ContourColumn>& mapping, bool required) {
-  const auto bytes = record::read_file(file);
+  const auto bytes = record::read_file(file, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
   std::vector<record::WantedColumn> wanted;
   std::vector<record::ColumnName> names;

@@ -452,7 +452,7 @@ core::Result<FitOutcome> fit_shape(const FitArguments& arguments, const record::
 }
 
 core::Result<record::PointTable> load_points(const FitArguments& arguments) {
-  const auto bytes = record::read_file(arguments.file);
+  const auto bytes = record::read_file(arguments.file, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
   const std::string name = std::filesystem::path(arguments.file).filename().string();
   auto table = record::parse_feature_csv(*bytes, name, arguments.feature);

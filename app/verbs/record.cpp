@@ -160,7 +160,7 @@ core::Result<void> record_all(const RecordArguments& arguments) {
   std::string text;
   int rows = 0;
   if (std::filesystem::exists(arguments.out)) {
-    const auto old = record::read_file(arguments.out);
+    const auto old = record::read_file(arguments.out, record::kMostPointsBytes);
     if (!old) return core::fail(old.error());
     const auto known = rows_in(*old, arguments);
     if (!known) return core::fail(known.error());

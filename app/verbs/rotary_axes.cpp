@@ -377,7 +377,7 @@ core::Result<void> add_row(const record::BallRow& row, const RotaryAxesArguments
 core::Result<std::vector<NamedAxis>> read_rotary_axes(const RotaryAxesArguments& arguments) {
   std::vector<NamedAxis> out;
   for (const std::string& file : arguments.files) {
-    const auto bytes = record::read_file(file);
+    const auto bytes = record::read_file(file, record::kMostPointsBytes);
     if (!bytes) return core::fail(bytes.error());
     const std::string name = std::filesystem::path(file).filename().string();
     const auto rows = record::parse_ball_csv(*bytes, name);

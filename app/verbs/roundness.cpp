@@ -224,7 +224,7 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
 }
 
 core::Result<record::ProfileTable> load_profile(const std::string& file) {
-  const auto bytes = record::read_file(file);
+  const auto bytes = record::read_file(file, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
   return record::parse_profile_csv(*bytes, std::filesystem::path(file).filename().string());
 }

@@ -208,7 +208,7 @@ fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
 core::Result<evaluation::SpindleResult> separate(const SpindleArguments& a) {
   const auto layout = layout_of(a);
   if (!layout) return core::fail(layout.error());
-  const auto bytes = record::read_file(a.file);
+  const auto bytes = record::read_file(a.file, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
   const std::string name = std::filesystem::path(a.file).filename().string();
   const auto series = record::parse_series_csv(*bytes, name, kColumns);

@@ -226,7 +226,7 @@ core::Result<fit::WheelSurface> read_asphere(std::string_view words) {
 
 core::Result<record::Series> read_table(const std::string& file,
                                         std::span<const record::WantedColumn> columns) {
-  const auto bytes = record::read_file(file);
+  const auto bytes = record::read_file(file, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
   return record::parse_series_csv(*bytes, std::filesystem::path(file).filename().string(), columns);
 }

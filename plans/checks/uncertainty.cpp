@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -104,6 +105,38 @@ void check_limits(const record::UncertaintyTask& u, Findings& findings) {
                   plain(u.probe->form_limit_um), touch ? "repeatability" : "lobes"));
 }
 
+/// Refuses entries of a list that declare the same thing as an earlier one: both would be drawn, in
+/// a time that grows with the cube of their number.
+/// @param key_of   What an entry declares.
+/// @param in_words The same for the message, of an entry.
+template <class List, class KeyOf, class InWords>
+void check_once(const List& list, const std::string& where, const KeyOf& key_of,
+                const InWords& in_words, Findings& findings) {
+  std::set<decltype(key_of(list.front()))> seen;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (seen.insert(key_of(list[i])).second) continue;
+    findings.meaning(Code::kMeaning, item_pointer(where, i),
+                     fmt::format("{} stand here already; declare them once, with the size of all",
+                                 in_words(list[i])));
+  }
+}
+
+void check_each_once(const record::UncertaintyTask& u, Findings& findings) {
+  if (u.probe) {
+    check_once(
+        u.probe->lobes, "/uncertainty/probe/lobes", [](const auto& lobe) { return lobe.order; },
+        [](const auto& lobe) { return fmt::format("{} lobes", lobe.order); }, findings);
+  }
+  if (!u.form_spectrum) return;
+  check_once(
+      u.form_spectrum->terms, "/uncertainty/form_spectrum/terms",
+      [](const auto& term) { return std::pair(term.undulations, term.degree); },
+      [](const auto& term) {
+        return fmt::format("{} undulations of degree {}", term.undulations, term.degree);
+      },
+      findings);
+}
+
 /// A rule of the plan, of a feature or of a characteristic.
 struct PlacedRule {
   const DecisionRuleTask* rule = nullptr;
@@ -163,6 +196,7 @@ void check_uncertainty(const Plan& plan, Findings& findings) {
                      fmt::format("{} is below least_trials {}", u.most_trials, u.least_trials));
   }
   check_limits(u, findings);
+  check_each_once(u, findings);
   if (whole_surface && !u.form_spectrum) {
     findings.meaning(Code::kMissingKey, "/uncertainty/form_spectrum",
                      "this key is missing: a verdict about the whole surface needs the forms that "

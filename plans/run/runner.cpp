@@ -66,7 +66,7 @@ struct FeatureData {
 
 core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
   const std::string& name = plan.features[index].source->file;
-  const auto bytes = record::read_file(plan.folder / name);
+  const auto bytes = record::read_file(plan.folder / name, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
   auto table = record::parse_feature_csv(*bytes, name, plan.features[index].source->feature);
   if (!table) return core::fail(table.error());

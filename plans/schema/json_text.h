@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/json_text.h"
 #include "core/result.h"
 
 namespace rondure::plans {
@@ -34,7 +35,7 @@ struct JsonMember {
 
 /// Limits that keep a hostile file from exhausting memory; real plans are far smaller.
 inline constexpr std::size_t kMaxPlanBytes = 10'000'000;
-inline constexpr std::size_t kMaxNesting = 64;
+inline constexpr std::size_t kMaxNesting = core::kDeepestJson;
 inline constexpr std::size_t kMaxValues = 100'000;
 
 /// Parses the text of a plan. A UTF-8 byte order mark is skipped.

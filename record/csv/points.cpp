@@ -243,7 +243,7 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
   bool plain_rows = true;  // numbers alone
   const auto add_row = [&](std::size_t bytes) {
     // Rows are about as long as the first.
-    if (out.values.empty()) out.values.reserve(text.size() / bytes + 1);
+    if (out.values.empty()) out.values.reserve(std::min(text.size() / bytes + 1, kMostRows));
     out.values.push_back(values.values);
     if (columns.has(kLayer)) out.layers.push_back(static_cast<int>(values.layer));
     if (columns.has(kFeature)) out.features.push_back(values.feature);

@@ -124,6 +124,15 @@ std::string why_not_to_go_on(const ReadJournal& journal) {
 
 }  // namespace
 
+core::Result<void> require_no_link(const fs::path& journal) {
+  std::error_code ignored;
+  if (!fs::is_symlink(journal, ignored)) return {};
+  return core::fail(
+      core::Code::kFile,
+      fmt::format("{} is a link; a run goes on only where its journal stands", journal.string()),
+      journal.string());
+}
+
 core::Result<Journal> Journal::create(const fs::path& directory, const Header& header,
                                       const Artefact& artefact, std::span<const Feature> features,
                                       std::span<const Setting> settings) {
@@ -169,19 +178,13 @@ core::Result<HeldJournal> hold_journal(const fs::path& directory) {
 
 core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal held) {
   const fs::path file = fs::absolute(directory) / kJournalName;
-  std::error_code ignored;
   const ReadJournal& found = held.read;
   if (const std::string reason = why_not_to_go_on(found); !reason.empty()) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
-  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log in the folder of the link's target
-    return core::fail(
-        core::Code::kFile,
-        fmt::format("{} is a link; a run goes on only where its journal stands", file.string()),
-        file.string());
-  }
+  if (auto own = require_no_link(file); !own) return core::fail(own.error());
   const auto connection = connection_string(file);
   if (!connection) return core::fail(connection.error());
   remove_temporaries(directory);

@@ -214,8 +214,7 @@ std::optional<std::string> listed_digest(const fs::path& directory) {
 }
 
 bool has_digest(const fs::path& file, const std::string& sha256) {
-  const auto bytes = read_file(file);
-  return bytes && sha256_hex(*bytes) == sha256;
+  return sha256_inside(file.parent_path(), file.filename()).value_or("") == sha256;
 }
 
 /// The journal without its logs, if it is whole and sealed.
@@ -244,11 +243,16 @@ bool begins_as_log(const fs::path& file) {
   constexpr std::array<std::string_view, 3> kBeginnings = {"\x37\x7f\x06\x82", "\x37\x7f\x06\x83",
                                                            "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"};
   constexpr std::size_t kMagic = 8;
-  const auto bytes = read_file(file);
-  if (!bytes) return false;
-  if (bytes->find_first_not_of('\0') >= std::min(bytes->size(), kMagic)) return true;
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown)) return false;
+  std::string head(kMagic, '\0');
+  std::ifstream log(file, std::ios::binary);
+  if (!log) return false;
+  log.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(log.gcount()));
+  if (head.find_first_not_of('\0') == std::string::npos) return true;
   return std::any_of(kBeginnings.begin(), kBeginnings.end(),
-                     [&](std::string_view start) { return bytes->starts_with(start); });
+                     [&](std::string_view start) { return head.starts_with(start); });
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 /// Writes the digest of the closed journal into the list in its directory.
 core::Result<void> list_digest(const fs::path& file) {
-  const auto bytes = read_file(file);
-  if (!bytes) return core::fail(bytes.error());
-  return update_checksums(file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+  auto sha256 = sha256_inside(file.parent_path(), kJournalName);
+  if (!sha256) return core::fail(sha256.error());
+  return update_checksums(file.parent_path(), {{kJournalName, *std::move(sha256)}});
 }
 
 }  // namespace
@@ -156,6 +156,7 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
                                    [](const Checksum& line) { return line.file == kJournalName; });
     if (known) return {};
   }
+  if (auto own = require_no_link(file); !own) return own;
   const auto connection = connection_string(file);
   if (!connection) return core::fail(connection.error());
   std::optional<soci::session> sql;

@@ -24,9 +24,6 @@ namespace {
 
 using core::printable;
 
-/// Replaces control characters by U+FFFD. Not for numbers.
-std::string text_field(std::string_view text) { return csv_field(clean(text)); }
-
 std::string um_field(const std::optional<double>& length_mm) {
   if (!length_mm || !std::isfinite(*length_mm)) return {};
   return core::shortest(*length_mm / core::kMicrometre);
@@ -130,8 +127,8 @@ std::string write_results_csv(const record::RunRecord& record,
                               const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   const std::string head =
-      fmt::format("{},{},{},{}", text_field(header.run_id), text_field(header.started_utc),
-                  text_field(header.part_id), text_field(header.serial));
+      fmt::format("{},{},{},{}", csv_field(header.run_id), csv_field(header.started_utc),
+                  csv_field(header.part_id), csv_field(header.serial));
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um";
@@ -146,12 +143,12 @@ std::string write_results_csv(const record::RunRecord& record,
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
       const bool angle = is_angle(asked);
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{}{}", head, text_field(feature.feature.id),
-                          text_field(asked.id), evaluation::symbol_of(asked),
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}{}", head, csv_field(feature.feature.id),
+                          csv_field(asked.id), evaluation::symbol_of(asked),
                           evaluation::reference_of(asked), angle ? "" : um_field(result.value_mm()),
                           tolerance_field(feature.feature, asked), name_of(result.verdict),
-                          text_field(result.reason.english()),
-                          text_field(result.value ? result.value->operator_text().english() : ""),
+                          csv_field(result.reason.english()),
+                          csv_field(result.value ? result.value->operator_text().english() : ""),
                           angle ? ",,," : interval_fields(result));
       if (sizes) text += size_fields(asked);
       if (angles) text += angle_fields(result);
@@ -171,12 +168,12 @@ std::string write_sections_csv(const record::RunRecord& record,
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       if (!result.finding) continue;
       const std::string head = fmt::format(
-          "{},{},{},{}", text_field(record.header.run_id), text_field(feature.feature.id),
-          text_field(result.characteristic.id), evaluation::symbol_of(result.characteristic));
+          "{},{},{},{}", csv_field(record.header.run_id), csv_field(feature.feature.id),
+          csv_field(result.characteristic.id), evaluation::symbol_of(result.characteristic));
       for (const evaluation::LocalValue& local : result.finding->local) {
         text += fmt::format("{},{},{},{},{}\n", head, place_fields(local),
                             local.none ? "" : um_field(local.value_mm), um_field(local.least_mm),
-                            local.none ? text_field(local.none->what) : "");
+                            local.none ? csv_field(local.none->what) : "");
       }
     }
   }
@@ -189,12 +186,12 @@ std::string write_series_csv(const record::RunRecord& record) {
   for (const record::Series& series : record.series) {
     if (series.role == record::Series::Role::kTruth) continue;
     const std::string head =
-        text_field(record.features[static_cast<std::size_t>(series.feature)].id) + "," +
-        text_field(series.name);
+        csv_field(record.features[static_cast<std::size_t>(series.feature)].id) + "," +
+        csv_field(series.name);
     const std::size_t columns = series.columns.size();
     for (std::size_t i = 0; i < series.values.size(); ++i) {
       text += fmt::format("{},{},{},{}\n", head, i / columns,
-                          text_field(series.columns[i % columns].name),
+                          csv_field(series.columns[i % columns].name),
                           core::shortest(series.values[i]));
     }
   }
@@ -206,7 +203,7 @@ std::string write_touches_csv(const record::RunRecord& record) {
   for (const record::PoseVisit& pose : record.poses) {
     const auto index = static_cast<std::size_t>(pose.feature);
     if (pose.feature >= 0 && index < record.features.size()) {
-      feature_of_pose[pose.id] = text_field(record.features[index].id);
+      feature_of_pose[pose.id] = csv_field(record.features[index].id);
     }
   }
   std::string text = fmt::format("# rondure touches, run {}\n", printable(record.header.run_id));

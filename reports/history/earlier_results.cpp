@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/json_text.h"
 #include "core/numbers.h"
 #include "record/checksums.h"
 #include "record/files.h"
@@ -87,10 +88,11 @@ std::string earlier_json(const EarlierResults& earlier) {
 }
 
 core::Result<EarlierResults> parse_earlier(const std::string& text) {
+  const auto document = core::read_json<Json>(text, kEarlierName);
+  if (!document) return core::fail(document.error());
+  EarlierResults out;
   try {
-    EarlierResults out;
-    const Json document = Json::parse(text);
-    for (const Json& row : document.at("results")) {
+    for (const Json& row : document->at("results")) {
       out.push_back(result_of(row));
       const record::ArchiveResult& result = out.back().result;
       if (core::is_measurable(result.value.value_or(0.0)) &&
@@ -105,9 +107,11 @@ core::Result<EarlierResults> parse_earlier(const std::string& text) {
                         kEarlierName);
     }
     return out;
-  } catch (const Json::exception& e) {
+  } catch (const Json::exception&) {
     return core::fail(core::Code::kSyntax,
-                      fmt::format("{} does not hold earlier results: {}", kEarlierName, e.what()),
+                      fmt::format("{} does not hold earlier results: a key of number {} is "
+                                  "missing, or has a value of another kind",
+                                  kEarlierName, out.size() + 1),
                       kEarlierName);
   }
 }

@@ -91,6 +91,28 @@ TEST_F(ForgedRun, ALogBesideASignedJournalReplacesNothing) {
   EXPECT_FALSE(fs::exists(bad / "SHA256SUMS"));
 }
 
+TEST_F(ForgedRun, AReportOfAMillionBracketsIsADifference) {
+  const fs::path run = run_axle("deep", 100);
+  sign(run);
+  const std::string report = read(run / "report.json");
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  const std::string told = "the text is nested deeper than 64 levels, from byte 65 on";
+  write(run / "report.json", deep);
+  const Outcome verified = rondure({"verify", run});
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_THAT(verified.out, HasSubstr("report.json: " + told));
+  const Outcome refused = rondure({"sign", run, "--key", folder_ / "key.pem"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr(told));
+  write(run / "report.json", report);
+  write(run / "earlier.json", "{\"results\": " + deep + "}");
+  EXPECT_THAT(rondure({"verify", run}).out, HasSubstr("the text is nested deeper than 64 levels"));
+  write(run / "earlier.json", "{\"results\": [{\"run_id\": 7}]}");
+  EXPECT_THAT(rondure({"verify", run}).out,
+              AllOf(HasSubstr("a key of number 1 is missing, or has a value of another kind"),
+                    Not(HasSubstr("json.exception"))));
+}
+
 TEST_F(ForgedRun, AnotherJournalInPlaceOfTheListedOneIsRefused) {
   const fs::path bad = run_axle("bad", 20);
   const fs::path good = run_axle("good", 100);

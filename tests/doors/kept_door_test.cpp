@@ -6,11 +6,14 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "fixture/calibration.h"
 #include "plans/checks/record.h"
 #include "record/archive/archive.h"
 #include "record/checksums.h"
+#include "record/files.h"
 #include "record/journal/internal/schema.h"
 #include "record/journal/journal.h"
 #include "record/signature.h"
@@ -70,6 +73,44 @@ fs::path copied_run(std::size_t index) {
   fs::remove_all(directory);
   fs::copy(good_runs()[index % good_runs().size()], directory);
   return directory;
+}
+
+TEST(JsonDoor, RefusesWhatIsNestedDeeperThanAnyDocument) {
+  for (const std::size_t levels : {64U, 65U, 1'000'000U}) {
+    for (const auto& [open, close] : {std::pair("[", "]"), std::pair("{\"a\":", "}")}) {
+      SCOPED_TRACE(fmt::format("{} {}", levels, open));
+      std::string text;
+      for (std::size_t i = 0; i < levels; ++i) text += open;
+      text += "\"]}\\\"[{\"";  // brackets in a text are none
+      text += std::string(levels, *close);
+      const auto read = core::read_json<nlohmann::json>(text, "deep.json");
+      ASSERT_EQ(read.has_value(), levels == 64);
+      EXPECT_EQ(read ? "" : fuzz::wrong_with_refusal(read.error()), "");
+      for (const std::size_t cut : {text.size() / 2, text.size() - 1}) {
+        EXPECT_FALSE(core::read_json<nlohmann::json>(text.substr(0, cut), "cut.json"));
+      }
+      const auto calibration = fixture::parse_calibration(text, "deep.json");
+      ASSERT_FALSE(calibration);
+      EXPECT_EQ(fuzz::wrong_with_refusal(calibration.error()), "");
+    }
+  }
+}
+
+TEST(FilesDoor, LeadsNowhereThroughALink) {
+  const fs::path run = copied_run(0);
+  const fs::path elsewhere = fuzz::work_folder() / "elsewhere";
+  fs::remove_all(elsewhere);
+  fs::create_directory(elsewhere);
+  app::testing::write(elsewhere / "a.csv", "mine");
+  fs::create_directory_symlink(elsewhere, run / "corrections");
+  for (const char* name : {"corrections/a.csv", "corrections/../corrections/a.csv", "../a.csv"}) {
+    EXPECT_FALSE(record::read_inside(run, name)) << name;
+    EXPECT_FALSE(record::write_inside(run, name, "x")) << name;
+    EXPECT_FALSE(record::remove_inside(run, name)) << name;
+  }
+  record::remove_temporaries(run, "corrections");
+  EXPECT_EQ(app::testing::read(elsewhere / "a.csv"), "mine");
+  EXPECT_EQ(app::testing::names_in(elsewhere), std::vector<std::string>{"a.csv"});
 }
 
 TEST(JournalDoor, StandsDamagedRowsThatWereSealedAgain) {

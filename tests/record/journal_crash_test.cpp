@@ -104,6 +104,31 @@ int fill_the_disk(const fs::path& directory) {
   return 0;
 }
 
+TEST(JournalCrash, SaysThatAnotherProgramCutTheLog) {
+  for (const bool removed : {false, true}) {
+    const Scratch scratch;
+    {
+      auto journal = Journal::create(scratch / "run", {}, {}, {});
+      ASSERT_TRUE(journal) << journal.error().what;
+      for (std::int64_t id = 0; id < 20; ++id) ASSERT_TRUE(journal->add(touch_number(id)));
+      const fs::path log = scratch / "run/journal.db-wal";
+      removed ? (void)fs::remove(log) : fs::resize_file(log, fs::file_size(log) / 2);
+      const auto refused = journal->add(touch_number(20));
+      ASSERT_FALSE(refused);
+      EXPECT_EQ(refused.error().code, core::Code::kJournal);
+      EXPECT_THAT(refused.error().what, HasSubstr("another program cut its log, journal.db-wal, "));
+      EXPECT_FALSE(journal->end("failed", nullptr));
+    }
+    // The holes were not moved into the journal: what stands before the cut is whole.
+    const auto read = read_journal(scratch / "run");
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_TRUE(read->broken.empty());
+    for (std::size_t i = 0; i < read->record.touches.size(); ++i) {
+      EXPECT_EQ(read->record.touches[i].tip_mm, touch_number(static_cast<std::int64_t>(i)).tip_mm);
+    }
+  }
+}
+
 TEST(JournalCrash, SaysThatTheDiskIsFullAndGoesOnWhenItIsNot) {
   const Scratch scratch;
   const pid_t child = ::fork();

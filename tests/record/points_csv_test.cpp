@@ -12,6 +12,7 @@
 
 #include "core/noise.h"
 #include "core/numbers.h"
+#include "tests/core/full.h"
 #include "tests/core/processor_time.h"
 
 namespace rondure::record {
@@ -286,6 +287,17 @@ TEST(FeatureCsv, GivesTheRowsOfOneFeatureWithTheirLayers) {
   const auto b = parse_feature_csv(text, "shaft.csv", "B");
   ASSERT_TRUE(b) << b.error().what;
   EXPECT_EQ(b->points_mm.size(), 1U);
+}
+
+TEST(FeatureCsv, HasALimitOfRows) {
+  if (!test::full()) GTEST_SKIP() << "80 MB of text; RONDURE_FULL=1 reads them";
+  std::string text = "x,y\n";
+  for (int i = 0; i <= 20'000'000; ++i) text += "1,2\n";
+  const auto refused = parse_feature_csv(text, "long.csv", "");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what,
+            "the file has more than 20000000 rows, which is the limit; take fewer points");
+  EXPECT_EQ(refused.error().where, "long.csv:20000002");
 }
 
 TEST(FeatureCsv, NamesWhatDoesNotFit) {

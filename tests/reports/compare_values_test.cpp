@@ -29,7 +29,8 @@ TEST(CompareJsonValues, NameTheFirstNumberThatDiffers) {
             "/um: the file says 2, the journal gives null");
   EXPECT_EQ(first(R"({"f": {"verdict": "conforms"}})", R"({"f": {"verdict": "void"}})", 0.0),
             R"(/f/verdict: the file says "void", the journal gives "conforms")");
-  EXPECT_EQ(first("{}", "{", 0.0), "it is no JSON any more");
+  EXPECT_EQ(first("{}", "{", 0.0),
+            "the text is no JSON from byte 1 of 1 on; the file is cut off or was edited");
 }
 
 TEST(CompareCsvValues, GoByTheNamesOfTheColumns) {

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -63,6 +64,26 @@ TEST(Ticks, AreRoundAndInside) {
     }
   }
   EXPECT_EQ(core::decade_ticks(3.0, 120.0), (std::vector<double>{5, 10, 20, 50, 100}));
+}
+
+TEST(Text, AFieldOfATableHoldsNoControlsAndIsQuotedAtASemicolon) {
+  EXPECT_EQ(csv_field("a;b"), "\"a;b\"");
+  EXPECT_EQ(csv_field("a\x1b[2Jb\x7f"), "a\uFFFD[2Jb\uFFFD");
+  EXPECT_EQ(csv_field("a,\"b\"\n"), "\"a,\"\"b\"\"\n\"");
+  EXPECT_EQ(csv_field("plain"), "plain");
+}
+
+TEST(Degrees, LeaveAsTheNumbersThatWereStated) {
+  for (int tenths = -3600; tenths <= 3600; ++tenths) {
+    const double stated = tenths / 10.0;
+    EXPECT_EQ(core::stated_degrees(stated * core::kDegree), stated);
+  }
+  EXPECT_EQ(core::shortest(core::stated_degrees(-60.0 * core::kDegree)), "-60");
+  for (int i = 1; i < 20000; ++i) {
+    const double angle_rad = std::sin(static_cast<double>(i)) * 10.0;
+    const double found = core::stated_degrees(angle_rad);
+    EXPECT_NEAR(found, angle_rad / core::kDegree, 1e-12);
+  }
 }
 
 TEST(Text, OfTheProgramShowsUnitsWithTheirSigns) {

@@ -1,6 +1,5 @@
 #include "plans/analyses/internal/series_file.h"
 
-#include <cstdint>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -12,10 +11,8 @@ namespace rondure::plans {
 
 using core::Code;
 
-constexpr std::uintmax_t kMaxDataFileBytes = 1'000'000'000;
-
-core::Result<std::string> read_data_file(const std::filesystem::path& path,
-                                         const std::string& file) {
+core::Result<std::string> read_data_file(const std::filesystem::path& path, const std::string& file,
+                                         std::uintmax_t most_bytes) {
   std::error_code reason;
   const std::filesystem::file_status status = std::filesystem::status(path, reason);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -28,12 +25,7 @@ core::Result<std::string> read_data_file(const std::filesystem::path& path,
     return core::fail(Code::kFile,
                       fmt::format("{} is not a file that can be read", in_quotes(file)));
   }
-  const std::uintmax_t bytes = std::filesystem::file_size(path, reason);
-  if (!reason && bytes > kMaxDataFileBytes) {
-    return core::fail(Code::kFile, fmt::format("the file {} has {} bytes, the limit is {}",
-                                               in_quotes(file), bytes, kMaxDataFileBytes));
-  }
-  return record::read_file(path);
+  return record::read_file(path, most_bytes);
 }
 
 }  // namespace rondure::plans

@@ -42,7 +42,7 @@ core::Result<std::optional<UsedCalibration>> used_calibration(const Plan& plan,
                                                               std::string_view run_utc) {
   if (!plan.fixture || !plan.fixture->calibration) return std::nullopt;
   const std::string& file = plan.fixture->calibration->file;
-  auto text = read_data_file(plan.folder / file, file);
+  auto text = read_data_file(plan.folder / file, file, record::kMostDocumentBytes);
   if (!text) return core::fail(text.error().at(kCalibrationFilePointer));
   auto calibration = fixture::parse_calibration(*text, file);
   if (!calibration) {

@@ -35,6 +35,11 @@ std::string_view stem_of(std::string_view name) {
 
 core::Error syntax_error(std::string what) { return {core::Code::kSyntax, std::move(what), {}}; }
 
+core::Error too_many_rows() {
+  return syntax_error(fmt::format(
+      "the file has more than {} rows, which is the limit; take fewer points", kMostRows));
+}
+
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   std::string_view line = text.substr(0, end);

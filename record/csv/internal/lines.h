@@ -18,6 +18,10 @@
 
 namespace rondure::record {
 
+/// Most rows of a table.
+inline constexpr std::size_t kMostRows = 20'000'000;
+[[nodiscard]] core::Error too_many_rows();
+
 /// Takes the first line off a text and returns it without its LF or CRLF.
 [[nodiscard]] std::string_view take_line(std::string_view& text);
 
@@ -64,7 +68,8 @@ namespace rondure::record {
 /// @param plain    Fast reader, tried first at each row: takes the text from the start of the row,
 ///                 and returns the bytes of the row with its line end, or 0 for a line that `row`
 ///                 must read.
-/// @return  The error of `header` or `row` with its place, kSyntax for UTF-16, kNoPoints.
+/// @return  The error of `header` or `row` with its place, kSyntax for UTF-16 and for more than
+///          kMostRows rows, kNoPoints.
 template <class Header, class Row, class NoRows, class Plain>
 core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
                               const Row& row, const NoRows& no_rows, const Plain& plain) {
@@ -75,22 +80,23 @@ core::Result<void> read_table(std::string_view text, std::string_view name, cons
     return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
   }
   bool in_rows = false;
-  bool any = false;
+  std::size_t rows = 0;
   while (!rest.empty()) {
     ++number;
+    if (rows == kMostRows) return core::fail(too_many_rows().at(here()));
     if (const std::size_t bytes = in_rows ? plain(rest) : 0; bytes > 0) {
       rest.remove_prefix(bytes);
-      any = true;
+      ++rows;
       continue;
     }
     const std::string_view line = take_line(rest);
     if (holds_nothing(line)) continue;
     const core::Result<void> read = in_rows ? row(line, number) : header(line);
     if (!read) return core::fail(read.error().at(here()));
-    any = in_rows;
+    rows += in_rows ? 1 : 0;
     in_rows = true;
   }
-  if (any) return {};
+  if (rows > 0) return {};
   return core::fail(core::Code::kNoPoints, no_rows(in_rows), here());
 }
 template <class Header, class Row, class NoRows>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -25,6 +26,10 @@
 
 namespace rondure::record {
 
+/// kFile when the file of a journal is a link: SQLite would write where it leads, and keep the log
+/// there.
+[[nodiscard]] core::Result<void> require_no_link(const std::filesystem::path& journal);
+
 struct Journal::Impl {
   enum class State { kOpen, kDigested, kOneFile, kClosed };
 
@@ -38,6 +43,7 @@ struct Journal::Impl {
   Header header;                   ///< Header and poses as given: these rows change later.
   std::map<int, PoseVisit> poses;  ///< By id.
   bool ended = false;
+  std::uintmax_t log_bytes = 0;  ///< Of the write-ahead log after the last transaction.
   State state = State::kOpen;
   std::shared_ptr<GrowingRecord> follower;  ///< May be null.
 
@@ -62,11 +68,13 @@ struct Journal::Impl {
     if (state != State::kOpen) {
       return failure(subject, "the journal is sealed and takes nothing more; start a new run");
     }
+    if (const std::uintmax_t left = bytes_of_log(); left < log_bytes) return cut_log(subject, left);
     try {
       soci::transaction transaction(sql);
       action();
       transaction.commit();
       chain->commit();
+      log_bytes = bytes_of_log();
       return {};
     } catch (const std::exception& exception) {
       chain->roll_back();
@@ -78,6 +86,25 @@ struct Journal::Impl {
   void prepare() {
     statements.emplace(sql);
     chain.emplace(sql);
+    log_bytes = bytes_of_log();
+  }
+
+  [[nodiscard]] std::uintmax_t bytes_of_log() const {
+    std::error_code none;
+    const std::uintmax_t bytes = std::filesystem::file_size(file.string() + "-wal", none);
+    return none ? 0 : bytes;
+  }
+
+  /// The error after another program has cut the log. SQLite, which does not look, would move its
+  /// holes into the journal when it closes.
+  tl::unexpected<core::Error> cut_log(std::string_view subject, std::uintmax_t left) {
+    int state_now = 0;
+    sqlite_api::sqlite3_db_config(handle_of(sql), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, &state_now);
+    return core::fail(
+        core::Code::kJournal,
+        fmt::format("{} cannot be written to {}: another program cut its log, {}-wal, from {} to "
+                    "{} bytes; the touches in it are lost, those before them are kept",
+                    subject, file.string(), kJournalName, log_bytes, left));
   }
 
   void insert(const Touch& touch) {

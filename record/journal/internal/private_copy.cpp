@@ -113,8 +113,17 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
   const fs::path place = fs::temp_directory_path(problem);
   if (problem) return cannot_copy(journal, system_reason(problem.value()));
   for (const char* suffix : suffixes_of(logs)) {
-    const fs::file_status there = fs::status(journal.string() + suffix, problem);
-    if (!fs::exists(there) || fs::is_regular_file(there)) continue;
+    const fs::path file = journal.string() + suffix;
+    const fs::file_status there = fs::status(file, problem);
+    if (!fs::exists(there)) continue;
+    if (fs::is_regular_file(there)) {
+      const std::uintmax_t bytes = fs::file_size(file, problem);
+      if (problem || bytes <= kMostJournalBytes) continue;
+      return core::fail(core::Code::kFile,
+                        fmt::format("{} has {} bytes, the limit for a journal is {}", file.string(),
+                                    bytes, kMostJournalBytes),
+                        journal.string());
+    }
     return core::fail(core::Code::kFile,
                       fmt::format("{}{} is a folder, a device or a pipe, not the file of a journal",
                                   journal.string(), suffix),

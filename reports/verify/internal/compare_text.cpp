@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/json_text.h"
 #include "reports/data/internal/json_parts.h"
 
 namespace rondure::reports {
@@ -232,15 +233,9 @@ std::vector<std::string_view> csv_fields(std::string_view line) {
 std::optional<std::string> first_json_difference(std::string_view expected, std::string_view found,
                                                  double tolerance) {
   if (expected == found) return std::nullopt;
-  Json right;
-  try {
-    right = Json::parse(found);
-  } catch (const Json::parse_error& error) {
-    const auto end = static_cast<std::ptrdiff_t>(std::min(error.byte, found.size()));
-    return fmt::format("the file is not JSON any more: line {}, byte {}",
-                       1 + std::count(found.begin(), found.begin() + end, '\n'), error.byte);
-  }
-  if (auto difference = value_difference(Json::parse(expected), right, "", tolerance)) {
+  const auto right = core::read_json<Json>(found, "");
+  if (!right) return right.error().what;
+  if (auto difference = value_difference(Json::parse(expected), *right, "", tolerance)) {
     return difference;
   }
   const auto written = first_text_difference(expected, found, tolerance);

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "core/numbers.h"
+#include "core/utf8.h"
 #include "reports/verify/internal/compare_text.h"
 
 namespace rondure::reports {
@@ -90,9 +92,9 @@ bool same_field(std::string_view a, std::string_view b, double tolerance) {
 
 std::optional<std::string> compare_json_values(std::string_view expected, std::string_view found,
                                                double tolerance) {
-  const SortedJson right = SortedJson::parse(found, nullptr, false);
-  if (right.is_discarded()) return "it is no JSON any more";
-  return walk(SortedJson::parse(expected, nullptr, false), right, "", tolerance);
+  const auto right = core::read_json<SortedJson>(found, "");
+  if (!right) return right.error().what;
+  return walk(SortedJson::parse(expected, nullptr, false), *right, "", tolerance);
 }
 
 std::optional<std::string> compare_csv_values(std::string_view expected, std::string_view found,
@@ -110,7 +112,8 @@ std::optional<std::string> compare_csv_values(std::string_view expected, std::st
       const std::string_view b = r < right[row].size() ? right[row][r] : std::string_view();
       if (same_field(a, b, tolerance)) continue;
       return fmt::format("row {}, column {}: the file says {}, the journal gives {}", row,
-                         right.front()[r], b.substr(0, 60), a.substr(0, 60));
+                         right.front()[r], core::printable(b.substr(0, 60)),
+                         core::printable(a.substr(0, 60)));
     }
   }
   return std::nullopt;
