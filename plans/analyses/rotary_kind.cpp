@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/features.h"
 #include "plans/analyses/internal/rotary_placing.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
@@ -128,6 +129,15 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
   if (findings.is_given("/fixture/calibration")) {
     findings.meaning(Code::kMeaning, "/fixture/calibration",
                      "a run that calibrates the fixture does not use a calibration; remove it");
+  }
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (!is_touched(plan.features[i])) continue;
+    findings.meaning(
+        Code::kMeaning, feature_pointer(i),
+        fmt::format("{} would be measured in the fixture that this plan calibrates, and judged as "
+                    "if that fixture had no errors; calibrate with a plan of its own, then name "
+                    "its fixture-calibration.json in fixture.calibration.file",
+                    in_quotes(plan.features[i].id)));
   }
   if (findings.is_given("/fixture/datum")) {
     findings.meaning(Code::kMeaning, "/fixture/datum",
