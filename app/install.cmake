@@ -49,6 +49,7 @@ install(FILES ${documents}/changelog.Debian.gz ${CMAKE_CURRENT_LIST_DIR}/debian/
 
 # ---- cpack
 set(CPACK_GENERATOR DEB)
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/generated/package_date.cmake)
 set(CPACK_PACKAGE_CONTACT "Rondure developers <developers@rondure.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

@@ -32,6 +32,17 @@ bool verifies(const fs::path& directory) {
   return outcome->differences.empty();
 }
 
+/// Says when other users of the computer could sign in the signer's name.
+void tell_readable_key(const fs::path& key) {
+  std::error_code unknown;
+  const fs::perms others = fs::status(key, unknown).permissions() &
+                           (fs::perms::group_read | fs::perms::others_read);
+  if (unknown || others == fs::perms::none) return;
+  tell(fmt::format("rondure: note: other users of this computer can read the private key {}; "
+                   "chmod 600 keeps it to yourself\n",
+                   key.string()));
+}
+
 core::Result<fs::path> write_signature(const SignArguments& arguments) {
   const fs::path directory = arguments.directory;
   const auto key = record::read_file(arguments.key);
@@ -53,6 +64,7 @@ int sign(const SignArguments& arguments) {
   if (!verifies(arguments.directory)) return kBadInput;
   const auto file = write_signature(arguments);
   if (!file) return refuse(file.error());
+  tell_readable_key(arguments.key);
   say_line(file->string());
   return kAllWell;
 }

@@ -58,6 +58,17 @@ TEST_F(SignedRun, VerifiesWithTheKeyOfItsSignerOnly) {
   EXPECT_THAT(without.out, HasSubstr("signed, the signature was not checked (--key PUBLIC.pem"));
 }
 
+TEST_F(SignedRun, APrivateKeyThatOthersCanReadIsNoted) {
+  EXPECT_EQ(sign().err, "");
+  for (const fs::perms readers : {fs::perms::group_read, fs::perms::others_read}) {
+    fs::permissions(folder_ / "mine.pem", fs::perms::owner_read | readers);
+    const Outcome outcome = sign();
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("note: other users of this computer can read the private "
+                                       "key"));
+  }
+}
+
 TEST_F(SignedRun, IsCheckedByTheOpensslCommandToo) {
   const std::string command =
       "cd '" + run_.string() +

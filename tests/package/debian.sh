@@ -7,6 +7,12 @@ trap 'rm -rf "$folder"' EXIT
 cpack --config "$build/CPackConfig.cmake" -B "$folder" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
 ls -l "$folder"/*.deb
 lintian --allow-root --fail-on error --tag-display-limit 0 "$folder"/*.deb
+# One commit gives one package: nothing in it is as old as the build.
+date=$(sed -n 's/.*set(ENV{SOURCE_DATE_EPOCH} \([0-9]*\)).*/\1/p' "$build/generated/package_date.cmake")
+day=$(date -u -d "@$date" '+%Y-%m-%d %H:%M')
+for package in "$folder"/*.deb; do
+  ! TZ=UTC dpkg-deb -c "$package" | grep -v " $day " || { echo "these are not as old as the commit, $day"; exit 1; }
+done
 dpkg-deb --info "$folder"/rondure_*.deb
 dpkg-deb -f "$folder"/rondure_*.deb Recommends | grep -qw chromium || { echo "chromium, which prints PDFs, is not recommended"; exit 1; }
 for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
