@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "evaluation/results/finding.h"
 #include "evaluation/results/internal/fixture_use.h"
 #include "evaluation/results/measured_cloud.h"
+#include "fit/least_squares/sections.h"
 #include "fit/least_squares/sphere.h"
 #include "fit/poses/walk.h"
 #include "record/tasks/settings.h"
@@ -158,10 +160,11 @@ Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
 
 /// Expected direction of the axis of a feature, or of the outward normal of a plane, machine frame.
 /// A touched part stands along the ring's z or as it was located; points of a file may have any
-/// orientation; a circle of a file is normal to z, and a plane as its feature says.
-std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
-                                             const record::Feature& feature,
+/// orientation, which their layers show; a circle of a file is normal to z, and a plane as its
+/// feature says.
+std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record, const FeatureResult& result,
                                              const record::PoseVisit& visit) {
+  const record::Feature& feature = result.feature;
   const bool circle = feature.shape == record::Shape::kCircle;
   const auto settings = record::task_of<record::SurfaceSettings>(feature.settings);
   std::optional<Eigen::Vector3d> faces;
@@ -171,7 +174,11 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
   }
   if (feature.strategy == record::Strategy::kPointsFile) {
     if (faces) return faces;
-    return circle ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::UnitZ()) : std::nullopt;
+    if (circle) return Eigen::Vector3d::UnitZ();
+    std::vector<int> layers;
+    for (const CloudPoint& point : result.cloud) layers.push_back(point.layer);
+    if (std::ranges::adjacent_find(layers, std::not_equal_to()) == layers.end()) return {};
+    return fit::layer_normal(tips_of(result.cloud), layers);
   }
   const Eigen::Matrix3d turn = rotation(visit.reached);
   const Eigen::Vector3d nominal = turn * faces.value_or(Eigen::Vector3d::UnitZ());
@@ -195,13 +202,24 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
 }
 
 /// Directions that a certificate must cover: for touched points those about the expected axis or,
-/// where the part lies outside that cone, about its least-squares axis; for a points file nothing
-/// is known, so all directions or, where that takes too long, those about its least-squares axis.
-std::vector<fit::AxisScope> certificate_scopes(const std::optional<Eigen::Vector3d>& direction,
-                                               const fit::LsCylinder& ls) {
-  const fit::AxisScope found{fit::AxisScope::Kind::kCone, ls.axis.direction};
-  if (direction) return {fit::AxisScope{fit::AxisScope::Kind::kCone, *direction}, found};
-  return {fit::AxisScope{fit::AxisScope::Kind::kHalfSphere}, found};
+/// where the part lies outside that cone, about its least-squares axis; for a points file all
+/// directions or, where that takes too long or where another axis contradicts the layers, those
+/// about its least-squares axis.
+fit::CylinderProofOptions certificate_options(const std::optional<Eigen::Vector3d>& direction,
+                                              const fit::LsCylinder& ls,
+                                              const FeatureResult& result) {
+  const auto cone = [](const Eigen::Vector3d& middle) {
+    return fit::AxisScope{fit::AxisScope::Kind::kCone, middle};
+  };
+  fit::CylinderProofOptions out{.scopes = {cone(ls.axis.direction)}, .search = {}};
+  const bool from_file = result.feature.strategy == record::Strategy::kPointsFile;
+  if (from_file) {
+    out.scopes.insert(out.scopes.begin(), {fit::AxisScope::Kind::kHalfSphere});
+    if (direction) out.candidates = cone(ls.axis.direction);
+  } else if (direction) {
+    out.scopes.insert(out.scopes.begin(), cone(*direction));
+  }
+  return out;
 }
 
 /// The points that take part: all but those in windows.
@@ -230,7 +248,13 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
     result.failure = ls.error();
     return;
   }
-  const fit::CylinderProofOptions proof{.scopes = certificate_scopes(direction, *ls), .search = {}};
+  if (!direction) {
+    if (auto one = fit::check_only_cylinder(tips, *ls); !one) {
+      result.failure = one.error();
+      return;
+    }
+  }
+  const auto proof = certificate_options(direction, *ls, result);
   auto mz = fit::min_zone_cylinder(tips, direction, proof);
   if (!mz) {
     result.failure = mz.error();
@@ -474,7 +498,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
   }
   for (const LeftOut& row : rows_in_windows(result)) result.cloud[row.row].left_out = true;
-  const auto direction = expected_axis(record, result.feature, *last);
+  const auto direction = expected_axis(record, result, *last);
   switch (result.feature.shape) {
     case record::Shape::kCylinder:
       evaluate_cylinder(direction, result);

@@ -304,15 +304,20 @@ core::Result<FitOutcome> fit_sphere(const FitArguments& arguments, Space points,
 core::Result<FitOutcome> fit_cylinder(const FitArguments& arguments,
                                       const record::PointTable& table, Collector collector) {
   const Space points = table.points_mm;
-  const auto ls = fit::ls_cylinder(points);
+  const auto normal = table.layers.empty() ? std::nullopt : fit::layer_normal(points, table.layers);
+  const auto ls = fit::ls_cylinder(points, normal);
   if (!ls) return core::fail(ls.error());
   collector.add("ls", "LSCY", [&] { return ls.map(kLeastSquares); });
   warn_of_arc(points, ls->axis, collector);
+  if (!normal) {
+    if (auto one = fit::check_only_cylinder(points, *ls); !one) collector.warn(one.error());
+  }
   const Eigen::Vector3d near = ls->axis.direction;
   // All directions, or, where that takes too long, those about the least-squares axis.
   const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
   const fit::AxisScope cone{fit::AxisScope::Kind::kCone, near};
-  const fit::CylinderProofOptions proof{.scopes = {all, cone}, .search = {}};
+  fit::CylinderProofOptions proof{.scopes = {all, cone}, .search = {}};
+  if (normal) proof.candidates = cone;
   const auto warn_of_other = [&](const core::Result<fit::OneSidedCylinder>& f) {
     if (!f || !f->other) return;
     collector.warn(

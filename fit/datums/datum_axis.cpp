@@ -196,7 +196,7 @@ core::Result<DatumAxis> coupled_datum(const DatumPoints& data, const AxisModel& 
                       "axis; measure the feature all round, or plan a least-squares datum");
   }
   DatumAxis out = stated_datum(data, zone.model);
-  out.ending = zone.ending;
+  out.ending = zone.rests ? ZoneEnding::kConverged : zone.ending;
   const auto count = static_cast<Eigen::Index>(data.features.size());
   for (Eigen::Index f = 0; f < count; ++f) {
     out.radii_mm.push_back(both ? 0.5 * (zone.bounds(f) + zone.bounds(f + count)) : zone.bounds(f));

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "core/decompositions.h"
+#include "core/units.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/internal/gauss_newton.h"
@@ -212,6 +213,31 @@ core::Result<LsCylinder> ls_cylinder(SpacePoints points_mm,
   const auto range = distance_range(
       points_mm.size(), [&](std::size_t i) { return frame.distance(points_mm[i] - mean); });
   return finished(*settled, mean, mean, range, points_mm.size());
+}
+
+core::Result<void> check_only_cylinder(SpacePoints points_mm, const LsCylinder& found) {
+  constexpr std::size_t kFew = 64;
+  constexpr double kNear = 0.005;
+  if (points_mm.size() > kFew) return {};
+  const auto said = [](const LsCylinder& c) {
+    const Eigen::Vector3d& d = c.axis.direction;
+    return fmt::format("one along ({:.2f}, {:.2f}, {:.2f}) of diameter {:.4f} mm within {:.3f} um",
+                       d.x(), d.y(), d.z(), 2.0 * c.radius_mm, core::micrometres(c.deviation_mm));
+  };
+  // Directions through the places of a cube of 5 x 5 x 5; of two opposite ones, one.
+  for (int code = 63; code < 125; ++code) {
+    const Eigen::Vector3d direction(code / 25 - 2, code / 5 % 5 - 2, code % 5 - 2);
+    const auto other = ls_cylinder(points_mm, direction);
+    if (!other || other->deviation_mm > kNear * other->radius_mm) continue;
+    const double lean = other->axis.direction.cross(found.axis.direction).norm();
+    if (lean <= std::sin(10.0 * core::kDegree)) continue;
+    return core::fail(
+        core::Code::kSeveralOptima,
+        fmt::format("more than one cylinder passes through the {} points: {}, and {}; "
+                    "give the file a column layer, or more points",
+                    points_mm.size(), said(found), said(*other)));
+  }
+  return {};
 }
 
 }  // namespace rondure::fit

@@ -29,4 +29,12 @@ struct LsCylinder {
 [[nodiscard]] core::Result<LsCylinder> ls_cylinder(
     SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
 
+/// Whether no other cylinder passes near the same few points: a least-squares one whose axis leans
+/// more than 10 deg from that of `found` and which lies within 0.5 % of its radius of every point.
+/// Eight corners of a box have three. Sought from 62 directions; sets of more than 64
+/// points are not searched.
+/// @return kSeveralOptima with one of the others.
+[[nodiscard]] core::Result<void> check_only_cylinder(SpacePoints points_mm,
+                                                     const LsCylinder& found);
+
 }  // namespace rondure::fit

@@ -1,10 +1,12 @@
 #include "fit/least_squares/sections.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/decompositions.h"
 #include "core/statistics.h"
 #include "fit/geometry/column_extremes.h"
 
@@ -67,6 +69,22 @@ std::vector<std::vector<std::size_t>> rows_by_height(SpacePoints points_mm, cons
   }
   for (auto& rows : out) std::ranges::sort(rows);
   return out;
+}
+
+std::optional<Eigen::Vector3d> layer_normal(SpacePoints points_mm, std::span<const int> layers) {
+  // Of a round section the two greater extents are alike, and the least is that of the heights.
+  constexpr double kFlat = 0.05;
+  std::map<int, std::vector<Eigen::Vector3d>> parted;
+  for (std::size_t i = 0; i < points_mm.size(); ++i) parted[layers[i]].push_back(points_mm[i]);
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const auto& [layer, points] : parted) {
+    const Eigen::Vector3d mean = mean_point(points);
+    for (const Eigen::Vector3d& p : points) scatter += (p - mean) * (p - mean).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(scatter);
+  const Eigen::Vector3d& extents = principal.eigenvalues();
+  if (!(extents(0) <= kFlat * extents(1) && extents(1) >= kFlat * extents(2))) return std::nullopt;
+  return Eigen::Vector3d(principal.eigenvectors().col(0));
 }
 
 std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections) {

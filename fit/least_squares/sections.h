@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,15 @@ struct Section {
 /// Source: methods, drawing section 1.
 [[nodiscard]] std::vector<std::vector<std::size_t>> rows_by_height(SpacePoints points_mm,
                                                                    const Axis& axis);
+
+/// The direction along which the points of each layer lie closest together: the normal of the
+/// layers, and the axis of a turned surface as nearly as these are square to it.
+///
+/// @param layers  Layer of each point.
+/// @return Nothing where the points of the layers leave it open, as those on narrow arcs or along
+///         lines do.
+[[nodiscard]] std::optional<Eigen::Vector3d> layer_normal(SpacePoints points_mm,
+                                                          std::span<const int> layers);
 
 /// The centres of sections.
 [[nodiscard]] std::vector<Eigen::Vector3d> median_line(std::span<const Section> sections);

@@ -62,10 +62,12 @@ bool chords_cross(PlanePoints points, const CenterSearch& search) {
                         unit(points, search.center_mm, search.inner.back()));
 }
 
-/// The fixed exchange: a side with two contacts drops its second one, whatever its effect.
-void take(std::vector<std::size_t>& side, std::size_t met) {
-  if (side.size() == 2) side.pop_back();
-  side.push_back(met);
+/// The fixed exchange, whatever its effect: a new inner contact replaces the second one, a new
+/// outer contact the older one.
+void take(CenterSearch& search, const ContactCandidate& met) {
+  std::vector<std::size_t>& side = met.inner ? search.inner : search.outer;
+  if (side.size() == 2) side.erase(met.inner ? side.end() - 1 : side.begin());
+  side.push_back(met.index);
 }
 
 }  // namespace
@@ -88,7 +90,7 @@ core::Result<CenterSearch> center_search_as_published(PlanePoints points_mm) {
     const ContactCandidate& first = met.front();
     out.moves.push_back({out.center_mm, out.width_mm(), out.outer, out.inner, u, 0.0, first});
     out.center_mm += first.step_mm * u;
-    take(first.inner ? out.inner : out.outer, first.index);
+    take(out, first);
     measure(points_mm, out, false);
     if (out.outer.size() < 2 || out.inner.size() < 2) continue;
     if (chords_cross(points_mm, out)) {

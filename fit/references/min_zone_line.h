@@ -17,7 +17,8 @@ struct MinZoneLine {
   Axis axis;
   double diameter_mm = 0.0;       ///< Straightness of the line (ISO 1101, zone with diameter sign).
   std::vector<Contact> contacts;  ///< Points that determine the cylinder; multipliers sum to 1.
-  Certificate certificate;        ///< Local at best: next to the least-squares line.
+  /// Of three points global, of more local at best: next to the least-squares line.
+  Certificate certificate;
 };
 
 /// Finds the minimum-zone straightness of a line in space, or of a median line given by the centres

@@ -52,6 +52,33 @@ core::Result<OneSidedCylinder> fit_one_sided(SpacePoints points_mm,
   return stated(points_mm, proof, weights);
 }
 
+/// The smallest cylinder about three points: its axis is parallel to the longest side of their
+/// triangle, and its diameter the least altitude, since no view of a triangle is narrower.
+MinZoneLine about_triangle(SpacePoints points_mm) {
+  std::size_t apex = 0;
+  double longest = -1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double side = (points_mm[(i + 1) % 3] - points_mm[(i + 2) % 3]).norm();
+    if (side > longest) {
+      longest = side;
+      apex = i;
+    }
+  }
+  const std::size_t from = (apex + 1) % 3;
+  const std::size_t to = (apex + 2) % 3;
+  const Eigen::Vector3d along = (points_mm[to] - points_mm[from]) / longest;
+  const Eigen::Vector3d v = points_mm[apex] - points_mm[from];
+  const Eigen::Vector3d altitude = v - along.dot(v) * along;
+  const double share = along.dot(v) / longest;
+  MinZoneLine out;
+  out.axis = conventional({points_mm[from] + 0.5 * altitude, along}, mean_point(points_mm));
+  out.diameter_mm = altitude.norm();
+  out.contacts = {{apex, 0.5}, {from, 0.5 * (1.0 - share)}, {to, 0.5 * share}};
+  std::ranges::sort(out.contacts, {}, &Contact::index);
+  out.certificate = {Certificate::Kind::kGlobal, core::phrase("all directions"), 0.0, {}};
+  return out;
+}
+
 }  // namespace
 
 core::Result<OneSidedCylinder> min_circumscribed_cylinder(
@@ -69,6 +96,7 @@ core::Result<OneSidedCylinder> max_inscribed_cylinder(
 core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm, Proof proof) {
   const auto line = ls_line(points_mm);
   if (!line) return core::fail(line.error());
+  if (points_mm.size() == 3) return about_triangle(points_mm);
   CylinderZoneFitter fitter;
   const CylinderZone zone = fitter.fit_from(points_mm, line->axis, kMinimumCircumscribed);
   if (proof == Proof::kNone) return MinZoneLine{zone.place, 2.0 * zone.outer_radius_mm, {}, {}};

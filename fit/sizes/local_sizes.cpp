@@ -32,32 +32,48 @@ std::vector<PolarPoint> by_angle(const Section& section) {
   return out;
 }
 
-/// Appends the pairs of a section. The partner of a point lies half a turn ahead of it, so that
-/// points of the first half turn find every pair once.
-/// @return false if it has none.
-bool append_pairs(const Section& section, std::size_t number, const Material& material,
-                  std::vector<LocalSize>& out) {
-  const std::size_t before = out.size();
-  const auto points = by_angle(section);
+/// The place among the points of the one that lies opposite each, to 0.5 deg and most nearly; that
+/// of the point itself where there is none. The seam of the angles is no place of its own.
+std::vector<std::size_t> opposite_points(const Section& section,
+                                         std::span<const PolarPoint> points) {
   const double half_turn = 0.5 * core::kTwoPi;
   const auto misaligned = [&](const PolarPoint& p, const PolarPoint& q) {
     const Eigen::Vector2d a = section.points_mm[p.row] - section.circle.center_mm;
     const Eigen::Vector2d b = section.points_mm[q.row] - section.circle.center_mm;
     return std::abs(a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm());
   };
-  for (const PolarPoint& p : points) {
-    auto partner =
-        std::ranges::lower_bound(points, p.angle + half_turn - kOpposite, {}, &PolarPoint::angle);
-    auto nearest = points.end();
-    for (; partner != points.end() && partner->angle <= p.angle + half_turn + kOpposite;
-         ++partner) {
-      if (nearest == points.end() || misaligned(p, *partner) < misaligned(p, *nearest)) {
-        nearest = partner;
+  std::vector<std::size_t> out(points.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PolarPoint& p = points[i];
+    const auto take = [&](double from, double to) {
+      for (auto q = std::ranges::lower_bound(points, from, {}, &PolarPoint::angle);
+           q != points.end() && q->angle <= to; ++q) {
+        if (out[i] == i || misaligned(p, *q) < misaligned(p, points[out[i]])) {
+          out[i] = static_cast<std::size_t>(q - points.begin());
+        }
       }
+    };
+    for (const double opposite : {p.angle - half_turn, p.angle + half_turn}) {
+      take(opposite - kOpposite, opposite + kOpposite);
     }
-    if (nearest == points.end()) continue;
-    out.push_back({p.radius + nearest->radius - 2.0 * material.sign() * material.tip_radius_mm,
-                   number, p.row, nearest->row});
+  }
+  return out;
+}
+
+/// Appends the pairs of a section: each point with its opposite one, and no pair twice.
+/// @return false if it has none.
+bool append_pairs(const Section& section, std::size_t number, const Material& material,
+                  std::vector<LocalSize>& out) {
+  const std::size_t before = out.size();
+  const auto points = by_angle(section);
+  const auto opposite = opposite_points(section, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t k = opposite[i];
+    if (k == i || (k < i && opposite[k] == i)) continue;
+    out.push_back(
+        {points[i].radius + points[k].radius - 2.0 * material.sign() * material.tip_radius_mm,
+         number, points[i].row, points[k].row});
   }
   return out.size() > before;
 }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kContactTolerance = 1e-9;  // tau_c [mm]
 constexpr double kGapTolerance = 1e-9;      // tau_g
+/// A point nearer than this is in contact already; round-off alone decides on which side it lies.
+constexpr double kLeastStep = 1e-9;  // mm
 
 /// Extreme distances of all points from a centre, and the contacts there.
 struct ContactSets {
@@ -88,11 +90,11 @@ std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
     const double q = along(i);
     if (!holds(outer, i) && q < along(h)) {
       const double step = squared_difference(h, i) / (2.0 * (along(h) - q));
-      if (step > 0.0) out.push_back({i, false, step});
+      if (step > kLeastStep) out.push_back({i, false, step});
     }
     if (!holds(inner, i) && q > along(l)) {
       const double step = squared_difference(i, l) / (2.0 * (q - along(l)));
-      if (step > 0.0) out.push_back({i, true, step});
+      if (step > kLeastStep) out.push_back({i, true, step});
     }
   }
   std::ranges::stable_sort(out, {}, &ContactCandidate::step_mm);

@@ -17,7 +17,7 @@ struct ContactCandidate {
   std::size_t index = 0;
   /// It becomes as near as the inner contact; otherwise as far as the outer one.
   bool inner = false;
-  double step_mm = 0.0;  ///< Exact length of the move that makes it a contact, > 0.
+  double step_mm = 0.0;  ///< Exact length of the move that makes it a contact, > 1e-9.
 };
 
 /// Returns all candidates of a move from `center_mm` along the unit vector `direction`, in order of

@@ -44,6 +44,9 @@ struct CylinderProofOptions {
   /// loops.
   std::vector<AxisScope> scopes;
   GlobalSearchOptions search;
+  /// Where something is known of the axis, as the layers of the points: a better axis outside of
+  /// this cone is no candidate, and ends the search of a wider scope.
+  std::optional<AxisScope> candidates = {};
 };
 
 /// Most searches of one proof. Each but the first starts at the better place found by the last one.

@@ -70,6 +70,39 @@ bool same_rows(const FeaturePlan& a, const FeaturePlan& b) {
   return a.source && b.source && path(a) == path(b) && a.source->feature == b.source->feature;
 }
 
+/// Whether a touched feature is measured in the start pose that its plan states.
+bool stays_in_start_pose(const FeaturePlan& feature) {
+  using record::Strategy;
+  const Strategy strategy = feature.pose_search.strategy;
+  return feature.type != Shape::kCylinder || strategy == Strategy::kStartPose ||
+         strategy == Strategy::kVirtual;
+}
+
+/// Why two touched features are certain to be measured in different poses; empty where they are
+/// not.
+std::string why_in_other_poses(const FeaturePlan& a, const FeaturePlan& b) {
+  for (const FeaturePlan* merged : {&a, &b}) {
+    if (merged->type != Shape::kCylinder ||
+        merged->pose_search.strategy != record::Strategy::kMerged) {
+      continue;
+    }
+    return fmt::format(
+        "the cloud of {} is made of several poses, in a frame of its own; measure {} and {} with "
+        "the strategy \"start-pose\"",
+        in_quotes(merged->id), in_quotes(a.id), in_quotes(b.id));
+  }
+  const PoseSearchPlan& at = a.pose_search;
+  const PoseSearchPlan& other = b.pose_search;
+  const bool same =
+      at.start_alpha_deg == other.start_alpha_deg && at.start_beta_deg == other.start_beta_deg;
+  if (same || !stays_in_start_pose(a) || !stays_in_start_pose(b)) return {};
+  return fmt::format(
+      "{} is measured in pose ({}, {}) deg and {} in ({}, {}) deg, so nobody knows how they lie to "
+      "each other; give both the same start_alpha_deg and start_beta_deg",
+      in_quotes(a.id), plain(at.start_alpha_deg), plain(at.start_beta_deg), in_quotes(b.id),
+      plain(other.start_alpha_deg), plain(other.start_beta_deg));
+}
+
 /// Why a feature is no datum, or part of no common datum; empty where it is.
 std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum) {
   const FeaturePlan& feature = plan.features[datum];
@@ -94,7 +127,7 @@ std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum)
   const std::string clamping = clamping_of(plan, asked);
   const bool together = asked.source.has_value() == feature.source.has_value() &&
                         (!files || (!clamping.empty() && clamping == clamping_of(plan, feature)));
-  if (together) return {};
+  if (together) return files ? std::string() : why_in_other_poses(asked, feature);
   if (files && asked.source->file == feature.source->file) {
     return fmt::format(
         "{} and {} are of one file and of the clampings {} and {}, so nobody knows how they lie to "
@@ -179,6 +212,24 @@ void check_datums(const Plan& plan, std::size_t index, const record::Characteris
     findings.meaning(Code::kMeaning, place,
                      fmt::format("{} is about an axis, and the datum is a plane; name a cylinder",
                                  name_of(asked.form)));
+  }
+}
+
+void measure_datums_in_one_pose(Plan& plan, const Findings& findings) {
+  std::vector<bool> related(plan.features.size(), false);
+  for (std::size_t k = 0; k < plan.features.size(); ++k) {
+    for (const record::CharacteristicTask& asked : plan.features[k].characteristics) {
+      for (const std::string& datum : asked.indication.datum) {
+        const auto features = features_of_datum(plan, datum);
+        if (!features) continue;
+        related[k] = true;
+        for (const std::size_t feature : *features) related[feature] = true;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < plan.features.size(); ++k) {
+    if (!related[k] || findings.is_given(feature_pointer(k) + "/pose_search/strategy")) continue;
+    plan.features[k].pose_search.strategy = record::Strategy::kStartPose;
   }
 }
 

@@ -369,7 +369,7 @@ void check_portion(const Asked& asked) {
   }
 }
 
-/// Checks that the association is said where the drawing has a limit, and that the form has it.
+/// Checks that the form has the association. Where nothing is said it is the ISO default, mz.
 void check_reference(const Asked& asked) {
   const record::CharacteristicTask& c = asked.task;
   const Form form = c.form;
@@ -388,20 +388,6 @@ void check_reference(const Asked& asked) {
     return asked.refuse(
         "reference", fmt::format("{} is about \"mz\" or \"ls\"; give one of them", name_of(form)));
   }
-  const bool said = c.reference || asked.feature().defaults.reference ||
-                    asked.plan.defaults.reference || asked.given("reference");
-  if (!c.tolerance_um || !total || said) return;
-  asked.refuse("reference",
-               line_or_plane
-                   ? fmt::format("the tolerance of {} um has no reference; add \"reference\": "
-                                 "\"mz\" (minimum zone, the ISO default) or \"ls\" (least "
-                                 "squares), as the drawing says",
-                                 plain(*c.tolerance_um))
-                   : fmt::format("the tolerance of {} um has no reference; add \"reference\": "
-                                 "\"mz\" (minimum zone, the ISO default), \"ls\" (least squares), "
-                                 "\"mc\" (minimum circumscribed) or \"mi\" (maximum inscribed), as "
-                                 "the drawing says",
-                                 plain(*c.tolerance_um)));
 }
 
 /// Checks the direction of a run-out against the surface.
@@ -505,10 +491,6 @@ void check_of_analysis(const Asked& asked) {
                  Code::kMissingKey);
   }
   check_limits_of(asked);
-  const record::CharacteristicTask& c = asked.task;
-  const bool said = c.reference || asked.given("reference") || asked.feature().defaults.reference ||
-                    asked.plan.defaults.reference;
-  if (record::facts_of(c.form).about && c.tolerance_um && !said) check_reference(asked);
 }
 
 /// Checks the letter: short, and no other feature has it as letter or id.

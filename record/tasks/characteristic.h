@@ -57,7 +57,7 @@ void describe_reference(Visitor& v, Keys& p) {
   v.text("reference", p.reference,
          {.meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
                      "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
-                     "(a plug gauge in a bore). Needed with a form tolerance."});
+                     "(a plug gauge in a bore). Left out: mz, which the report prints."});
 }
 
 template <class Visitor>

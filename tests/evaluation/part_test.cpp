@@ -745,7 +745,14 @@ TEST(SurfaceOutliers, ThatAreNeighboursAreForm) {
     EXPECT_EQ(surface.error().code, core::Code::kOutliers);
     return surface.error().what;
   };
-  EXPECT_EQ(sentence([](int j, int i) { return j == 1 && (i == 5 || i == 6); }), "");
+  EXPECT_EQ(sentence([](int j, int i) { return j == 1 && i == 5; }), "");
+  EXPECT_EQ(sentence([](int j, int i) { return (j == 1 && (i == 5 || i == 15)) || j * i == 75; }),
+            "");
+  EXPECT_EQ(sentence([](int j, int i) { return (j == 0 || j == 2) && i == 5; }), "");
+  EXPECT_THAT(sentence([](int j, int i) { return j == 1 && (i == 5 || i == 6); }),
+              HasSubstr("2 of 36 points of layer 2, next to each other"));
+  EXPECT_THAT(sentence([](int j, int i) { return (j == 2 || j == 3) && i == 5; }),
+              HasSubstr("points of 2 layers, one above the other at 50.0 deg"));
   EXPECT_THAT(sentence([](int j, int i) { return j == 1 && (i == 35 || i < 2); }),
               HasSubstr("3 of 36 points of layer 2, next to each other"));
   EXPECT_THAT(sentence([](int j, int) { return j == 4; }), HasSubstr("36 of 36 points of layer 5"));

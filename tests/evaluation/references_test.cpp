@@ -38,6 +38,41 @@ std::map<std::string, evaluation::CharacteristicResult> by_id(
   return out;
 }
 
+// Eight points of a shaft as long as it is wide lie on three cylinders; the one whose sections are
+// the layers is the part. Its zone is that of both sections alike: 2.4864 um, as 15 mm +- 1.2432 um
+// at four equal angles have about their centre.
+TEST(CylindricityOfFewPoints, IsAboutTheAxisThatTheLayersShow) {
+  const auto run_of = [](bool layers) {
+    record::RunRecord run;
+    std::vector<std::vector<Eigen::Vector3d>> rings(2);
+    for (int k = 0; k < 8; ++k) {
+      const double r = 15.0 + (k % 2 == 0 ? 1.2432e-3 : -1.2432e-3);
+      const double angle = 0.25 * core::kTwoPi * (k % 4);
+      rings[static_cast<std::size_t>(k / 4)].emplace_back(r * std::cos(angle), r * std::sin(angle),
+                                                          k < 4 ? 0.0 : 21.2);
+    }
+    if (!layers) {
+      rings[0].insert(rings[0].end(), rings[1].begin(), rings[1].end());
+      rings.pop_back();
+    }
+    auto& feature = add_to_points_run(run, "s", record::Shape::kCylinder, rings);
+    if (!layers) feature.layers = 0;
+    feature.characteristics.push_back(
+        {"cyl", record::Form::kCylindricity, Reference::kMinimumZone, 1e-3, ""});
+    return evaluated(run).features.front();
+  };
+  const auto layered = run_of(true);
+  ASSERT_FALSE(layered.failure) << layered.failure->what;
+  ASSERT_TRUE(layered.mz_cylinder);
+  EXPECT_NEAR(layered.mz_cylinder->width_mm(), 2.4864e-3, 1e-9);
+  EXPECT_NEAR(std::abs(layered.mz_cylinder->axis.direction.z()), 1.0, 1e-6);
+  EXPECT_EQ(layered.characteristics.front().verdict, Verdict::kDoesNotConform);
+  const auto unknown = run_of(false);
+  ASSERT_TRUE(unknown.failure);
+  EXPECT_EQ(unknown.failure->code, core::Code::kSeveralOptima);
+  EXPECT_EQ(unknown.characteristics.front().verdict, Verdict::kVoid);
+}
+
 TEST(Symbols, AreThoseOfTheDrawing) {
   using Indication = record::Indication;
   using record::Form;

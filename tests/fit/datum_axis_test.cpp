@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/noise.h"
 #include "core/units.h"
 #include "fit/datums/datum.h"
 #include "fit/least_squares/cylinder.h"
@@ -217,6 +218,37 @@ TEST(DatumAxis, ThatRocksEndsAtTheLastContactOfItsValley) {
   EXPECT_EQ(datum->contacts[3].index, 5U);
   EXPECT_NEAR(datum->axis.direction.x(), 0.0006999764421856, 1e-10);
   EXPECT_NEAR(datum->axis.direction.y(), -0.0019653155705871, 1e-10);
+}
+
+// The circumscribed cylinder of an oval rests on its two long generatrices alone, and curvature
+// holds it across them: the axis is that of the oval, R the longer half axis.
+TEST(DatumAxis, OfANoiseFreeOvalIsHeldByTheCurvatureOfItsGeneratrices) {
+  for (const double noise : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5}) {
+    for (int seed = 0; seed < (noise == 0.0 ? 1 : 20); ++seed) {
+      SCOPED_TRACE(testing::Message() << "noise " << noise << " mm, seed " << seed);
+      core::KeyedNoise draw(static_cast<std::uint64_t>(seed), {31});
+      const Eigen::Vector3d axis = Eigen::Vector3d(0.004, -0.002, 1.0).normalized();
+      const auto frame = across(axis);
+      Space oval;
+      for (int layer = 0; layer < 5; ++layer) {
+        for (int k = 0; k < 24; ++k) {
+          const double angle = core::kTwoPi * k / 24;
+          const double r = 15.0 + 0.02 * std::cos(2.0 * angle) + noise * draw.normal();
+          oval.push_back(Eigen::Vector3d(3.0, -8.0, 0.0) + 10.0 * layer * axis +
+                         r * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1)));
+        }
+      }
+      const auto datum =
+          datum_axis(std::vector<DatumCylinder>{{oval, false}}, DatumAssociation::kOneSided);
+      ASSERT_TRUE(datum.has_value());
+      EXPECT_EQ(datum->ending, ZoneEnding::kConverged);
+      EXPECT_NEAR(datum->radii_mm[0], 15.02, 1e-8 + 5.0 * noise);
+      // A move d across the generatrices lengthens R by d^2 / (2 R) only.
+      const double held = std::sqrt(2.0 * 15.0 * (1e-8 + 5.0 * noise));
+      EXPECT_NEAR(distance_mm(datum->axis, Eigen::Vector3d(3.0, -8.0, 0.0)), 0.0, held);
+      EXPECT_LT(datum->axis.direction.cross(axis).norm(), held / 20.0);
+    }
+  }
 }
 
 TEST(DatumAxis, RefusesFeaturesThatFixNoAxis) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/noise.h"
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
@@ -148,6 +149,31 @@ TEST(DenseGeneratrices, NeedAScan) {
   EXPECT_EQ(dense_generatrices({}).error().code, core::Code::kNoPoints);
   EXPECT_EQ(dense_generatrices(std::vector{lobed_section(0.0, {0.0, 0.0}, 90)}, 0).error().code,
             core::Code::kBadOption);
+}
+
+// With its last point twice a triangle has four points, and takes the way of any set.
+TEST(MinZoneLine, OfThreePointsIsTheLeastAltitudeOfTheirTriangle) {
+  core::KeyedNoise noise(3, {17});
+  for (int i = 0; i < 50; ++i) {
+    SCOPED_TRACE(i);
+    std::vector<Eigen::Vector3d> three;
+    for (int k = 0; k < 3; ++k) {
+      three.emplace_back(0.01 * noise.normal(), 0.01 * noise.normal(), 20.0 * k + noise.normal());
+    }
+    const auto line = min_zone_line(three);
+    ASSERT_TRUE(line);
+    double doubled_area = (three[1] - three[0]).cross(three[2] - three[0]).norm();
+    EXPECT_NEAR(line->diameter_mm, doubled_area / (three[2] - three[0]).norm(), 1e-14);
+    for (const Eigen::Vector3d& p : three) {
+      EXPECT_NEAR(distance_mm(line->axis, p), 0.5 * line->diameter_mm, 1e-12);
+    }
+    three.push_back(three.back());
+    const auto four = min_zone_line(three);
+    ASSERT_TRUE(four);
+    EXPECT_NEAR(line->diameter_mm, four->diameter_mm, 1e-10);
+  }
+  const std::vector<Eigen::Vector3d> straight = {{0, 0, 0}, {1, 2, 3}, {2, 4, 6}};
+  EXPECT_NEAR(min_zone_line(straight)->diameter_mm, 0.0, 1e-15);
 }
 
 }  // namespace

@@ -161,6 +161,29 @@ TEST(LsCylinder, EveryPointTwiceIsTheSameCylinder) {
   EXPECT_NEAR(once->rms_mm, twice->rms_mm, 1e-12 * 25.0);
 }
 
+TEST(LsCylinder, IsNotTheOnlyOneThroughTheCornersOfABox) {
+  // Two sections of `count` points that deviate by 1 um, `height` apart.
+  const auto checked = [](int count, double height) {
+    Points3 corners;
+    for (int k = 0; k < 2 * count; ++k) {
+      const double angle = core::kTwoPi * (k % count) / count;
+      const double r = 15.0 + (k % 2 == 0 ? 0.001 : -0.001);
+      corners.emplace_back(r * std::cos(angle), r * std::sin(angle), k < count ? 0.0 : height);
+    }
+    const auto upright = ls_cylinder(corners, Eigen::Vector3d::UnitZ());
+    EXPECT_TRUE(upright);
+    return check_only_cylinder(corners, *upright);
+  };
+  for (const double height : {21.2, 50.0}) {
+    const auto box = checked(4, height);
+    ASSERT_FALSE(box);
+    EXPECT_EQ(box.error().code, core::Code::kSeveralOptima);
+    EXPECT_NE(box.error().what.find("column layer"), std::string::npos);
+  }
+  EXPECT_TRUE(checked(5, 21.2));
+  EXPECT_TRUE(checked(8, 21.2));
+}
+
 TEST(LsCylinder, ALargeSetIsRefusedForTheSameReasonsAsASmallOne) {
   const Made part = made(5000, 25.0, 0.01, {10.0, 20.0, 30.0}, 9);
   for (const std::size_t row : {0U, 2777U, 4999U}) {

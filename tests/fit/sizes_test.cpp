@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/noise.h"
 #include "core/units.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sections.h"
@@ -250,6 +251,39 @@ TEST(LocalSizes, TakeTheNearestOfSeveralPartners) {
   for (const LocalSize& size : *sizes) EXPECT_EQ(size.second, size.first + 81);
 }
 
+TEST(LocalSizes, AreTheSameWhereverTheSeamOfTheAnglesLies) {
+  // 720 points, two lobes of 4 um and noise of 1 um: at steps of half a degree the neighbours of
+  // the opposite point are within reach, too. Every diameter is one pair: r(i) + r(i + 360).
+  core::KeyedNoise noise(7, {23});
+  std::vector<double> r;
+  for (int k = 0; k < 720; ++k) {
+    r.push_back(15.0 + 0.002 * std::cos(core::kTwoPi * k / 360.0) + 0.001 * noise.normal());
+  }
+  double mean = 0.0;
+  for (const double radius : r) mean += radius / 360.0;
+  for (const double turn : {0.0, 1e-13, -1e-13, 0.2, 1.0}) {
+    SCOPED_TRACE(turn);
+    test::Layers section(1);
+    for (int k = 0; k < 720; ++k) {
+      const double angle = turn + core::kTwoPi * k / 720.0;
+      section[0].emplace_back(r[static_cast<std::size_t>(k)] * std::cos(angle),
+                              r[static_cast<std::size_t>(k)] * std::sin(angle), 0.0);
+    }
+    auto sections = sections_across(section, kUpright);
+    ASSERT_TRUE(sections.has_value());
+    sections->front().circle.center_mm.setZero();
+    const auto sizes = two_point_sizes(*sections, kPlain);
+    ASSERT_TRUE(sizes.has_value());
+    ASSERT_EQ(sizes->size(), 360U);
+    double found = 0.0;
+    for (const LocalSize& size : *sizes) {
+      EXPECT_EQ((size.first + 360) % 720, size.second);
+      found += size.size_mm / 360.0;
+    }
+    EXPECT_NEAR(found, mean, 1e-12);
+  }
+}
+
 TEST(LocalSizes, AreUnknownWhereOneSectionHasNoPair) {
   test::Layers layers = circle_touched(8, 0.0);
   layers.push_back(circle_touched(7, 0.0).front());
@@ -338,6 +372,34 @@ TEST(Sections, OfAFileWithoutLayersBeginWhereHeightsAreMoreThanHalfAMillimetreAp
   EXPECT_EQ(rows_by_height(points, kUpright), (Rows{{1, 2, 4}, {5}, {0, 3}}));
   EXPECT_EQ(rows_by_height(points, {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ()}),
             (Rows{{0, 3}, {5}, {1, 2, 4}}));
+}
+
+TEST(Sections, ShowTheirNormal) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.3, -0.5, 0.8).normalized();
+  const auto frame = across(axis);
+  std::vector<Eigen::Vector3d> points;
+  std::vector<int> layers;
+  for (int k = 0; k < 7; ++k) {  // three and four points, at other angles
+    const double angle = k < 3 ? 2.0 * k : 0.4 + 1.5 * k;
+    points.push_back(9.0 * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1)) +
+                     (k < 3 ? 2.0 : 5.0) * axis);
+    layers.push_back(k < 3 ? 0 : 1);
+  }
+  const auto normal = layer_normal(points, layers);
+  ASSERT_TRUE(normal);
+  EXPECT_NEAR(std::abs(normal->dot(axis)), 1.0, 1e-12);
+  // Points along generatrices, named layers, show none.
+  std::vector<Eigen::Vector3d> lines;
+  std::vector<int> lines_of;
+  for (int line = 0; line < 4; ++line) {
+    for (int k = 0; k < 5; ++k) {
+      lines.push_back(
+          9.0 * (std::cos(1.57 * line) * frame.col(0) + std::sin(1.57 * line) * frame.col(1)) +
+          3.0 * k * axis);
+      lines_of.push_back(line);
+    }
+  }
+  EXPECT_FALSE(layer_normal(lines, lines_of));
 }
 
 TEST(Sections, RefuseALayerThatIsNotSquareToTheAxis) {

@@ -186,7 +186,20 @@ TEST(PlanDrawing, ADatumMayBeTouched) {
           {"id": "B", "type": "cylinder", "nominal": {"diameter_mm": 50, "from_mm": 10, "to_mm": 40},
            "characteristics": [{"id": "1", "form": "coaxiality", "datum": ["low-end"]}]}]})",
       "", "plan.json");
-  EXPECT_TRUE(plan) << lines_of(plan) << "an id may hold a hyphen";
+  ASSERT_TRUE(plan) << lines_of(plan) << "an id may hold a hyphen";
+  for (const FeaturePlan& feature : plan->features) {
+    EXPECT_EQ(feature.pose_search.strategy, record::Strategy::kStartPose) << feature.id;
+  }
+  const auto alone = touched_cylinder(R"({"id": "c", "form": "cylindricity"})");
+  ASSERT_TRUE(alone) << lines_of(alone);
+  EXPECT_EQ(alone->features.front().pose_search.strategy, record::Strategy::kGuided);
+}
+
+TEST(PlanDrawing, AToleranceWithoutReferenceIsAboutTheMinimumZone) {
+  const auto plan = touched_cylinder(R"({"id": "c", "form": "cylindricity", "tolerance_um": 12})");
+  ASSERT_TRUE(plan) << lines_of(plan);
+  EXPECT_EQ(run_head(*plan, {}, 0).features[0].characteristics[0].reference,
+            record::Reference::kMinimumZone);
 }
 
 TEST(PlanDrawing, ARuleOfACharacteristicIsCheckedAsThatOfThePlan) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/part/internal/layout.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
@@ -139,12 +140,14 @@ core::Result<Associated> associated_cylinder(const PreparedSurface& surface, Ref
     return out;
   }
   if (proof == Proof::kNone) return next_cylinder(points_mm, reference, direction);
-  // As the evaluation of the feature: nothing is known of the direction of a points file.
+  // As the evaluation of the feature: only layers say something of the direction of a points file.
+  const fit::AxisScope cone{.kind = fit::AxisScope::Kind::kCone, .nominal = direction};
   fit::CylinderProofOptions options;
   if (surface.of->feature.strategy == record::Strategy::kPointsFile) {
     options.scopes.push_back({.kind = fit::AxisScope::Kind::kHalfSphere});
+    if (has_layers(*surface.of)) options.candidates = cone;
   }
-  options.scopes.push_back({.kind = fit::AxisScope::Kind::kCone, .nominal = direction});
+  options.scopes.push_back(cone);
   return proven_cylinder(points_mm, reference, direction, options);
 }
 

@@ -31,8 +31,6 @@ using record::WindowTask;
 using SurfacePoints = std::vector<Eigen::Vector3d>;
 
 constexpr double kThickestMm = 0.5;
-/// More outlying points next to each other are form, not points that missed the surface.
-constexpr std::size_t kMostNeighbours = 2;
 constexpr double kGuardMm = 0.5;
 /// An axis that leans more (60 deg) has no angle about part z.
 constexpr double kLeastUpright = 0.5;
@@ -358,8 +356,8 @@ class LayoutBuilder {
     return {};
   }
 
-  /// Outlying points that are neighbours round a section, a whole section, or neighbours of three
-  /// layers one above the other are form: a dent, a burr, a step, a groove.
+  /// Outlying points that are neighbours round a section or one above the other are form: a dent, a
+  /// burr, a raised spot, a step, a groove. Points that missed the surface stand alone.
   void find_form() {
     std::vector<bool> off(tips_.size(), false);
     for (const std::size_t row : out_.outlying) off[row] = true;
@@ -376,7 +374,7 @@ class LayoutBuilder {
         if (off[row]) far.push_back({places_[row].angle_rad, spacing_rad, &section});
       }
       const std::size_t run = longest_run(by_angle);
-      if (run <= kMostNeighbours && (run == 0 || run < rows.size())) continue;
+      if (run <= 1 && (run == 0 || run < rows.size())) continue;
       out_.form = said(
           core::Code::kOutliers,
           core::phrase("{} of {} points of layer {}, next to each other, lie more than five robust "
@@ -410,7 +408,8 @@ class LayoutBuilder {
       for (std::size_t k = i; k < i + count && far[k].angle_rad <= end_rad; ++k) {
         if (far[k].section->pass == far[i].section->pass) layers.insert(far[k].section->layer);
       }
-      if (layers.size() <= kMostNeighbours) continue;
+      const auto apart = [](int a, int b) { return b - a == 1; };
+      if (std::adjacent_find(layers.begin(), layers.end(), apart) == layers.end()) continue;
       out_.form = said(
           core::Code::kOutliers,
           core::phrase("points of {} layers, one above the other at {:.1f} deg, lie more than five "

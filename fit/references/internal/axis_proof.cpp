@@ -27,7 +27,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 /// Searches the axes of one reference, one scope after the other.
 class ScopeSearcher {
  public:
-  ScopeSearcher(SpacePoints points, const GlobalSearchOptions& options, const ZoneWeights& weights,
+  ScopeSearcher(SpacePoints points, const CylinderProofOptions& options, const ZoneWeights& weights,
                 const AxisReach& reach, CylinderZoneFitter& fitter)
       : points_(points), options_(options), weights_(weights), reach_(reach), fitter_(fitter) {}
 
@@ -43,9 +43,10 @@ class ScopeSearcher {
       }
       const LocalProof<4>& local = proof.proven.proof;
       const double value = weights_.value(proof.proven.zone);
-      const auto search = search_axes(
-          points_, proof.axis, proof.half_length,
-          {value, local.growth, local.outer, local.inner, weights_, reach_}, directions, options_);
+      const auto search =
+          search_axes(points_, proof.axis, proof.half_length,
+                      {value, local.growth, local.outer, local.inner, weights_, reach_}, directions,
+                      options_.search);
       proof.boxes += search.boxes;
       if (!search.better) {
         proof.certificate.reason = search.reason;
@@ -56,6 +57,13 @@ class ScopeSearcher {
         return true;
       }
       AxisProof next = prove_axis(points_, descended(*search.better, value), weights_);
+      if (const auto& known = options_.candidates;
+          known && angle_between(next.axis.direction, known->nominal) > known->cone_rad) {
+        proof.certificate.reason = core::Phrase(
+            fmt::format("a better axis leans {:.3g} deg from the normal of the layers",
+                        angle_between(next.axis.direction, known->nominal) / core::kDegree));
+        return false;
+      }
       if (!(weights_.value(next.proven.zone) < value)) {
         proof.certificate.reason = core::Phrase(fmt::format(
             "a better axis was met, its optimum was not reached; better by {:.3g} mm at least",
@@ -176,7 +184,7 @@ class ScopeSearcher {
   }
 
   SpacePoints points_;
-  const GlobalSearchOptions& options_;
+  const CylinderProofOptions& options_;
   ZoneWeights weights_;
   AxisReach reach_;
   CylinderZoneFitter& fitter_;
@@ -213,7 +221,7 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
 void search_scopes(SpacePoints points_mm, const CylinderProofOptions& options,
                    const ZoneWeights& weights, const AxisReach& reach, CylinderZoneFitter& fitter,
                    AxisProof& proof) {
-  const ScopeSearcher searcher(points_mm, options.search, weights, reach, fitter);
+  const ScopeSearcher searcher(points_mm, options, weights, reach, fitter);
   for (const AxisScope& scope : options.scopes) {
     if (proof.certificate.kind == Certificate::Kind::kGlobal) return;
     if (searcher.run(scope, proof)) return;

@@ -28,6 +28,17 @@ std::optional<Eigen::VectorXd> OptimumEquations::solution() const {
   return core::solve_if_regular(system_, right_);
 }
 
+Eigen::VectorXd OptimumEquations::least_solution() const {
+  constexpr double kSingular = 1e-12;  // of the squares of the singular values
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(system_ * system_.transpose());
+  const double least = kSingular * squares.eigenvalues().maxCoeff();
+  Eigen::VectorXd along = squares.eigenvectors().transpose() * right_;
+  for (Eigen::Index i = 0; i < along.size(); ++i) {
+    along(i) = squares.eigenvalues()(i) > least ? along(i) / squares.eigenvalues()(i) : 0.0;
+  }
+  return system_.transpose() * (squares.eigenvectors() * along);
+}
+
 Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(matrix);
   return principal.eigenvectors() * principal.eigenvalues().cwiseMax(0.0).asDiagonal() *
@@ -35,7 +46,10 @@ Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& normals) {
-  return core::full_q(normals).rightCols(normals.rows() - normals.cols());
+  constexpr double kDependent = 1e-10;
+  if (normals.cols() == 0) return Eigen::MatrixXd::Identity(normals.rows(), normals.rows());
+  const Eigen::MatrixXd columns = core::column_space(normals, kDependent);
+  return core::full_q(columns).rightCols(normals.rows() - columns.cols());
 }
 
 Eigen::VectorXd part_along(const Eigen::MatrixXd& columns, const Eigen::VectorXd& v) {

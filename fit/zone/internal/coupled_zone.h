@@ -51,6 +51,8 @@ class OptimumEquations {
            double value);
   /// @return The unknowns; nothing if the equations are singular.
   [[nodiscard]] std::optional<Eigen::VectorXd> solution() const;
+  /// The least unknowns that come nearest to the equations, for contacts that depend on each other.
+  [[nodiscard]] Eigen::VectorXd least_solution() const;
 
  private:
   Eigen::Index place_ = 0;
@@ -62,7 +64,7 @@ class OptimumEquations {
 /// A symmetric matrix without the part of its negative eigenvalues.
 Eigen::MatrixXd without_negative_part(const Eigen::MatrixXd& matrix);
 
-/// Orthonormal columns that span what is orthogonal to all columns of a matrix of full rank.
+/// Orthonormal columns that span what is orthogonal to all columns of a matrix.
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& normals);
 
 /// The part of a vector in the span of orthonormal columns.
@@ -77,6 +79,7 @@ struct CoupledZone {
   Eigen::VectorXd bounds;
   std::vector<CoupledContact> contacts;    ///< Unless converged, of the longest step from here.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< kConverged: a local minimum to second order.
+  bool rests = false;  ///< Not converged, but no step from here falls by 1e-9 mm.
 };
 
 /// Minimises the sum of upper bounds minus the sum of lower ones over a place that all share: a
@@ -111,7 +114,8 @@ class CoupledDescent {
       if (!step.solved) break;
       last_ = contacts_of(step);
       if (state_.contacts.empty()) state_.contacts = last_;
-      if (polish(with_contacts(last_)) || polish_valley(step)) {
+      if (polish(with_contacts(last_)) ||
+          (hardly_falls(step) && (polish_valley(step) || polish_ridge()))) {
         state_.ending = ZoneEnding::kConverged;
         return state_;
       }
@@ -128,11 +132,18 @@ class CoupledDescent {
       }
       reach *= 0.25;
     }
+    // Contacts that nearly depend on each other may leave Newton's method nothing to end at.
+    const auto step = proximal_step(kFarthest);
+    state_.rests = step.solved && hardly_falls(step);
+    if (state_.rests) state_.contacts = contacts_of(step);
     return state_;
   }
 
  private:
   static constexpr Eigen::Index kPlace = Model::kUnknowns;
+  /// Distance from a bound [mm] within which all points of a ridge are in contact: that of
+  /// coordinates with eight digits after the point.
+  static constexpr double kAlike = 1e-8;
 
   [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(bounds_.size()); }
 
@@ -211,16 +222,19 @@ class CoupledDescent {
     return out;
   }
 
+  [[nodiscard]] bool hardly_falls(const QuadraticStep& step) const {
+    constexpr double kHardly = 1e-9;  // mm
+    double fall = 0.0;
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      fall -= bounds_[k].sign() * step.x(kPlace + static_cast<Eigen::Index>(k));
+    }
+    return fall <= kHardly;
+  }
+
   /// Where too few contacts hold a place that the value hardly distinguishes from its neighbours,
   /// as a datum that rocks, the optimum lies where the next points come into contact.
   bool polish_valley(const QuadraticStep& step) {
-    constexpr double kHardlyFalls = 1e-9;  // mm
     const Eigen::VectorXd& x = step.x;
-    double fall = 0.0;
-    for (std::size_t k = 0; k < bounds_.size(); ++k) {
-      fall -= bounds_[k].sign() * x(kPlace + static_cast<Eigen::Index>(k));
-    }
-    if (!(fall <= kHardlyFalls)) return false;
     for (const double sense : {1.0, -1.0}) {
       CoupledZone<Model> at = with_contacts(last_);
       while (meet_next(sense * x, at)) {
@@ -228,6 +242,24 @@ class CoupledDescent {
       if (at.contacts.size() > last_.size() && polish(std::move(at))) return true;
     }
     return false;
+  }
+
+  /// Where whole lines of points touch alike, as the two generatrices of an oval, no few of them
+  /// hold the place: it is held by the curvature of all together, whose multipliers depend on each
+  /// other.
+  bool polish_ridge() {
+    CoupledZone<Model> at = with_contacts({});
+    for (std::size_t k = 0; k < bounds_.size(); ++k) {
+      const std::size_t first = at.contacts.size();
+      const double bound = at.bounds(static_cast<Eigen::Index>(k));
+      for (std::size_t i = bounds_[k].begin; i < bounds_[k].end; ++i) {
+        if (std::abs(at.model.value(i) - bound) <= kAlike) at.contacts.push_back({i, k, 0.0});
+      }
+      for (std::size_t c = first; c < at.contacts.size(); ++c) {
+        at.contacts[c].multiplier = 1.0 / static_cast<double>(at.contacts.size() - first);
+      }
+    }
+    return polish(std::move(at), kAlike);
   }
 
   /// Moves as far in a direction, with all contacts kept, as the next point allows.
@@ -261,30 +293,32 @@ class CoupledDescent {
     return true;
   }
 
-  /// Newton's method on the contacts of a step. Changes the state only if it ends at a minimum.
-  bool polish(CoupledZone<Model> at) {
+  /// Newton's method on some contacts. Changes the state only if it ends at a minimum.
+  /// @param alike  Above 0: the contacts may depend on each other, and touch to within this [mm].
+  bool polish(CoupledZone<Model> at, double alike = 0.0) {
     constexpr int kRounds = 30;
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
-      const double size = newton_step(at);
+      const double size = newton_step(at, alike > 0.0);
       if (!(size <= state_.model.scale_mm())) return false;
       const bool rests = size <= 1e-14 * state_.model.scale_mm() ||
                          (size <= 1e-11 * state_.model.scale_mm() && size >= 0.5 * last);
-      if (rests) return accept(at);
+      if (rests) return accept(at, std::max(alike, round_off()));
       last = size;
     }
     return false;
   }
 
   /// @return The size of the step in the place; not a number if the equations are singular.
-  double newton_step(CoupledZone<Model>& at) const {
+  double newton_step(CoupledZone<Model>& at, bool dependent) const {
     OptimumEquations equations(kPlace, count(), at.contacts.size());
     for (std::size_t i = 0; i < at.contacts.size(); ++i) {
       const CoupledContact& c = at.contacts[i];
       equations.set(i, c, bounds_[c.bound].sign(), at.model.row(c.row),
                     at.bounds(static_cast<Eigen::Index>(c.bound)));
     }
-    const std::optional<Eigen::VectorXd> step = equations.solution();
+    const std::optional<Eigen::VectorXd> step =
+        dependent ? equations.least_solution() : equations.solution();
     if (!step) return std::numeric_limits<double>::quiet_NaN();
     at.model = at.model.moved(step->head(kPlace));
     at.bounds += step->segment(kPlace, count());
@@ -294,13 +328,13 @@ class CoupledDescent {
     return step->head(kPlace).cwiseAbs().maxCoeff();
   }
 
-  bool accept(CoupledZone<Model>& at) {
+  bool accept(CoupledZone<Model>& at, double tolerance) {
     for (const CoupledContact& c : at.contacts) {
       if (!(c.multiplier >= 0.0)) return false;
     }
     const Eigen::VectorXd exact = bounds_of(at.model);
-    if (!((exact - at.bounds).cwiseAbs().maxCoeff() <= round_off())) return false;
-    if (!(value_of(exact) <= value_of(state_.bounds) + round_off()) || !curves_up(at)) return false;
+    if (!((exact - at.bounds).cwiseAbs().maxCoeff() <= tolerance)) return false;
+    if (!(value_of(exact) <= value_of(state_.bounds) + tolerance) || !curves_up(at)) return false;
     at.bounds = exact;
     state_ = at;
     return true;
@@ -321,15 +355,15 @@ class CoupledDescent {
 
   /// Whether the value does not fall in any direction that keeps all contacts.
   [[nodiscard]] bool curves_up(const CoupledZone<Model>& at) const {
-    const auto contacts = static_cast<Eigen::Index>(at.contacts.size());
     const Eigen::Index primal = kPlace + count();
-    if (contacts >= primal) return true;
+    const Eigen::MatrixXd along = kept_moves(at);
+    if (along.cols() == 0) return true;
     Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(primal, primal);
     for (const CoupledContact& c : at.contacts) {
       curvature.topLeftCorner(kPlace, kPlace) +=
           c.multiplier * bounds_[c.bound].sign() * at.model.row(c.row).hessian;
     }
-    return least_curvature(curvature, kept_moves(at)) > 0.0;
+    return least_curvature(curvature, along) > 0.0;
   }
 
   std::vector<CoupledBound> bounds_;

@@ -29,6 +29,10 @@ void check_drawing(const Plan& plan, std::size_t index, Findings& findings);
 void check_datums(const Plan& plan, std::size_t index, const record::CharacteristicTask& asked,
                   const std::string& where, Findings& findings);
 
+/// Gives datums, and the features that name them, the strategy "start-pose" where they say none:
+/// what two poses saw is not related.
+void measure_datums_in_one_pose(Plan& plan, const Findings& findings);
+
 /// Checks that a plane with a run-out, or that is a datum, says to which side it faces.
 void check_faces(const Plan& plan, std::size_t index, Findings& findings);
 
@@ -65,8 +69,8 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 /// inputs.
 void check_uncertainty(const Plan& plan, Findings& findings);
 
-/// Checks that each surface of the simulated part is a touched feature of the plan, with keys of its
-/// type.
+/// Checks that each surface of the simulated part is a touched feature of the plan, with keys of
+/// its type.
 void check_simulated_part(const Plan& plan, Findings& findings);
 
 /// Whether a feature is touched by the machine: neither read from a file nor an analysis of series.

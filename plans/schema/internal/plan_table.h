@@ -375,7 +375,8 @@ void describe(Visitor& v, PoseSearchPlan& p) {
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
                      "halved steps. virtual: one cloud, turned in software. start-pose: no search; "
                      "several features share the clamping of one start pose, as a datum and what "
-                     "refers to it must. A circle, plane, cone or sphere is always measured in its "
+                     "refers to it must, for which it is the default. A circle, plane, cone or "
+                     "sphere is always measured in its "
                      "start pose. merged: no search; the "
                      "part is measured in each of `poses`, where it can be reached, and the "
                      "clouds are one (docs/several-poses.md)."});
