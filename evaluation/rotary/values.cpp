@@ -3,6 +3,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/rotary/internal/axis_extreme.h"
+#include "evaluation/rotary/internal/gates.h"
 
 namespace rondure::evaluation {
 
@@ -54,6 +55,10 @@ core::Result<AnalysisValue> value_of(const RotaryResult& facts,
   AnalysisValue out;
   out.value_mm = characteristic.form == record::Form::kFixtureResidualRms ? v.rms_mm : v.max_mm;
   out.void_because = facts.withheld;
+  if (auto why = residual_not_shown(facts); why && !out.void_because) {
+    out.void_because = *std::move(why);
+    out.lower_bound = true;
+  }
   out.detail = core::phrase("{} um rms before compensation", um(v.before_rms_mm));
   return out;
 }

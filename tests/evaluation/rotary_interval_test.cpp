@@ -373,6 +373,39 @@ TEST(RotaryCalibration, DigitsOfTouchesDependOnNoAngle) {
   EXPECT_EQ(outcome(1e-3, 0.6e-3), Gate::Outcome::kPassed);
 }
 
+// At the stations the errors are measured: combined poses there say nothing of those between.
+TEST(RotaryCalibration, PosesAtTheStationsDoNotShowTheResidual) {
+  const auto evaluation = evaluate(calibration_run({}));
+  ASSERT_TRUE(evaluation);
+  RotaryResult facts = *result_of(evaluation->features.at(0));
+  record::Characteristic rms;
+  rms.form = record::Form::kFixtureResidualRms;
+  const auto outcome = [&] {
+    const std::vector<Gate> gates = rotary_gates(facts, {});
+    const auto at = std::ranges::find(gates, std::string("between-stations"), &Gate::code);
+    EXPECT_NE(at, gates.end());
+    const auto value = value_of(facts, rms);
+    EXPECT_TRUE(value);
+    EXPECT_EQ(value->void_because.has_value(), at->outcome == Gate::Outcome::kBounds);
+    EXPECT_EQ(value->lower_bound, at->outcome == Gate::Outcome::kBounds);
+    return at->outcome;
+  };
+  EXPECT_EQ(outcome(), Gate::Outcome::kPassed);  // 20 and 50 deg beside stations 15 deg apart
+  const auto place = [&](const std::vector<double>& alpha_deg) {
+    for (std::size_t i = 0; i < facts.combined.size(); ++i) {
+      facts.combined[i].pose.alpha_rad = alpha_deg[i % alpha_deg.size()] * kDegree;
+    }
+  };
+  place({30, 30, -30, -30, 60, -45});
+  EXPECT_EQ(outcome(), Gate::Outcome::kBounds);
+  place({22, 37, 30, -30, 60, -45});  // over an eighth of the range
+  EXPECT_EQ(outcome(), Gate::Outcome::kBounds);
+  place({-22, 40, 30, -30, 60, -45});
+  EXPECT_EQ(outcome(), Gate::Outcome::kPassed);
+  place({-19, 41, 30, -30, 60, -45});  // 4 deg of 15 off the stations
+  EXPECT_EQ(outcome(), Gate::Outcome::kBounds);
+}
+
 TEST(RotaryCalibration, IsVoidWhereTheOtherAxisStandsTooFarOff) {
   Bench bench;
   bench.setting_uncertainty_deg = 1.0;

@@ -16,10 +16,12 @@ using core::kMicroradian;
 using Outcome = Gate::Outcome;
 
 constexpr double kReferenceSigmas = 4.0;
-constexpr double kExplained = 3.0;   // times what the calibration explains
-constexpr double kDigits_mm = 1e-6;  // of touches in files and on the wire
-constexpr double kRedundancy = 0.1;  // below, an error of a ball is not seen
-constexpr double kChance = 0.001;    // of a gate that fails although all is well
+constexpr double kExplained = 3.0;    // times what the calibration explains
+constexpr double kDigits_mm = 1e-6;   // of touches in files and on the wire
+constexpr double kRedundancy = 0.1;   // below, an error of a ball is not seen
+constexpr double kOffStation = 0.33;  // of the step; exact thirds pass whatever the drive reaches
+constexpr double kRangeShown = 0.5;   // of that of the stations
+constexpr double kChance = 0.001;     // of a gate that fails although all is well
 
 /// A gate that passes up to its limit.
 Gate up_to(std::string code, core::Phrase condition, double found, double limit, std::string unit,
@@ -163,6 +165,56 @@ Gate residual_gate(const RotaryResult& facts) {
                             core::um(v.rms_mm), ratio, kExplained));
 }
 
+/// Range of the angles that lie off the stations of an axis, over that of the stations. At a
+/// station its errors were measured; what is left between stations shows off them only.
+double range_shown(const fit::RotaryStudy& study, const std::vector<double>& angles_rad) {
+  std::vector<double> stations_rad;
+  for (const fit::RotaryTableRow& row : study.table.rows) stations_rad.push_back(row.angle_rad);
+  if (stations_rad.size() < 2) return 0.0;
+  std::ranges::sort(stations_rad);
+  double low_rad = HUGE_VAL;
+  double high_rad = -HUGE_VAL;
+  for (const double angle : angles_rad) {
+    const auto after = std::ranges::upper_bound(stations_rad, angle);
+    if (after == stations_rad.begin() || after == stations_rad.end()) continue;
+    const double before_rad = *(after - 1);
+    const double off_rad = std::min(angle - before_rad, *after - angle);
+    if (off_rad < kOffStation * (*after - before_rad)) continue;
+    low_rad = std::min(low_rad, angle);
+    high_rad = std::max(high_rad, angle);
+  }
+  const double whole_rad = stations_rad.back() - stations_rad.front();
+  return std::max(0.0, high_rad - low_rad) / whole_rad;
+}
+
+/// The lesser of both axes.
+double range_shown(const RotaryResult& facts) {
+  std::vector<double> alpha_rad;
+  std::vector<double> beta_rad;
+  for (const CombinedPose& one : facts.combined) {
+    alpha_rad.push_back(one.pose.alpha_rad);
+    beta_rad.push_back(one.pose.beta_rad);
+  }
+  return std::min(range_shown(facts.alpha, alpha_rad), range_shown(facts.beta, beta_rad));
+}
+
+Gate between_stations_gate(const RotaryResult& facts) {
+  Gate out{
+      "between-stations",
+      core::phrase("range of the combined poses that lie a third of the step off the stations, "
+                   "over that of the stations"),
+      range_shown(facts),
+      kRangeShown,
+      {},
+      Outcome::kPassed,
+      {}};
+  if (auto reason = residual_not_shown(facts)) {
+    out.outcome = Outcome::kBounds;
+    out.reason = *std::move(reason);
+  }
+  return out;
+}
+
 Gate scale_gate(const RotaryResult& facts) {
   return up_to("residual-scale",
                core::phrase("scale of the errors at combined poses, lower end of its interval"),
@@ -181,9 +233,20 @@ std::vector<Gate> rotary_gates(const RotaryResult& facts, const PlacingFacts& pl
                            station_gate(facts),      small_residual_gate(facts)};
   if (placing.references > 1) out.push_back(reference_gate(placing));
   if (facts.combined.empty()) return out;
+  out.push_back(between_stations_gate(facts));
   out.push_back(residual_gate(facts));
   out.push_back(scale_gate(facts));
   return out;
+}
+
+std::optional<core::Phrase> residual_not_shown(const RotaryResult& facts) {
+  const double shown = range_shown(facts);
+  if (shown >= kRangeShown) return std::nullopt;
+  return core::phrase(
+      "the combined poses that lie at least a third of the step off the stations cover {:.0f} % of "
+      "their range, {:.0f} % are needed: what is left between the stations is not shown; choose "
+      "angles between the stations of both axes",
+      100.0 * shown, 100.0 * kRangeShown);
 }
 
 std::optional<core::Phrase> voided_by(const std::vector<Gate>& gates) {

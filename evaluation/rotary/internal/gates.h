@@ -25,6 +25,10 @@ struct PlacingFacts {
 [[nodiscard]] std::vector<Gate> rotary_gates(const RotaryResult& facts,
                                              const PlacingFacts& placing);
 
+/// Why the combined poses do not show what is left between the stations: those that lie off the
+/// stations of both axes by a third of the step cover less than half of their range.
+[[nodiscard]] std::optional<core::Phrase> residual_not_shown(const RotaryResult& facts);
+
 /// The reason of the first gate that voids; none when there is no such gate.
 [[nodiscard]] std::optional<core::Phrase> voided_by(const std::vector<Gate>& gates);
 
