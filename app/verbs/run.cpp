@@ -32,12 +32,10 @@
 namespace rondure::app {
 namespace {
 
-/// The predicted times of a plan, stage by stage; empty when it has no forecast.
-std::vector<web::PredictedStage> predicted_stages(const plans::Plan& plan) {
+/// The predicted times of a plan, stage by stage.
+std::vector<web::PredictedStage> predicted_stages(const plans::Forecast& forecast) {
   std::vector<web::PredictedStage> out;
-  const auto forecast = plans::forecast(plan);
-  if (!forecast) return out;  // the run reports the reason
-  for (const plans::ForecastStage& stage : forecast->stages) {
+  for (const plans::ForecastStage& stage : forecast.stages) {
     out.push_back({stage.touches * stage.times, stage.time_s});
   }
   return out;
@@ -47,14 +45,14 @@ std::vector<web::PredictedStage> predicted_stages(const plans::Plan& plan) {
 /// `options`. The stop button acts as Ctrl-C.
 /// @return  Null when no page is requested; kFile when its port is not available.
 core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& arguments,
-                                                       const plans::Plan& plan,
+                                                       const plans::Forecast& forecast,
                                                        plans::RunOptions& options) {
   if (arguments.watch.empty()) return std::unique_ptr<web::LiveView>();
   web::LiveOptions live;
   if (arguments.watch != "auto")
     live.port = static_cast<std::uint16_t>(core::parse_number(arguments.watch).value_or(0.0));
   live.control = arguments.control;
-  live.stages = predicted_stages(plan);
+  live.stages = predicted_stages(forecast);
   live.stop = request_stop;
   live.language = reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
   auto record = std::make_shared<record::GrowingRecord>();
@@ -299,7 +297,10 @@ int run(const RunArguments& arguments) {
   if (arguments.resume && !held && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
   }
-  const auto live = open_live(arguments, *plan, options);
+  // As `plan` checks it: all poses, their spheres among them, before anything moves.
+  const auto forecast = plans::forecast(*plan);
+  if (!forecast) return refuse(forecast.error());
+  const auto live = open_live(arguments, *forecast, options);
   if (!live) return refuse(live.error());
   ending.live = live->get();
   return measure_and_conclude(ending, options, std::move(held));

@@ -102,9 +102,9 @@ core::Result<void> add_ring(const Plan& plan, int feature, const core::Pose& com
   ForecastStage stage = stage_of(ForecastStage::Kind::kRing);
   stage.feature = feature;
   stage.pose = commanded;
-  return add_spheres(reached_pose_steps(plan, nominal_kinematics(*plan.fixture),
-                                        nominal_seat(*plan.fixture), feature, commanded),
-                     std::move(stage), tally);
+  return add_spheres(
+      reached_pose_steps(plan, nominal_kinematics(*plan.fixture), feature, commanded),
+      std::move(stage), tally);
 }
 
 /// A feature on the nominal part: the pose search receives ideal touches.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
@@ -40,6 +41,8 @@ const char* name_of(Body body) {
       return "a reference sphere";
     case Body::kStem:
       return "the stem of the reference sphere";
+    case Body::kRingSphere:
+      return "a sphere on the ring";
     case Body::kVolume:
       return "the end of the machine's travel";
   }
@@ -104,12 +107,13 @@ std::string in_words(const Hit& hit) {
                      name_of(hit.body), where);
 }
 
-Scene::Scene(const Plan& plan, const FeaturePlan& feature)
+Scene::Scene(const Plan& plan, const FeaturePlan& feature, const std::array<double, 3>* touched)
     : tool_(tool_of(plan)),
       volume_min_mm_(vector3(plan.machine->volume_min_mm)),
       volume_max_mm_(vector3(plan.machine->volume_max_mm)) {
-  add_part(plan, feature);
+  if (is_touched(feature)) add_part(plan, feature);
   add_cell(plan, feature);
+  add_spheres(plan, feature, touched);
 }
 
 void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolved& shape) {
@@ -157,16 +161,36 @@ void Scene::add_cell(const Plan& plan, const FeaturePlan& feature) {
        fixture.rim_height_mm});
   add(Body::kTable, Frame::kMachine, {axis.x(), axis.y(), 0.0},
       {0.0, kWide_mm, fixture.table_height_mm - kDeep_mm, fixture.table_height_mm});
+}
+
+void Scene::add_spheres(const Plan& plan, const FeaturePlan& feature,
+                        const std::array<double, 3>* touched) {
+  const FixturePlan& fixture = *plan.fixture;
   const QualificationPlan& q = plan.probe->qualification;
   const double sphere_mm = 0.5 * q.sphere_diameter_mm;
   const double stem_mm = q.stem_diameter_mm > 0.0 ? 0.5 * q.stem_diameter_mm : sphere_mm / 3.0;
-  const Vector3d center = vector3(q.sphere_center_mm);
-  add(Body::kSphere, Frame::kMachine, center, {0.0, sphere_mm, 0.0, 0.0, true});
-  add(Body::kStem, Frame::kMachine, center, {0.0, stem_mm, -kDeep_mm, 0.0});
-  if (!fixture.datum) return;
-  for (const DatumSpherePlan& sphere : fixture.datum->spheres) {
-    add(Body::kSphere, Frame::kMachine, vector3(sphere.center_mm),
-        {0.0, 0.5 * fixture.datum->sphere_diameter_mm, 0.0, 0.0, true});
+  const Vector3d qualified = vector3(q.sphere_center_mm);
+  add(Body::kSphere, Frame::kMachine, qualified, {0.0, sphere_mm, 0.0, 0.0, true});
+  add(Body::kStem, Frame::kMachine, qualified, {0.0, stem_mm, -kDeep_mm, 0.0});
+  const Eigen::Isometry3d X_NB = nominal_seat(fixture).inverse();
+  const auto add_all = [&](Body body, const auto& spheres, double radius_mm) {
+    for (const auto& sphere : spheres) {
+      if (&sphere.center_mm == touched) continue;
+      const bool carried = body == Body::kRingSphere;  // the plan has its centre in the body frame
+      const Vector3d center = vector3(sphere.center_mm);
+      add(body, carried ? Frame::kSeat : Frame::kMachine,
+          carried ? Vector3d(X_NB * center) : center, {0.0, radius_mm, 0.0, 0.0, true});
+    }
+  };
+  if (const auto& datum = fixture.datum) {
+    add_all(Body::kSphere, datum->spheres, 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
+  }
+  if (const auto& on_ring = fixture.reached_pose) {
+    add_all(Body::kRingSphere, on_ring->spheres, 0.5 * on_ring->sphere_diameter_mm);
+  }
+  if (const auto& rotary = feature.rotary_axes) {
+    add_all(Body::kRingSphere, rotary->balls,
+            0.5 * rotary->ball_diameter_mm + rotary->uncertainty_mm);
   }
 }
 

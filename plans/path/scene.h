@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,18 @@
 namespace rondure::plans {
 
 /// Obstacles of the tool.
-enum class Body { kFeature, kSection, kShoulder, kRing, kRim, kTable, kSphere, kStem, kVolume };
+enum class Body {
+  kFeature,
+  kSection,
+  kShoulder,
+  kRing,
+  kRim,
+  kTable,
+  kSphere,
+  kStem,
+  kRingSphere,
+  kVolume
+};
 /// The part of the tool that meets an obstacle.
 enum class Limb { kBall, kShaft, kHolder };
 
@@ -68,10 +80,14 @@ struct Tool {
 
 /// All obstacles in the cell during the inspection of one feature, as simple solids: the surface,
 /// sections of the part beside it, clamping ring, rim of the bowl, table, reference sphere with its
-/// stem; and the volume of the machine.
+/// stem, spheres on base and ring of the fixture, balls of a calibration; and the volume of the
+/// machine.
 class Scene {
  public:
-  Scene(const Plan& plan, const FeaturePlan& feature);
+  /// @param touched  `center_mm`, in `plan` itself, of the sphere of the fixture that is to be
+  ///                 touched, which is then no obstacle; null: all spheres are.
+  Scene(const Plan& plan, const FeaturePlan& feature,
+        const std::array<double, 3>* touched = nullptr);
 
   [[nodiscard]] const Tool& tool() const { return tool_; }
   /// The first place on these moves where the tool comes too close, if there is one. Exact except
@@ -93,6 +109,8 @@ class Scene {
   void add(Body body, Frame frame, const Eigen::Vector3d& origin_mm, const Revolved& shape);
   void add_part(const Plan& plan, const FeaturePlan& feature);
   void add_cell(const Plan& plan, const FeaturePlan& feature);
+  void add_spheres(const Plan& plan, const FeaturePlan& feature,
+                   const std::array<double, 3>* touched);
   [[nodiscard]] std::optional<double> room_mm(Body body, Limb limb, Phase phase,
                                               const PathGeometry& geometry) const;
   [[nodiscard]] static const Obstacle& grown(Solid& solid, double by_mm);

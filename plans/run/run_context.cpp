@@ -259,7 +259,7 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
     if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
   }
   const auto steps =  // planned before a person turns the fixture
-      reached_pose_steps(plan, cell->kinematics(), cell->nominal_part(), feature, commanded);
+      reached_pose_steps(plan, cell->kinematics(), feature, commanded);
   if (!steps) return core::fail(steps.error());
   auto reached = replaying() ? cell->replay_turn(commanded) : cell->turn_to(commanded);
   if (reached && !steps->empty()) reached = measure_reached_pose(*this, *steps, commanded);

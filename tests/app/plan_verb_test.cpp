@@ -81,6 +81,27 @@ TEST(PlanVerb, NamesWhatIsOutOfReachAndMovesNothing) {
   EXPECT_EQ(document["problems"][0]["code"], "unreachable");
 }
 
+TEST(PlanVerb, RefusesWithValidateAndRunASphereThatHidesAnother) {
+  auto plan = example_plan("01_spool_simulated");
+  plan["fixture"]["driver"] = "manual";
+  plan["fixture"]["reached_pose"]["spheres"] = {{{"center_mm", {70, 0, -40}}},
+                                                {{"center_mm", {-35, 60, -40}}},
+                                                {{"center_mm", {-35, 85, -30}}}};
+  const TemporaryFolder folder;
+  write(folder / "plan.json", plan.dump());
+  for (const char* verb : {"validate", "plan", "run"}) {
+    SCOPED_TRACE(verb);
+    std::vector<std::string> words = {verb, folder / "plan.json"};
+    if (words[0] == "run") words.insert(words.end(), {"--out", folder / "run"});
+    const Outcome refused = rondure(words);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err,
+                AllOf(HasSubstr("pose (0.0000, 0.0000) deg, sphere 2 on the ring, point "),
+                      HasSubstr("to a sphere on the ring"), HasSubstr("[unreachable]")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+}
+
 TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
   const Outcome told = rondure({"plan", example("09_axle_points_file.json")});
   EXPECT_EQ(told.status, 0) << told.err;

@@ -70,6 +70,20 @@ Plan random_plan(core::KeyedNoise& random) {
   return plan;
 }
 
+/// Spheres on the ring and on the base, near the part.
+void add_spheres(core::KeyedNoise& random, Plan& plan) {
+  const double radius_mm = 0.5 * plan.features.front().nominal.diameter_mm;
+  const auto beside = [&](double from_mm) {
+    const double turn = between(random, 0.0, core::kTwoPi);
+    const double away_mm = radius_mm + between(random, from_mm, 90.0);
+    return std::array{away_mm * std::cos(turn), away_mm * std::sin(turn),
+                      between(random, -60.0, 50.0)};
+  };
+  plan.fixture->reached_pose.emplace().spheres = {{beside(15.0)}, {beside(15.0)}};
+  plan.fixture->datum.emplace().spheres = {{beside(40.0)}};
+  plan.fixture->datum->spheres.front().center_mm[2] += plan.fixture->axis_point_mm[2];
+}
+
 /// Distance from the rectangle [r0, r1] x [z0, z1] turned about z.
 double from_solid(const Vector3d& p, double r0, double r1, double z0, double z1) {
   const double r = p.head<2>().norm();
@@ -130,6 +144,17 @@ Distances distances(const Plan& plan, const Placement& placement, const Vector3d
   const double sphere_r = 0.5 * plan.probe->qualification.sphere_diameter_mm;
   out.rest_mm = std::min({ring, rim, p_W.z() - x.table_height_mm, to_sphere.norm() - sphere_r,
                           from_solid(to_sphere, 0.0, sphere_r / 3.0, -1e6, 0.0)});
+  const auto away_from = [&](const Vector3d& center_W, double diameter_mm) {
+    out.rest_mm = std::min(out.rest_mm, (p_W - center_W).norm() - 0.5 * diameter_mm);
+  };
+  if (x.datum) {
+    for (const auto& sphere : x.datum->spheres)
+      away_from(vector3(sphere.center_mm), x.datum->sphere_diameter_mm);
+  }
+  if (x.reached_pose) {
+    for (const auto& sphere : x.reached_pose->spheres)
+      away_from(placement.X_WN * vector3(sphere.center_mm), x.reached_pose->sphere_diameter_mm);
+  }
   return out;
 }
 
@@ -193,7 +218,8 @@ TEST(CloudPath, KeepsBallShaftAndHolderClearOfEverythingInRandomCells) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise random(seed, {3});
-    const Plan plan = random_plan(random);
+    Plan plan = random_plan(random);
+    if (seed % 2 == 1) add_spheres(random, plan);
     const FeaturePlan& feature = plan.features.front();
     const PathGeometry geometry = path_geometry(plan, feature, 0.0);
     if (!check_fits(geometry)) continue;

@@ -145,7 +145,7 @@ TEST(Forecast, RefusesAPoseWhoseSpheresOnTheRingCannotBeReached) {
   const auto forecast = plans::forecast(plan);
   ASSERT_FALSE(forecast);
   EXPECT_EQ(forecast.error().code, core::Code::kUnreachable);
-  EXPECT_THAT(forecast.error().what, HasSubstr("sphere 1 on the ring"));
+  EXPECT_THAT(forecast.error().what, HasSubstr("to a sphere on the ring"));
 }
 
 TEST(Forecast, TellsTheTimeOfARunOnARealPartWithinTwoPercent) {

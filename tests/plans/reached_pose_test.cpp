@@ -1,14 +1,20 @@
 #include "plans/run/internal/reached_pose.h"
 
+#include <array>
+#include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/units.h"
 #include "fixture/simulated.h"
+#include "plans/forecast/forecast.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/runner.h"
+#include "record/files.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
@@ -175,14 +181,67 @@ TEST(ReachedPose, IsRefusedWhereTheSpheresDoNotTellIt) {
   EXPECT_TRUE(reached_pose(plan, {}, tips_about({{60, 50, -20}, {-60, -40, -60}}, pose), pose));
 }
 
+/// The forecast refuses the plan, and with it validate, plan and run.
+void expect_refused(const Plan& plan, const std::string& what) {
+  const auto planned = forecast(plan);
+  ASSERT_FALSE(planned);
+  EXPECT_EQ(planned.error().code, core::Code::kUnreachable);
+  EXPECT_THAT(planned.error().what, HasSubstr(what));
+}
+
 TEST(ReachedPose, KeepsTheToolOffTheRing) {
   Plan plan = plan_by_hand();
   plan.fixture->reached_pose->spheres[1].center_mm = {-35.0, 30.0, -40.0};  // above the ring
-  const record::Scratch scratch;
-  const auto run = run_plan(plan, options_for(scratch / "run"));
-  ASSERT_TRUE(run && run->failure);
-  EXPECT_EQ(run->failure->code, core::Code::kUnreachable);
-  EXPECT_THAT(run->failure->what, HasSubstr("sphere 2 on the ring"));
+  expect_refused(plan, "sphere 2 on the ring, point");
+}
+
+TEST(ReachedPose, KeepsTheToolOffTheOtherSpheresOfTheFixture) {
+  Plan plan = plan_by_hand();
+  plan.fixture->reached_pose->spheres[2].center_mm = {-35.0, 85.0, -30.0};
+  expect_refused(plan, "to a sphere on the ring");
+  plan = plan_by_hand();
+  plan.fixture->datum->spheres[0].center_mm = {95.0, 0.0, 110.0};
+  expect_refused(plan, "sphere 1 of the fixture, point");
+}
+
+// While the spheres were no obstacles, `plan` accepted all 36, and 7 ended in a collision.
+TEST(ReachedPose, NoPlanThatIsNotRefusedMeetsASphere) {
+  int refused = 0;
+  for (int k = 0; k < 36; ++k) {
+    SCOPED_TRACE(k);
+    Plan plan = plan_by_hand();
+    plan.fixture->datum.reset();
+    plan.simulation->fixture = {};
+    plan.simulation->fixture.repeatability_deg = 0.02;
+    plan.fixture->reached_pose->setting_uncertainty_deg = 0.3;
+    // Above the part, where the tip comes down to it.
+    const double away_mm = std::array{34.0, 45.0, 60.0, 75.0}[static_cast<std::size_t>(k % 4)];
+    const double turn_rad = 10.0 * k * kDegree;
+    plan.fixture->reached_pose->spheres[0].center_mm = {away_mm * std::cos(turn_rad),
+                                                        away_mm * std::sin(turn_rad), 66.0};
+    if (!forecast(plan)) {
+      ++refused;
+      continue;
+    }
+    const record::Scratch scratch;
+    const auto run = run_plan(plan, options_for(scratch / "run"));
+    ASSERT_TRUE(run) << run.error().what;
+    EXPECT_FALSE(run->failure) << run->failure->what;
+  }
+  EXPECT_GE(refused, 5);
+  EXPECT_LE(refused, 30);
+}
+
+TEST(ReachedPose, ParkHeightClearsTheSpheresOfTheFixture) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(
+      *record::read_file(testing::example("01_spool_simulated.json")));
+  json["fixture"]["driver"] = "manual";
+  json["fixture"]["reached_pose"]["spheres"] = {{{"center_mm", {0.0, 0.0, -370.0}}},
+                                                {{"center_mm", {-35.0, 60.0, -40.0}}}};
+  json["probe"]["qualification"]["sphere_center_mm"] = {900.0, 0.0, 100.0};
+  const auto low = parse_plan(json.dump(), {}, "plan");
+  ASSERT_FALSE(low);
+  EXPECT_THAT(testing::lines_of(low), HasSubstr("park height 500 mm is below"));
 }
 
 }  // namespace

@@ -84,14 +84,27 @@ core::Result<void> check_room(const Plan& plan) {
                                         feature.rotary_axes->uncertainty_mm);
     }
   }
+  double top_of_spheres_mm = sphere.sphere_center_mm[2] + 0.5 * sphere.sphere_diameter_mm;
+  if (const auto& datum = fixture.datum) {
+    for (const DatumSpherePlan& of : datum->spheres) {
+      top_of_spheres_mm =
+          std::max(top_of_spheres_mm,
+                   of.center_mm[2] + 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
+    }
+  }
+  if (const auto& on_ring = fixture.reached_pose) {
+    for (const CarriedSpherePlan& of : on_ring->spheres) {
+      reach_mm =
+          std::max(reach_mm, vector3(of.center_mm).norm() + 0.5 * on_ring->sphere_diameter_mm);
+    }
+  }
   reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
               plan.part.location_uncertainty_mm;
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
   const double room_mm = tip_mm + plan.machine->clearance_mm;
   const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
   const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
-  const double top_mm =
-      std::max(axis.z() + reach_mm, center.z() + 0.5 * sphere.sphere_diameter_mm) + room_mm;
+  const double top_mm = std::max(axis.z() + reach_mm, top_of_spheres_mm) + room_mm;
   if (plan.machine->park_mm[2] < top_mm) {
     return core::fail(
         core::Code::kUnreachable,

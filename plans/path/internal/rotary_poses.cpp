@@ -15,28 +15,55 @@ namespace {
 using core::kDegree;
 using Eigen::Vector3d;
 
-/// Whether the tip can reach ball `i`, go around it and leave without meeting ball `other`.
+/// A sphere that stands beside a ball, as far as it may reach.
+struct Neighbour {
+  Vector3d center_mm;
+  double reach_mm = 0.0;
+};
+
+/// The spheres on base and ring in a pose.
+std::vector<Neighbour> spheres_W(const FixturePlan& fixture, const core::Pose& pose) {
+  std::vector<Neighbour> out;
+  if (const auto& datum = fixture.datum) {
+    for (const DatumSpherePlan& sphere : datum->spheres)
+      out.push_back(
+          {vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm});
+  }
+  if (const auto& on_ring = fixture.reached_pose) {
+    const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(fixture), pose);
+    for (const CarriedSpherePlan& sphere : on_ring->spheres)
+      out.push_back({X_WB * vector3(sphere.center_mm), 0.5 * on_ring->sphere_diameter_mm});
+  }
+  return out;
+}
+
+/// Whether the tip can reach a ball, go around it and leave without meeting the sphere `other`.
 bool is_free(const Plan& plan, const record::RotaryTask& rotary, const Vector3d& ball,
-             const Vector3d& other) {
+             const Neighbour& other) {
   const double radius_mm = 0.5 * rotary.ball_diameter_mm;
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
   const double around_mm = radius_mm + tip_mm +
                            std::max(plan.machine->approach_mm, plan.machine->clearance_mm) +
                            rotary.uncertainty_mm;
-  const double room_mm = around_mm + tip_mm + radius_mm + rotary.uncertainty_mm;
-  const bool above = other.z() + radius_mm + tip_mm + plan.machine->clearance_mm > ball.z();
-  return !above || (other - ball).head<2>().norm() >= room_mm;
+  const double room_mm = around_mm + tip_mm + other.reach_mm;
+  const bool above =
+      other.center_mm.z() + other.reach_mm + tip_mm + plan.machine->clearance_mm > ball.z();
+  return !above || (other.center_mm - ball).head<2>().norm() >= room_mm;
 }
 
 std::vector<std::size_t> reachable_balls(const Plan& plan, const record::RotaryTask& rotary,
-                                         const std::vector<Vector3d>& centers) {
+                                         const std::vector<Vector3d>& centers,
+                                         std::vector<Neighbour> others) {
+  const std::size_t fixed = others.size();
+  for (const Vector3d& center : centers)
+    others.push_back({center, 0.5 * rotary.ball_diameter_mm + rotary.uncertainty_mm});
   const double lowest_mm = plan.fixture->rim_height_mm + 0.5 * plan.probe->tip_diameter_mm +
                            plan.machine->clearance_mm + rotary.uncertainty_mm;
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < centers.size(); ++i) {
     bool free = centers[i].z() >= lowest_mm;
-    for (std::size_t k = 0; free && k < centers.size(); ++k) {
-      free = k == i || is_free(plan, rotary, centers[i], centers[k]);
+    for (std::size_t k = 0; free && k < others.size(); ++k) {
+      free = k == fixed + i || is_free(plan, rotary, centers[i], others[k]);
     }
     if (free) out.push_back(i);
   }
@@ -106,7 +133,7 @@ core::Result<std::vector<RotaryVisit>> rotary_visits(const Plan& plan, std::size
   std::vector<RotaryVisit> out;
   for (const core::Pose& pose : poses) {
     const auto centers = ball_centers_W(plan, feature, pose);
-    RotaryVisit visit{pose, reachable_balls(plan, rotary, centers)};
+    RotaryVisit visit{pose, reachable_balls(plan, rotary, centers, spheres_W(*plan.fixture, pose))};
     if (auto sound = check_visit(rotary, centers, visit); !sound) {
       return core::fail(sound.error().at(fmt::format("/features/{}/rotary_axes/balls", feature)));
     }

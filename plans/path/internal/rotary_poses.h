@@ -20,8 +20,8 @@ struct RotaryVisit {
 /// The poses of a feature of the type "rotary_axes" in their order: the zero pose; the stations of
 /// the carried axis; the zero pose; those of the base-fixed axis; the combined poses; the zero
 /// pose. A station at 0 is one of the zero poses. Each pose lists the balls that the tip can reach:
-/// above the rim, and with no part of another ball in the column above them, through which the tip
-/// approaches, goes around and leaves.
+/// above the rim, and with no part of another ball or sphere of the fixture in the column above
+/// them, through which the tip approaches, goes around and leaves.
 ///
 /// @return kUnreachable when a zero pose hides a ball, kCollinear when a pose leaves too few balls,
 /// or balls on one line; `where` is the pointer of the balls.

@@ -79,9 +79,17 @@ core::Result<void> keep_truth(RunContext& context, int feature, const record::Ro
 core::Result<std::vector<TouchStep>> ball_steps(const Plan& plan, std::size_t feature,
                                                 const Eigen::Isometry3d& X_WB, std::size_t ball) {
   const record::RotaryTask& rotary = *plan.features[feature].rotary_axes;
-  return sphere_steps(plan, {X_WB * vector3(rotary.balls[ball].center_mm),
-                             0.5 * rotary.ball_diameter_mm, rotary.points, rotary.uncertainty_mm,
-                             record::Touch::Purpose::kMeasure, static_cast<int>(ball)});
+  const record::BallTask& wanted = rotary.balls[ball];
+  auto steps = sphere_steps(
+      plan, {X_WB * vector3(wanted.center_mm), 0.5 * rotary.ball_diameter_mm, rotary.points,
+             rotary.uncertainty_mm, record::Touch::Purpose::kMeasure, static_cast<int>(ball)});
+  if (!steps) return steps;
+  if (auto clear = check_sphere_steps(plan, plan.features[feature], X_WB, wanted.center_mm, 0.0,
+                                      *steps, "ball " + wanted.id);
+      !clear) {
+    return core::fail(clear.error().at(fmt::format("/features/{}/rotary_axes/balls", feature)));
+  }
+  return steps;
 }
 
 std::size_t calibration_touches(const Plan& plan, std::size_t feature) {

@@ -1,8 +1,11 @@
 #include "plans/run/internal/fixture_datum.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/internal/qualification.h"
 
@@ -45,6 +48,8 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
   std::vector<TouchStep> out;
   if (!plan.fixture->datum) return out;
   const DatumPlan& datum = *plan.fixture->datum;
+  const auto clamped = std::find_if(plan.features.begin(), plan.features.end(), needs_machine);
+  const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
   for (std::size_t i = 0; i < datum.spheres.size(); ++i) {
     const SphereToTouch sphere = {vector3(datum.spheres[i].center_mm),
                                   0.5 * datum.sphere_diameter_mm,
@@ -54,6 +59,12 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
                                   static_cast<int>(i)};
     const auto steps = sphere_steps(plan, sphere);
     if (!steps) return core::fail(steps.error().at(kDatumPointer));
+    if (auto clear = check_sphere_steps(plan, *clamped, X_WB, datum.spheres[i].center_mm,
+                                        datum.uncertainty_mm, *steps,
+                                        fmt::format("sphere {} of the fixture", i + 1));
+        !clear) {
+      return core::fail(clear.error().at(kDatumPointer));
+    }
     out.insert(out.end(), steps->begin(), steps->end());
   }
   return out;

@@ -7,7 +7,9 @@
 
 #include "core/units.h"
 #include "fit/least_squares/sphere.h"
+#include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
+#include "plans/path/scene.h"
 
 namespace rondure::plans {
 namespace {
@@ -139,6 +141,28 @@ core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const Sphere
     steps.push_back(std::move(step));
   }
   return steps;
+}
+
+core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& feature,
+                                      const Eigen::Isometry3d& X_WB,
+                                      const std::array<double, 3>& center_mm, double off_mm,
+                                      const std::vector<TouchStep>& steps,
+                                      const std::string& name) {
+  const Scene scene(plan, feature, &center_mm);
+  const Eigen::Isometry3d X_WN = X_WB * nominal_seat(*plan.fixture);
+  PathGeometry geometry;
+  geometry.clearance_mm = plan.machine->clearance_mm + off_mm +
+                          (is_touched(feature) ? plan.part.location_uncertainty_mm : 0.0);
+  for (const TouchStep& step : steps) {
+    Way way = {step.way_W, {}};
+    way.corners.push_back(step.command.expected_tip_W_mm);
+    way.phases.assign(way.corners.size() - 1, Phase::kTravel);
+    const auto hit = scene.first_hit(way, {X_WN, X_WN}, geometry);
+    if (!hit) continue;
+    return core::fail(core::Code::kUnreachable,
+                      fmt::format("{}, point {}: {}", name, step.row.point + 1, in_words(*hit)));
+  }
+  return {};
 }
 
 core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,21 @@ struct SphereToTouch {
 /// there are too few or too many points.
 [[nodiscard]] core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan,
                                                                 const SphereToTouch& sphere);
+
+/// Checks that the tool is clear of all known obstacles, other spheres among them, on its path to
+/// and around a sphere.
+/// @param feature    The feature in the clamping ring meanwhile.
+/// @param X_WB       The clamping ring (body frame) in the machine.
+/// @param center_mm  Centre of the sphere, as it stands in `plan`.
+/// @param off_mm     Largest distance of ring and part from their place.
+/// @param name       Name of the sphere, for messages.
+/// @return kUnreachable with the point and the obstacle.
+[[nodiscard]] core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& feature,
+                                                    const Eigen::Isometry3d& X_WB,
+                                                    const std::array<double, 3>& center_mm,
+                                                    double off_mm,
+                                                    const std::vector<TouchStep>& steps,
+                                                    const std::string& name);
 
 /// Makes the touches of one sphere and rises. Returns the tip centres.
 /// @param name  Name of the sphere, for messages.

@@ -9,7 +9,6 @@
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/scene.h"
 #include "plans/run/internal/qualification.h"
 
 namespace rondure::plans {
@@ -25,25 +24,6 @@ double setting_room_mm(const ReachedPosePlan& plan, const fixture::Kinematics& k
                        const Vector3d& center_B_mm) {
   const double lever_mm = center_B_mm.norm() + (kinematics.axis_offset_mm + center_B_mm).norm();
   return lever_mm * plan.setting_uncertainty_deg * core::kDegree;
-}
-
-/// Checks that the tool is clear of all known obstacles on its path to and around a sphere.
-core::Result<void> check_ways(const Scene& scene, const Placement& placement,
-                              const PathGeometry& geometry, std::span<const TouchStep> steps,
-                              std::size_t sphere) {
-  for (const TouchStep& step : steps) {
-    Way way;
-    way.corners = step.way_W;
-    way.corners.push_back(step.command.expected_tip_W_mm);
-    way.phases.assign(way.corners.size() - 1, Phase::kTravel);
-    const auto hit = scene.first_hit(way, placement, geometry);
-    if (!hit) continue;
-    return core::fail(core::Code::kUnreachable,
-                      fmt::format("sphere {} on the ring, point {}: {}; nothing has moved",
-                                  sphere + 1, step.row.point + 1, in_words(*hit)),
-                      kReachedPosePointer);
-  }
-  return {};
 }
 
 /// The mean of some points.
@@ -111,26 +91,26 @@ core::Result<void> check_pose(const ReachedPosePlan& plan,
 
 core::Result<std::vector<TouchStep>> reached_pose_steps(const Plan& plan,
                                                         const fixture::Kinematics& kinematics,
-                                                        const Eigen::Isometry3d& X_BP, int feature,
-                                                        const core::Pose& asked) {
+                                                        int feature, const core::Pose& asked) {
   std::vector<TouchStep> out;
   if (!plan.fixture->reached_pose) return out;
   const ReachedPosePlan& wanted = *plan.fixture->reached_pose;
   const FeaturePlan& of = plan.features[static_cast<std::size_t>(feature)];
   const Eigen::Isometry3d X_WB = fixture::body_to_machine(kinematics, asked);
-  const Eigen::Isometry3d X_WP = X_WB * X_BP;
-  const Scene scene(plan, of);
-  const PathGeometry geometry = path_geometry(plan, of, plan.part.location_uncertainty_mm);
   const std::size_t of_base = plan.fixture->datum ? plan.fixture->datum->spheres.size() : 0;
   for (std::size_t i = 0; i < wanted.spheres.size(); ++i) {
     const Vector3d center_B = vector3(wanted.spheres[i].center_mm);
+    const double off_mm = setting_room_mm(wanted, kinematics, center_B);
     const auto steps =
-        sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm, wanted.points,
-                            setting_room_mm(wanted, kinematics, center_B),
+        sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm, wanted.points, off_mm,
                             record::Touch::Purpose::kLocate, static_cast<int>(of_base + i)});
     if (!steps) return core::fail(steps.error().at(kReachedPosePointer));
-    if (auto clear = check_ways(scene, {X_WP, X_WP}, geometry, *steps, i); !clear) {
-      return core::fail(clear.error());
+    const std::string name =
+        fmt::format("pose {}, sphere {} on the ring", in_degrees(asked), i + 1);
+    if (auto clear =
+            check_sphere_steps(plan, of, X_WB, wanted.spheres[i].center_mm, off_mm, *steps, name);
+        !clear) {
+      return core::fail(clear.error().at(kReachedPosePointer));
     }
     out.insert(out.end(), steps->begin(), steps->end());
   }

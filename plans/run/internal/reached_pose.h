@@ -16,12 +16,11 @@ namespace rondure::plans {
 /// Steps that touch the spheres on the ring near a pose of the fixture: each from park height down
 /// to the pole, around, up again; `row.layer` continues the count of the spheres on the base.
 /// @param kinematics  Kinematics of the fixture as far as known.
-/// @param X_BP        Nominal part frame in the body frame.
 /// @return Empty without `fixture.reached_pose`; kUnreachable, with the name of the sphere, when
-/// the tool would come too close to part, ring or another known obstacle. Nothing moves.
+/// the tool would come too close to part, ring, another sphere or another known obstacle. Nothing
+/// moves.
 [[nodiscard]] core::Result<std::vector<TouchStep>> reached_pose_steps(
-    const Plan& plan, const fixture::Kinematics& kinematics, const Eigen::Isometry3d& X_BP,
-    int feature, const core::Pose& asked);
+    const Plan& plan, const fixture::Kinematics& kinematics, int feature, const core::Pose& asked);
 
 /// The pose in which the spheres were found: least squares of the directions between them, so that
 /// position errors of the axes have no effect.
