@@ -74,13 +74,12 @@ chmod 1777 "$TMPDIR"  # some tests start the program as another user
 reach=$work/reach-$preset
 mkdir -p "$reach"
 chmod 1777 "$reach"
-untraced=$("$here/reach.py" "$work/tests.json" "$reach")
+untraced=$("$here/reach.py" "$work/tests.json" "$reach" "$tests")
 if [ -n "$untraced" ]; then
   echo "The tests without a fault"
   passed=yes
-  env -u RONDURE_FULL RONDURE_FAULT_TRACE="$reach" ctest --preset "$preset" -I "$untraced" ${tests:+-R "$tests"} \
-    --no-tests=ignore --repeat until-pass:2 --output-junit "$work/sound.xml" </dev/null \
-    >"$work/sound-$preset.txt" 2>&1 || passed=no
+  env -u RONDURE_FULL RONDURE_FAULT_TRACE="$reach" ctest --preset "$preset" -I "$untraced" \
+    --repeat until-pass:2 --output-junit "$work/sound.xml" </dev/null >"$work/sound-$preset.txt" 2>&1 || passed=no
   mv "$work/sound.xml" "$reach/$(date +%s).xml"
   [ $passed = yes ] || {
     tail -n 30 "$work/sound-$preset.txt" >&2
@@ -104,11 +103,11 @@ while IFS=$'\t' read -r number room place kind _; do
   temporary=build/$preset/Testing/Temporary log=$work/fault-$number-$name.txt
   start=$SECONDS result="not reached" test="" failed=""
   rm -rf "$log" "${TMPDIR:?}"/*
-  for step in $("$here/reach.py" "$work/tests.json" "$reach" "$number" "$room"); do
+  for step in $("$here/reach.py" "$work/tests.json" "$reach" "$tests" "$number" "$room"); do
     result="not found"
     rm -f "$temporary"/{LastTestsFailed.log,CTestCostData.txt}  # not the slow ones first
-    RONDURE_FAULT=$number ctest --preset "$preset" -I "$step" ${tests:+-R "$tests"} --stop-on-failure \
-      --no-tests=ignore --repeat until-pass:2 --timeout "$hangs_after" </dev/null >>"$log" 2>&1 && continue
+    RONDURE_FAULT=$number ctest --preset "$preset" -I "$step" --stop-on-failure \
+      --repeat until-pass:2 --timeout "$hangs_after" </dev/null >>"$log" 2>&1 && continue
     IFS=: read -r failed test <"$temporary/LastTestsFailed.log" || [ -n "$failed" ] ||
       { echo "ctest did not run: see $log" >&2; exit 2; }
     ctest --preset "$preset" -I "0,0,0,$failed" </dev/null >>"$log" 2>&1 && result=found || result="fails without it"
