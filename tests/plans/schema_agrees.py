@@ -8,6 +8,7 @@ beyond a schema.
 usage: schema_agrees.py REPOSITORY
 """
 
+import copy
 import json
 import pathlib
 import sys
@@ -20,8 +21,13 @@ EITHER = {"missing-key", "pose-range", "step"}
 
 
 def patched(plan, patch):
-    """Changes a plan by a JSON patch (RFC 6902) of "add", "replace" and "remove"."""
+    """Changes a plan by a JSON patch (RFC 6902) of "add", "replace", "remove" and "copy"."""
     for operation in patch:
+        if operation["op"] == "copy":
+            value = plan
+            for name in operation["from"].split("/")[1:]:
+                value = value[int(name)] if isinstance(value, list) else value[name]
+            operation = {"op": "add", "path": operation["path"], "value": copy.deepcopy(value)}
         names = operation["path"].split("/")[1:]
         *way, last = [name.replace("~1", "/").replace("~0", "~") for name in names]
         at = plan
