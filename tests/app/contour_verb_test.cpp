@@ -117,6 +117,12 @@ TEST_F(ContourVerb, ReadsOtherColumnsUnitsAndSigns) {
   const auto document = nlohmann::json::parse(by_file.out);
   EXPECT_NEAR(document["parts"][0]["following"]["pv_um"], 7.0430, 2e-4);
   EXPECT_EQ(document["parts"], nlohmann::json::parse(by_words.out)["parts"]);
+  // A column of the main journal alone.
+  write(folder_ / "main.csv", read(one("main")));
+  replace_in(folder_ / "main.csv", "deviation_um", "MAIN");
+  const auto by_main = with_axes(one("axes"), {"--json", "--main", (folder_ / "main.csv").string(),
+                                               "--column", "main_deviation=MAIN"});
+  EXPECT_EQ(by_main.status, 0) << by_main.err;
 }
 
 TEST_F(ContourVerb, TakesPositionsInPlaceOfErrors) {

@@ -138,6 +138,8 @@ TEST_F(SpindlePlan, JudgesVerifiesAndTellsEveryChange) {
   EXPECT_NEAR(found.at(1).at("value_um"), 0.8, 1e-4);
   EXPECT_EQ(found.at(2).at("verdict"), "void");
   EXPECT_THAT(found.at(2).at("reason"), HasSubstr("one revolution"));
+  EXPECT_THAT(read(folder_ / "run" / "report.html"),
+              ::testing::ContainsRegex("<tr><td class=\"n\">5</td><td class=\"n\">0\\.(799|800)"));
   const auto verify = [&] { return rondure({"verify", (folder_ / "run").string()}); };
   EXPECT_EQ(verify().status, 0);
   EXPECT_THAT(verify().out, HasSubstr("1024 rows of series"));

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_client/client.h"
 #include "cmm/ipp/grammar.h"
+#include "cmm/ipp_client/client.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "tests/cmm/scripted_server.h"
@@ -286,6 +286,19 @@ TEST(IppClientTraps, TakesBackAMissedTouchAndReturnsToItsStart) {
   EXPECT_EQ(server.heard[3], "ClearAllErrors()");
   EXPECT_THAT(server.heard, Contains("GoTo(X(30), Y(0), Z(10))"));
   EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
+}
+
+TEST(IppClientTraps, DoesNotTouchWhereTheDistancesOfTheTouchAreRefused) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  server.override_with("SetProp(Tool.PtMeasPar",
+                       {"! Error(1, 0504, \"SetProp()\", \"Argument out of range\")"});
+  server.heard.clear();
+  const auto refused = machine->touch(touch_from_x());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kOutOfRange);
+  EXPECT_THAT(server.heard, Not(Contains(HasSubstr("PtMeas("))));
 }
 
 TEST(IppClientTraps, LeavesAnEmergencyStopToAPerson) {

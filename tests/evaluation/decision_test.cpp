@@ -113,10 +113,18 @@ TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
     evaluation::DecisionRule rule = rule_named(kind);
     rule.judge_corrected = true;  // else what was read decides as well
     rule.acceptance_guard_1 = 0.5;
-    if (kind == Kind::kJcgm106)
+    if (kind == Kind::kJcgm106) {
       rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
+      rule.producer_risk_1 = 0.1;
+    }
     const auto at = apply_rule(rule, known(9e-3, errors), kTolerance);
     ASSERT_TRUE(at);
+    if (kind == Kind::kJcgm106) {
+      const double middle_mm = 0.5 * (*at->acceptance.upper_mm + *at->rejection.upper_mm);
+      const auto between = apply_rule(rule, known(middle_mm, errors), kTolerance);
+      ASSERT_TRUE(between);
+      EXPECT_THAT(between->sentence.english(), HasSubstr("%, between 10 % and 95 %"));
+    }
     const double bias = kind == Kind::kSimpleAcceptance ? 0.3e-3 : 0.0;
     constexpr double kStep = 1e-6;
     EXPECT_EQ(verdict(rule, known(*at->acceptance.upper_mm - bias - kStep, errors)),

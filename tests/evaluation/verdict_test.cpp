@@ -1,4 +1,5 @@
 // Every path to a void verdict, and what stands with a value.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -711,6 +712,19 @@ TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
   ASSERT_EQ(said->spectrum->terms.size(), 1U);
   EXPECT_EQ(said->spectrum->terms[0].degree, 1);
   EXPECT_NEAR(said->spectrum->terms[0].amplitude_mm, 1.25e-3, 1e-15);
+  // The statement says of a limit what it is, or that there is none.
+  evaluation::Influences limitless = in;
+  limitless.machine->length_limit_mm = limitless.machine->length_limit_slope = 0.0;
+  for (const auto& [influences, text] : {std::pair(in, "ISO 10360-2 1.5 um + 3 um/m, rectangular"),
+                                         std::pair(limitless, "not declared")}) {
+    const auto lines = influence_statements(influences);
+    const auto limit = std::find_if(lines.begin(), lines.end(), [](const auto& line) {
+      return line.name == "machine-length-limit";
+    });
+    ASSERT_NE(limit, lines.end());
+    EXPECT_EQ(limit->text.english(), text);
+    EXPECT_EQ(limit->covered, influences.machine->length_limit_mm > 0.0);
+  }
   // A limit contains the repeatability that the repeats show.
   run.settings.push_back({"uncertainty/probe/form_limit_um", 2.0, ""});
   const auto limited = declared_for(run, feature, evaluation->probe);

@@ -581,6 +581,11 @@ TEST(WheelInterval, HoldsTheTruthAtThePointsAsOftenAsSpecified) {
     ASSERT_TRUE(truth) << truth.error().what;
     options.seed = static_cast<std::uint64_t>(seed);
     const auto intervals = intervals_of(result, both, options);
+    if (seed == 100) {
+      UncertaintyOptions few = options;
+      few.least_trials = 99;
+      EXPECT_THAT(intervals_of(result, both, few)[1].why().english(), HasSubstr("99"));
+    }
     const double true_mm[2] = {truth->runout->fim_mm, truth->check.deviation_mm};
     for (std::size_t i = 0; i < 2; ++i) {
       const auto* said = intervals.at(i).about(Measurand::kSampledPoints);

@@ -93,7 +93,7 @@ TEST(ClosedProfile, RefusesTooFewAnglesAndNamesBadRows) {
   const double inf = std::numeric_limits<double>::infinity();
   const auto bad = ordered_profile(Values{0, 1, 2, inf, 4}, Values(5, 0.0));
   EXPECT_EQ(bad.error().code, core::Code::kNotFinite);
-  EXPECT_NE(bad.error().what.find("row 3"), std::string::npos);
+  EXPECT_NE(bad.error().what.find("row 3 is (angle inf rad, radius 0 mm)"), std::string::npos);
 }
 
 TEST(ClosedProfile, CellsFillTheCircleAndLeaveAnArcsGapOut) {

@@ -517,7 +517,7 @@ TEST(PoseJoint, BadInputIsRefusedWithItsPlace) {
   EXPECT_THAT(pose_joint(few).error().what, testing::HasSubstr("pose 2: 3 touches"));
   auto wild = made.poses;
   wild[0].touches[4].tip_W_mm.y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(pose_joint(wild).error().what, testing::HasSubstr("touch 4"));
+  EXPECT_THAT(pose_joint(wild).error().what, testing::HasSubstr("pose 1: touch 4 is"));
   auto negative = made.poses;
   negative[1].prior[2] = -1.0;
   EXPECT_EQ(pose_joint(negative).error().code, core::Code::kBadOption);

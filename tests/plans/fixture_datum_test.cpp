@@ -1,5 +1,6 @@
 #include "plans/run/internal/fixture_datum.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -119,6 +120,19 @@ TEST(FixtureBase, RefusesSpheresThatDoNotFitOrStandTooFarOff) {
   EXPECT_EQ(far.error().code, core::Code::kLocation);
   EXPECT_THAT(far.error().what,
               AllOf(HasSubstr("sphere 1 of the fixture stands 0.100 mm"), HasSubstr("0.05 mm")));
+}
+
+TEST(FixtureBase, ARunThatEndsAtASphereSaysAtWhich) {
+  Plan plan = plan_with_base({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  const auto touches = run(plan).record.touches;
+  const auto second = std::find_if(touches.begin(), touches.end(), [](const record::Touch& touch) {
+    return touch.purpose == record::Touch::Purpose::kLocate && touch.pose < 0 && touch.layer == 1;
+  });
+  ASSERT_NE(second, touches.end());
+  plan.simulation->faults.connection_lost_at_touch = static_cast<int>(second - touches.begin()) + 1;
+  const auto failure = run(plan).failure;
+  ASSERT_TRUE(failure);
+  EXPECT_THAT(failure->what, HasSubstr("sphere of the fixture 2, point 1: "));
 }
 
 TEST(FixtureBase, IsTakenFromTheJournalByARunThatGoesOn) {

@@ -2,6 +2,9 @@
 
 #include "plans/forecast/forecast.h"
 
+#include <cstdio>
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -188,9 +191,14 @@ TEST(Forecast, DrawsEveryTouchTwiceAndTheScale) {
   ASSERT_TRUE(forecast);
   const std::string svg = forecast_picture(plan, forecast->stages.back());
   std::size_t circles = 0;
-  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
-       at = svg.find("<circle", at + 1))
+  std::istringstream lines(svg);
+  double left = 0.0, top = 0.0, side = 0.0, x = 0.0, y = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    std::sscanf(line.c_str(), "<svg x=\"%lf\" y=\"%lf\" width=\"%lf\"", &left, &top, &side);
+    if (std::sscanf(line.c_str(), "<circle cx=\"%lf\" cy=\"%lf\"", &x, &y) != 2) continue;
     ++circles;
+    EXPECT_TRUE(x > left && x < left + side && y > top && y < top + side) << "beside its panel";
+  }
   EXPECT_EQ(circles, 2U * 28U);
   EXPECT_THAT(svg, HasSubstr(" mm</text>"));
   EXPECT_THAT(svg, HasSubstr("&lt;a &amp; b>"));

@@ -341,7 +341,8 @@ TEST(AnalysisPage, DrawsNoFrameForWhatIso1101DoesNotKnow) {
                 HasSubstr("<span class=\"plain\">" + std::string(symbol) + " ≤ 5.000 µm</span>"));
   }
   for (const record::Form form : {record::Form::kRoundness, record::Form::kRunOut}) {
-    EXPECT_THAT(page_of(spindle_case(form, "RONt")), HasSubstr("class=\"frame-box"));
+    EXPECT_THAT(page_of(spindle_case(form, "RONt")),
+                HasSubstr("class=\"frame-box\"><span><svg class=\"symbol\""));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,12 @@ std::size_t occurrences(std::string_view text, std::string_view part) {
     ++number;
   }
   return number;
+}
+
+/// The inside of the drawing with this label.
+std::string drawing(std::string_view page, std::string_view label) {
+  const std::size_t at = std::min(page.find(label), page.size());
+  return std::string(page.substr(at, page.find("</svg>", at) - at));
 }
 
 /// Set RONDURE_KEEP to a folder to look at the pages.
@@ -236,6 +243,62 @@ TEST(Html, PointsOfManyHeightsAreNotJoinedByALine) {
   EXPECT_FALSE(holds(page, "<path class=\"profile\""));
   EXPECT_FALSE(holds(page, "guides the eye"));
   EXPECT_EQ(occurrences(page, "<circle class=\"point\""), 144U);
+}
+
+TEST(Html, SaysWhereTheReferenceSphereWasFound) {
+  EXPECT_TRUE(holds(page_of(cylinder_case(4, 7, 3)),
+                    "radius 12.500000 mm, found at (100.000000, 0.000000, 0.000000) mm"));
+}
+
+TEST(Html, TheMedianLineOfACoaxialityIsDrawnInItsZone) {
+  Case made = drawing_case();
+  CharacteristicResult& about_datum = made.evaluation.features[0].characteristics.back();
+  Finding finding = *about_datum.finding;
+  finding.centers_mm = {{0.0, 0.0, 0.0}, {0.002, 0.0, 20.0}, {0.001, 0.0, 40.0}};
+  about_datum.finding = std::make_shared<const Finding>(finding);
+  EXPECT_FALSE(holds(page_of(made), "limits of the zone")) << "of a run-out";
+  about_datum.characteristic.form = record::Form::kCoaxiality;
+  EXPECT_TRUE(holds(page_of(made), "limits of the zone"));
+}
+
+TEST(Html, AnglesRunAnticlockwiseInASection) {
+  Case made = spiral_case(150);
+  double angle_rad = 0.2;
+  for (CloudPoint& point : made.evaluation.features[0].cloud) point.angle_rad = angle_rad += 0.005;
+  const std::string section = drawing(page_of(made), "All points, seen along the axis: dev");
+  int points = 0;
+  for (std::size_t at = section.find("<circle class=\"point\""); at != std::string::npos;
+       at = section.find("<circle class=\"point\"", at + 1)) {
+    double x = 0.0, y = 0.0;
+    std::sscanf(section.c_str() + at, "<circle class=\"point\" cx=\"%lf\" cy=\"%lf\"", &x, &y);
+    EXPECT_TRUE(x > 160.0 && y < 160.0) << x << " " << y << " is not right above the centre";
+    ++points;
+  }
+  EXPECT_EQ(points, 144);
+}
+
+TEST(Html, CellsOfTheMapReachAsFarDownAsUp) {
+  const std::string map = drawing(page_of(spiral_case(4000)), "Deviations on the unrolled surface");
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+  const std::size_t frame = map.find("<rect class=\"frame\"");
+  ASSERT_NE(frame, std::string::npos);
+  std::sscanf(map.c_str() + frame,
+              "<rect class=\"frame\" x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &left, &top,
+              &width, &height);
+  double above = height;
+  double below = height;
+  for (std::size_t at = map.find("<rect class=\"swatch\""); at != std::string::npos;
+       at = map.find("<rect class=\"swatch\"", at + 1)) {
+    double x = 0.0, y = 0.0, wide = 0.0, high = 0.0;
+    std::sscanf(map.c_str() + at,
+                "<rect class=\"swatch\" x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &y,
+                &wide, &high);
+    if (x > left + width) continue;  // the bar of the colours
+    above = std::min(above, y - top);
+    below = std::min(below, top + height - y - high);
+  }
+  EXPECT_LT(above, height);
+  EXPECT_NEAR(above, below, 0.3);
 }
 
 TEST(Html, AFeatureWithoutZoneHasNoDrawings) {

@@ -199,6 +199,7 @@ TEST(LivePainter, SendsOnlyWhatChanged) {
   const auto first = painter.paint(1.0);
   const json all = json::parse(answer_of(*first, "s", 0));
   EXPECT_THAT(std::string(all["parts"]["drawing"]), HasSubstr("<svg"));
+  EXPECT_THAT(std::string(all["parts"]["now"]), HasSubstr("<progress value=\"48\" max=\"60\""));
   EXPECT_FALSE(all["ended"]);
   const std::uint64_t version = all["version"];
   EXPECT_TRUE(json::parse(answer_of(*first, "s", version))["parts"].empty());
