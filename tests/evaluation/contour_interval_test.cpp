@@ -381,7 +381,8 @@ TEST(ContourGates, AWrongZeroVoidsTheRest) {
   expect_rest_void(pins.judged(), "phase");
 }
 
-TEST(ContourGates, AGainInAllPartsAlikeVoidsTheRest) {
+// The gauge's gain is in t and n, a scale of the axes in f: nothing tells which one is wrong.
+TEST(ContourGates, AGainInAllPartsAlikeVoidsEveryCurve) {
   Pins pins;
   for (std::size_t i = 0; i < 4; ++i) {
     pins.pins[i] = test::spec_following(test::kSpecCScale[i]).error_mm;
@@ -391,7 +392,13 @@ TEST(ContourGates, AGainInAllPartsAlikeVoidsTheRest) {
     }
   }
   const auto result = pins.judged();
-  expect_rest_void(result, "gain");
+  EXPECT_EQ(contour_gate(result, "gain").outcome, Gate::Outcome::kVoids);
+  const ContourResult& facts = facts_of(result);
+  EXPECT_TRUE(facts.rest_void && facts.total_void && facts.following_void);
+  for (const char* number : {"total-pv", "following-pv", "rest-pv"}) {
+    EXPECT_FALSE(number_of(facts, number, 0).uncertainty.result()) << number;
+  }
+  EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
   EXPECT_THAT(contour_gate(result, "gain").reason.english(), testing::HasSubstr("t is 1.19"));
   pins.pins.resize(1);
   pins.traces.resize(1);

@@ -240,7 +240,8 @@ Gate gain(ContourResult& facts) {
            "",
            Outcome::kPassed,
            {}};
-  if (facts.study.parts.size() < 2) return out;
+  if (facts.study.parts.size() < 2 || facts.study.sense.sense_suspect()) return out;
+  const double sign = facts.study.sense.sign_suspect() ? -1.0 : 1.0;  // "sense" says so
   const double declared = facts.influences ? record::u_of(facts.influences->gauge_gain_1) : 0.0;
   double least = 0.0;
   double sum = 0.0;
@@ -249,9 +250,9 @@ Gate gain(ContourResult& facts) {
     const fit::ContourPartResult& part = facts.study.parts[i];
     const auto found = fit::gain_evidence({part.pin.contour.error_mm, part.following.error_mm});
     if (!found) return out;
-    sum += found->slope;
+    sum += sign * found->slope;
     const double u = std::max(std::hypot(found->u, declared), 1e-12);
-    const double off = (found->slope - 1.0) / u;
+    const double off = (sign * found->slope - 1.0) / u;
     alike = alike && (i == 0 || off * least > 0.0);
     if (i == 0 || std::abs(off) < std::abs(least)) least = off;
   }
@@ -262,7 +263,8 @@ Gate gain(ContourResult& facts) {
       "t is {:.3f} times f in the mean, and in all parts off 1 to the same side by more than {:g} "
       "standard uncertainties: check the gain of the gauge and the scales of the axes",
       sum / static_cast<double>(facts.study.parts.size()), kDeviations);
-  void_rest(facts, out.reason);
+  void_total(facts, out.reason);  // the gauge's is in t, the axes' in f
+  void_following(facts, out.reason);
   return out;
 }
 
