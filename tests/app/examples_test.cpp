@@ -181,6 +181,23 @@ TEST(Examples, TheReportedCyltAgreesWithTheHiddenTruthWithinTheNoise) {
   EXPECT_GE(simulated, 5);
 }
 
+// Both from the filtered profile about its own circle: beside 10.44 um of the part stood the 12.5
+// um of the profile itself.
+TEST(Examples, TheTruthOfARoundnessIsFilteredAsItsValue) {
+  const fs::path run = example_runs() / "05_spindle_three_probe";
+  const json report = json::parse(read(run / "report.json"));
+  int compared = 0;
+  for (const record::TruthValue& truth : journal_of(run).truth_values) {
+    for (const json& asked : report.at("features").at(0).at("characteristics")) {
+      if (truth.name != asked.at("id").get<std::string>() + "_um") continue;
+      SCOPED_TRACE(truth.name);
+      ++compared;
+      EXPECT_NEAR(asked.at("value_um").get<double>(), truth.value, 0.05);
+    }
+  }
+  EXPECT_EQ(compared, 2) << "RONt and RONq";
+}
+
 /// The call-outs of a report that do not conform, as "feature: characteristic".
 std::vector<std::string> failing(const json& report) {
   std::vector<std::string> out;
