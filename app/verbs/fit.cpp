@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,8 +19,10 @@
 #include "app/verbs/verbs.h"
 #include "core/error.h"
 #include "core/result.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "core/utf8.h"
+#include "evaluation/part/outliers.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
 #include "fit/geometry/points.h"
@@ -456,6 +460,89 @@ core::Result<FitOutcome> fit_shape(const FitArguments& arguments, const record::
   return fit_circle(arguments, table, std::move(collector));
 }
 
+/// Distances of the points from the least-squares feature, but for a constant.
+std::vector<double> deviations_mm(const FitReference& ls, Space points) {
+  std::vector<double> out;
+  const double slope = ls.full_angle_deg ? std::tan(0.5 * *ls.full_angle_deg * core::kDegree) : 0.0;
+  for (const Eigen::Vector3d& p : points) {
+    if (ls.place.plane) {
+      out.push_back(height_mm(*ls.place.plane, p));
+    } else if (ls.place.axis) {
+      const double along_mm = (p - ls.place.axis->point_mm).dot(ls.place.axis->direction);
+      out.push_back(fit::distance_mm(*ls.place.axis, p) - slope * along_mm);
+    } else if (ls.place.coordinates == 2) {
+      out.push_back((p - ls.place.center_mm).head<2>().norm());
+    } else {
+      out.push_back((p - ls.place.center_mm).norm());
+    }
+  }
+  return out;
+}
+
+/// Names the points that lie more than five robust scales off the least-squares feature, and the
+/// share of the deviation that each of the seven farthest carries; the rows count from 0.
+void warn_of_gross_points(const FitArguments& arguments, const record::PointTable& table,
+                          FitOutcome& outcome) {
+  FitArguments alone = arguments;
+  alone.reference = "ls";
+  alone.sizes.clear();
+  const auto ls = fit_shape(alone, table);
+  if (!ls || ls->references.empty() || !ls->references.front().found) return;
+  const std::vector<double> off_mm = deviations_mm(*ls->references.front().found, table.points_mm);
+  const std::vector<bool> far = evaluation::beyond_five_scales(off_mm);
+  if (!evaluation::count_of_outliers(far)) return;  // so many are form
+  const double middle_mm = core::median(off_mm);
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < far.size(); ++row) {
+    if (far[row]) rows.push_back(row);
+  }
+  std::ranges::stable_sort(rows, std::greater(),
+                           [&](std::size_t row) { return std::abs(off_mm[row] - middle_mm); });
+  // Of all references the minimum zone, else the first that there is.
+  const auto deciding = [](const FitOutcome& of) -> const FitOutcome::Entry* {
+    const FitOutcome::Entry* out = nullptr;
+    for (const FitOutcome::Entry& entry : of.references) {
+      if (entry.found && (out == nullptr || entry.name == "mz")) out = &entry;
+    }
+    return out;
+  };
+  const FitOutcome::Entry* whole = deciding(outcome);
+  if (whole == nullptr) return;
+  alone.reference = whole->name;
+  constexpr std::size_t kMostNamed = 7;
+  const auto share_of = [&](std::span<const std::size_t> some) {
+    std::vector<bool> gone(far.size(), false);
+    for (const std::size_t row : some) gone[row] = true;
+    record::PointTable without = table;
+    without.points_mm.clear();
+    without.layers.clear();
+    for (std::size_t row = 0; row < gone.size(); ++row) {
+      if (gone[row]) continue;
+      without.points_mm.push_back(table.points_mm[row]);
+      if (!table.layers.empty()) without.layers.push_back(table.layers[row]);
+    }
+    const auto rest = fit_shape(alone, without);
+    const FitOutcome::Entry* other = rest ? deciding(*rest) : nullptr;
+    if (other == nullptr) return std::string();
+    return fmt::format(" {:.3f} of {:.3f} um",
+                       core::micrometres(whole->found->deviation_mm - other->found->deviation_mm),
+                       core::micrometres(whole->found->deviation_mm));
+  };
+  for (std::size_t i = 0; i < std::min(rows.size(), kMostNamed); ++i) {
+    std::string said = fmt::format(
+        "point {} lies {:+.3f} um off the least-squares feature, more than five robust "
+        "scales",
+        rows[i], core::micrometres(off_mm[rows[i]] - middle_mm));
+    if (const std::string share = share_of({&rows[i], 1}); !share.empty())
+      said += "; it carries" + share;
+    outcome.warnings.push_back({core::Code::kOutliers, std::move(said), {}});
+  }
+  if (rows.size() < 2) return;
+  std::string said = fmt::format("together {} points lie that far off", rows.size());
+  if (const std::string share = share_of(rows); !share.empty()) said += " and carry" + share;
+  outcome.warnings.push_back({core::Code::kOutliers, std::move(said), {}});
+}
+
 core::Result<record::PointTable> load_points(const FitArguments& arguments) {
   const auto bytes = record::read_file(arguments.file, record::kMostPointsBytes);
   if (!bytes) return core::fail(bytes.error());
@@ -477,11 +564,12 @@ core::Result<record::PointTable> load_points(const FitArguments& arguments) {
 int fit(const FitArguments& arguments) {
   const auto table = load_points(arguments);
   if (!table) return refuse(table.error());
-  const auto outcome = fit_shape(arguments, *table);
+  auto outcome = fit_shape(arguments, *table);
   if (!outcome) {
     const core::Error& error = outcome.error();
     return refuse(error.at(error.where.empty() ? arguments.file : error.where));
   }
+  warn_of_gross_points(arguments, *table, *outcome);
   return answer(fit_json(*outcome), arguments.json, [&] { return fit_table(*outcome); });
 }
 

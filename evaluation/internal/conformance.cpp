@@ -444,7 +444,7 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   out.risks = judged.risks;
 }
 
-PartFindings find_all(const record::RunRecord& record, std::span<const FeatureResult> features,
+PartFindings find_all(const record::RunRecord& record, std::span<FeatureResult> features,
                       const std::optional<fit::ProbeTip>& probe) {
   PartFindings out(features.size());
   const std::vector<MeasuredSurface> part = surfaces_of(features);
@@ -456,7 +456,12 @@ PartFindings find_all(const record::RunRecord& record, std::span<const FeatureRe
     out[f].resize(feature.characteristics.size());
     for (std::size_t c = 0; c < feature.characteristics.size(); ++c) {
       const record::Characteristic& asked = feature.characteristics[c];
-      if (!is_found(feature, asked)) continue;
+      if (!is_found(feature, asked)) {
+        const bool form = asked.form == Form::kCylindricity || asked.form == Form::kRoundness;
+        if (form && !record::is_analysis(feature.shape))
+          warn_of_shares(part, f, asked, features[f]);
+        continue;
+      }
       FoundCharacteristic& found = out[f][c].emplace(FoundCharacteristic{
           features[f].failure ? core::Result<Finding>(core::fail(*features[f].failure))
                               : find(as_read, f, asked)});

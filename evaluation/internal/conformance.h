@@ -18,11 +18,12 @@ struct FoundCharacteristic {
 };
 
 /// What find() computes of a part: for each feature one element for each of its characteristics,
-/// empty where find() has none. The trials of all intervals move all features together.
+/// empty where find() has none. Points far off the surface are named in the warnings of the other
+/// forms' features. The trials of all intervals move all features together.
 using PartFindings = std::vector<std::vector<std::optional<FoundCharacteristic>>>;
 
 [[nodiscard]] PartFindings find_all(const record::RunRecord& record,
-                                    std::span<const FeatureResult> features,
+                                    std::span<FeatureResult> features,
                                     const std::optional<fit::ProbeTip>& probe);
 
 /// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its

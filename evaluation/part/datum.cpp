@@ -189,6 +189,7 @@ core::Result<DatumPoints> datum_points(const PartState& state, NamedDatum named,
     if (!factor) return out.fails(factor.error());
     auto surface = state.prepared(i, record::Indication{});
     if (!surface) return out.fails(surface.error());
+    if (surface->no_sections) return out.fails(*surface->no_sections);
     for (Eigen::Vector3d& p : surface->points_mm) p *= *factor;
     out.surfaces.push_back(*std::move(surface));
   }

@@ -118,6 +118,9 @@ core::Result<Finding> find(const PartState& part, std::size_t feature,
                            const record::Characteristic& asked, Proof proof) {
   const core::Result<PreparedSurface>& surface = part.prepared(feature, asked.indication);
   if (!surface) return core::fail(surface.error());
+  if (surface->no_sections && asked.form != Form::kCylindricity) {
+    return core::fail(*surface->no_sections);
+  }
   core::Result<Finding> found = core::fail(core::Code::kMeaning, "not evaluated");
   if (asked.indication.datum.empty()) {
     found = find_alone(part, feature, asked, proof);

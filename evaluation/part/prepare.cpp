@@ -146,6 +146,10 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
   if (layout->failure) return core::fail(*layout->failure);
   PreparedSurface out;
   out.of = surface.of;
+  out.no_sections = layout->no_sections;
+  const bool filtered =
+      indication.filter.value_or(Indication::Filter::kNone) != Indication::Filter::kNone;
+  if (out.no_sections && filtered) return core::fail(*out.no_sections);
   out.material = {surface.of->feature.side == record::Side::kInside,
                   surface.tip_radius_mm.value_or(0.0)};
   out.tip_known = surface.tip_radius_mm.has_value();
@@ -177,8 +181,6 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
     name_outlying(*layout, indication, *taken, out);
   }
   if (auto done = filter(out, indication, warnings); !done) return core::fail(done.error());
-  const bool filtered =
-      indication.filter.value_or(Indication::Filter::kNone) != Indication::Filter::kNone;
   if (warnings == Warnings::kFind && !filtered) warn_of_no_filter(out);
   return out;
 }

@@ -52,10 +52,12 @@ std::vector<std::size_t> outlying_rows(const MeasuredSurface& surface) {
   return layout->failure || layout->too_many ? std::vector<std::size_t>() : layout->outlying;
 }
 
-MeasuredSurface without_row(const MeasuredSurface& surface, std::size_t row) {
+MeasuredSurface without_rows(const MeasuredSurface& surface, std::span<const std::size_t> rows) {
   SurfaceLayout layout = *known_layout(surface);
-  layout.kept[row] = false;
-  for (SectionRows& section : layout.sections) std::erase(section.rows, row);
+  for (const std::size_t row : rows) layout.kept[row] = false;
+  for (SectionRows& section : layout.sections) {
+    std::erase_if(section.rows, [&](std::size_t row) { return !layout.kept[row]; });
+  }
   MeasuredSurface out = surface;
   out.layout = std::make_shared<const SurfaceLayout>(std::move(layout));
   return out;

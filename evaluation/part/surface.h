@@ -61,6 +61,7 @@ struct PreparedSurface {
   std::vector<Eigen::Vector3d> points_mm;  ///< Filtered, where the characteristic asks for it.
   std::vector<std::size_t> rows;           ///< Row in the cloud of each point, ascending.
   std::vector<SurfaceSection> sections;    ///< Lowest (innermost) first; may be empty of a file.
+  std::optional<core::Error> no_sections;  ///< Why they are: the points follow no circles.
   std::vector<LeftOut> left_out;
   std::vector<core::Error> warnings;
   core::Phrase filter;  ///< For the operator: "unfiltered", "gaussian 50 UPR".
@@ -84,7 +85,8 @@ struct PreparedSurface {
 /// no rule took them out, farthest first. None where they are more than a quarter: that is form.
 [[nodiscard]] std::vector<std::size_t> outlying_rows(const MeasuredSurface& surface);
 
-/// The surface without a point, for its share of a value.
-[[nodiscard]] MeasuredSurface without_row(const MeasuredSurface& surface, std::size_t row);
+/// The surface without some points, for their share of a value.
+[[nodiscard]] MeasuredSurface without_rows(const MeasuredSurface& surface,
+                                           std::span<const std::size_t> rows);
 
 }  // namespace rondure::evaluation

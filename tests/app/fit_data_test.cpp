@@ -12,8 +12,10 @@ namespace rondure::app::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -124,6 +126,32 @@ std::string planted_points(const Planted& part, bool cylinder, int count) {
     text += cylinder ? fmt::format(",{:.9f}\n", 40.0 * even(random)) : "\n";
   }
   return text;
+}
+
+// One point of dirt: its row, how far it lies off, and what it makes of the deviation.
+TEST(FitData, AGrossPointIsNamedWithItsShare) {
+  const TemporaryFolder folder;
+  const auto table_of = [](bool cylinder, int row) {
+    std::string table = cylinder ? "x,y,z\n" : "x,y\n";
+    for (int i = 0; i < 72; ++i) {
+      const double t = (cylinder ? 20.0 : 5.0) * i * kPi / 180.0;
+      const double r = 20.0 + 2e-3 * std::cos(2.0 * t) + (i == row ? 0.3 : 0.0);
+      table += fmt::format("{:.9f},{:.9f}", r * std::cos(t), r * std::sin(t));
+      table += cylinder ? fmt::format(",{}\n", i / 18 * 10) : "\n";
+    }
+    return table;
+  };
+  for (const char* shape : {"circle", "cylinder"}) {
+    SCOPED_TRACE(shape);
+    const bool cylinder = shape == std::string("cylinder");
+    write(folder / "dirt.csv", table_of(cylinder, 41));
+    const Outcome outcome = rondure({"fit", shape, folder / "dirt.csv"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("point 41 lies +2"), HasSubstr("; it carries 29"),
+                                   HasSubstr("[outliers]")));
+    write(folder / "clean.csv", table_of(cylinder, -1));
+    EXPECT_THAT(rondure({"fit", shape, folder / "clean.csv"}).out, Not(HasSubstr("lies")));
+  }
 }
 
 TEST(FitData, AHundredThousandPointsGiveThePlantedForm) {

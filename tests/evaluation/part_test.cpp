@@ -342,7 +342,7 @@ TEST(SurfaceSections, OfAFileWithoutLayersAreGroupsOfHeights) {
   }
 }
 
-TEST(SurfaceSections, ThickerThanHalfAMillimetreAreRefused) {
+TEST(SurfaceSections, ThickerThanHalfAMillimetreAreNone) {
   FeatureResult helix = cylinder_of(test::w2());
   helix.feature.layers = 0;
   for (std::size_t i = 0; i < helix.cloud.size(); ++i) {
@@ -350,9 +350,14 @@ TEST(SurfaceSections, ThickerThanHalfAMillimetreAreRefused) {
     helix.cloud[i].tip_mm.z() = 0.2 * static_cast<double>(i);
   }
   const auto surface = prepared_of(helix);
-  ASSERT_FALSE(surface);
-  EXPECT_EQ(surface.error().code, core::Code::kSampling);
-  EXPECT_THAT(surface.error().what, HasSubstr("section 1 is 6."));
+  ASSERT_TRUE(surface) << "cylindricity needs none";
+  EXPECT_TRUE(surface->sections.empty());
+  ASSERT_TRUE(surface->no_sections);
+  EXPECT_EQ(surface->no_sections->code, core::Code::kSampling);
+  EXPECT_THAT(surface->no_sections->what, HasSubstr("section 1 is 6."));
+  Indication filtered;
+  filtered.filter = Indication::Filter::kGaussian;
+  EXPECT_EQ(prepared_of(helix, filtered).error().code, core::Code::kSampling);
 }
 
 TEST(SurfaceSections, OfOneLayerAreRefusedWithoutAWordOfWindows) {
@@ -674,7 +679,7 @@ TEST(SurfaceOutliers, AreNamedButTakePart) {
   ASSERT_THAT(warned(*surface), ElementsAre(core::Code::kOutliers));
   EXPECT_THAT(surface->warnings[0].what, HasSubstr("point 41 lies +"));
   EXPECT_THAT(outlying_rows(part[0]), ElementsAre(41));
-  const auto without = prepared(without_row(part[0], 41), {});
+  const auto without = prepared(without_rows(part[0], std::vector<std::size_t>{41}), {});
   ASSERT_TRUE(without);
   EXPECT_EQ(without->points_mm.size(), 71U);
   EXPECT_EQ(without->sections[1].points.size(), 35U);
@@ -702,7 +707,7 @@ TEST(SurfaceOutliers, CarryAShareOfTheValue) {
   found->warnings.clear();
   warn_of_shares(part, 0, asked, *found);
   const double with_um = found->judged[0].value_mm / core::kMicrometre;
-  part[0] = without_row(part[0], 41);
+  part[0] = without_rows(part[0], std::vector<std::size_t>{41});
   const double without_um = find(part, 0, asked)->judged[0].value_mm / core::kMicrometre;
   EXPECT_GT(with_um, 5.0 * without_um);
   ASSERT_EQ(found->warnings.size(), 1U);
@@ -758,6 +763,68 @@ TEST(SurfaceOutliers, ThatAreNeighboursAreForm) {
   EXPECT_THAT(sentence([](int j, int) { return j == 4; }), HasSubstr("36 of 36 points of layer 5"));
   EXPECT_THAT(sentence([](int, int i) { return i == 9; }),
               HasSubstr("points of 5 layers, one above the other"));
+}
+
+/// A helix of ten turns with two lobes of 4 um.
+FeatureResult helix_with(const std::vector<std::size_t>& gross_rows) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 720; ++i) {
+    const double t = 5.0 * i * core::kDegree;
+    const double r = 20.0 + 4e-3 * std::cos(2.0 * t);
+    points.emplace_back(r * std::cos(t), r * std::sin(t), i * 40.0 / 719.0);
+  }
+  for (const std::size_t row : gross_rows)
+    points[row].head<2>() += 0.3 * points[row].head<2>().normalized();
+  FeatureResult feature = cylinder_of({points});
+  feature.feature.shape = record::Shape::kCylinder;
+  feature.feature.layers = 0;
+  if (const auto ls = fit::ls_cylinder(points)) feature.ls_cylinder = *ls;
+  return feature;
+}
+
+record::Characteristic helix_form(bool rule) {
+  record::Characteristic asked;
+  asked.form = record::Form::kCylindricity;
+  asked.reference = record::Reference::kMinimumZone;
+  if (rule) asked.indication.outliers = Indication::Outliers::kFiveScales;
+  return asked;
+}
+
+TEST(SurfaceOutliers, OfAHelixAreLeftOutAndListed) {
+  const FeatureResult feature = helix_with({100, 333, 600});
+  const auto part = surfaces_of({&feature, 1});
+  const auto found = find(part, 0, helix_form(true));
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_NEAR(found->judged[0].value_mm, 8e-3, 1e-6);
+  EXPECT_FALSE(found->no_verdict);
+  std::vector<std::size_t> rows;
+  for (const LeftOut& left : found->left_out) rows.push_back(left.row);
+  EXPECT_THAT(rows, ElementsAre(100, 333, 600));
+  record::Characteristic round = helix_form(true);
+  round.form = record::Form::kRoundness;
+  const auto sections = find(part, 0, round);
+  ASSERT_FALSE(sections);
+  EXPECT_THAT(sections.error().what, HasSubstr("mm thick"));
+}
+
+TEST(SurfaceOutliers, OfAHelixThatAreNeighboursAreForm) {
+  for (const auto& rows : {std::vector<std::size_t>{100, 101, 600},
+                           std::vector<std::size_t>{100, 172, 244}}) {  // of three turns
+    const FeatureResult feature = helix_with(rows);
+    const auto found = find(surfaces_of({&feature, 1}), 0, helix_form(true));
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, core::Code::kOutliers);
+    EXPECT_THAT(found.error().what, HasSubstr("neighbours are form"));
+  }
+}
+
+TEST(SurfaceOutliers, OfAPlainFormAreNamedWithTheirShare) {
+  FeatureResult feature = helix_with({333});
+  const auto part = surfaces_of({&feature, 1});
+  warn_of_shares(part, 0, helix_form(false), feature);
+  ASSERT_EQ(feature.warnings.size(), 2U);
+  EXPECT_THAT(feature.warnings[0].what, HasSubstr("point 333 lies +29"));
+  EXPECT_THAT(feature.warnings[1].what, HasSubstr("point 333 carries "));
 }
 
 // ---- Trials.

@@ -315,16 +315,27 @@ class LayoutBuilder {
     return out;
   }
 
-  core::Result<void> check_thickness() const {
+  /// Points of a file without layers that lie at one height nowhere (a helix, a scanner) are a
+  /// surface all the same, without sections.
+  core::Result<void> check_thickness() {
     if (!is_turned(shape())) return {};
+    const bool may_lack = !has_layers(feature_) &&
+                          std::ranges::none_of(settings_.exclude, [](const WindowTask& window) {
+                            return window.found_beyond_um.has_value();
+                          });
     for (const SectionRows& section : out_.sections) {
       if (section.rows.empty()) continue;
       std::vector<double> heights;
       for (const std::size_t row : section.rows) {
         heights.push_back((tips_[row] - out_.axis.point_mm).dot(out_.axis.direction));
       }
-      if (auto done = evaluation::check_thickness(section.layer, heights); !done) return done;
+      auto done = evaluation::check_thickness(section.layer, heights);
+      if (!done && !may_lack) return done;
+      if (!done && !out_.no_sections) out_.no_sections = done.error();
     }
+    if (!out_.no_sections) return {};
+    out_.sections.clear();
+    for (std::size_t row = 0; row < tips_.size(); ++row) out_.part_z_mm[row] = places_[row].z_mm;
     return {};
   }
 
@@ -352,8 +363,71 @@ class LayoutBuilder {
       out_.outlying.push_back(row);
       out_.off_mm.push_back(off);
     }
-    find_form();
+    if (out_.no_sections) {
+      find_form_of_scatter();
+    } else {
+      find_form();
+    }
     return {};
+  }
+
+  /// Where there are no sections, outlying points are neighbours that lie no farther apart than one
+  /// and a half times the nearest point, or three of them at one angle.
+  void find_form_of_scatter() {
+    std::vector<bool> off(tips_.size(), false);
+    for (const std::size_t row : out_.outlying) off[row] = true;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < tips_.size(); ++row) {
+      if (out_.kept[row]) rows.push_back(row);
+    }
+    std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return places_[row].z_mm; });
+    /// Visits the points whose height differs by less than `reach`, which a visit may shorten.
+    const auto each_near = [&](std::size_t k, const double& reach, const auto& visit) {
+      const PartPlace& at = places_[rows[k]];
+      const auto look = [&](std::size_t i) {
+        const PartPlace& p = places_[rows[i]];
+        const double up_mm = p.z_mm - at.z_mm;
+        if (std::abs(up_mm) > reach) return false;
+        const double turn_rad = std::remainder(p.angle_rad - at.angle_rad, core::kTwoPi);
+        visit(rows[i], std::hypot(up_mm, turn_rad * at.radius_mm));
+        return true;
+      };
+      for (std::size_t i = k + 1; i < rows.size() && look(i); ++i) {
+      }
+      for (std::size_t i = k; i > 0 && look(i - 1); --i) {
+      }
+    };
+    constexpr double kBeside = 1.5;
+    std::vector<std::pair<double, double>> angles;  // with how far one angle reaches
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (!off[rows[k]]) continue;
+      double nearest_mm = HUGE_VAL;
+      each_near(k, nearest_mm,
+                [&](std::size_t, double apart_mm) { nearest_mm = std::min(nearest_mm, apart_mm); });
+      const double reach_mm = kBeside * nearest_mm;
+      bool beside = false;
+      each_near(k, reach_mm, [&](std::size_t row, double apart_mm) {
+        beside = beside || (off[row] && apart_mm <= reach_mm);
+      });
+      const PartPlace& at = places_[rows[k]];
+      for (const double turn : {0.0, core::kTwoPi})
+        angles.emplace_back(at.angle_rad + turn, reach_mm / at.radius_mm);
+      if (beside) return say_form_of_scatter(at);
+    }
+    std::ranges::sort(angles);
+    for (std::size_t i = 0; i + 2 < angles.size(); ++i) {
+      if (angles[i + 2].first - angles[i].first <= angles[i].second)
+        return say_form_of_scatter({angles[i].first, 0.0, 0.0});
+    }
+  }
+
+  void say_form_of_scatter(const PartPlace& at) {
+    out_.form = said(
+        core::Code::kOutliers,
+        core::phrase("points next to each other, or one above the other, at {:.1f} deg lie more "
+                     "than five robust scales off: neighbours are form, and the outlier rule takes "
+                     "out single points only; leave outliers out, or state a window",
+                     core::degrees(std::remainder(at.angle_rad, core::kTwoPi))));
   }
 
   /// Outlying points that are neighbours round a section or one above the other are form: a dent, a

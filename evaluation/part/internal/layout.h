@@ -42,6 +42,8 @@ struct SurfaceLayout {
   std::optional<core::Error> too_many;    ///< Why the outlier rule cannot be applied.
   std::optional<core::Error> form;        ///< Why the outlying points are form: neighbours lie off.
   std::vector<core::Error> warnings;
+  /// Why a cloud without layers has no sections: its points follow no circles (a helix).
+  std::optional<core::Error> no_sections = {};
 };
 
 [[nodiscard]] SurfaceLayout layout_of(const FeatureResult& feature);
