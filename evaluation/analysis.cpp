@@ -14,6 +14,7 @@
 #include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
 #include "evaluation/results/temperature_gates.h"
 
 namespace rondure::evaluation {
@@ -50,7 +51,9 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
   const bool asks = rule && rule->needs_interval();
   out.value.emplace(symbol_of(asked), value->value_mm,
                     operator_of(*result.analysis, asked, temperature_words(result)), interval,
-                    asks ? rule->measurand : Measurand::kSampledPoints, unit_of(asked));
+                    asks ? rule->measurand : Measurand::kSampledPoints, unit_of(asked),
+                    Quoting{.as_read = rule && !asks,
+                            .at_least = value->lower_bound && value->void_because.has_value()});
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
       value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
@@ -58,7 +61,7 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = *chain;
   } else if (value->void_because && !proves) {
     out.reason = *value->void_because;
-  } else if (record.ending != "finished") {
+  } else if (!result.complete) {
     out.reason = core::phrase("the run did not finish");
   } else if (auto fault = temperature_fault(record, result)) {
     out.reason = *std::move(fault);
@@ -182,6 +185,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
                                 std::span<const FeatureResult> earlier) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
+  result.complete = is_complete(record, static_cast<std::size_t>(index));
   if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
     if (probe) result.tip_radius_mm = probe->radius_mm;
     keep(evaluate_rotary(record, index, result), result);

@@ -460,6 +460,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
                                const fixture::Kinematics& kinematics) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
+  result.complete = is_complete(record, static_cast<std::size_t>(index));
   if (result.feature.strategy == record::Strategy::kPointsFile) {
     if (result.feature.tip_radius_mm) result.tip_radius_mm = result.feature.tip_radius_mm;
   } else if (probe) {
@@ -534,6 +535,7 @@ FeatureResult without_values(const Defect& defect) {
   out.tip_radius_mm = defect.result.tip_radius_mm;
   out.temperatures = defect.result.temperatures;
   out.thermal = defect.result.thermal;
+  out.complete = defect.result.complete;
   out.failure = error_of(defect);
   return out;
 }

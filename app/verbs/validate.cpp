@@ -1,11 +1,70 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "evaluation/prediction/predict.h"
+#include "plans/analyses/features.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
+#include "record/tasks/analysis_influences.h"
 
 namespace rondure::app {
+namespace {
+
+/// Visitor: the keys of the influences that an analysis leaves out.
+struct LeftOutKeys {
+  std::vector<std::string> names = {};
+
+  template <class Spec>
+  void influence(std::string_view key, const record::Influence& said, const Spec&) {
+    if (!said) names.emplace_back(key);
+  }
+};
+
+void say_undeclared(const std::string& of, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  say_line(fmt::format("{}: not declared, so in no interval: {}", of, fmt::join(names, ", ")));
+}
+
+template <class Task>
+void say_undeclared(const std::string& id, const std::optional<Task>& task) {
+  if (!task) return;
+  if (!task->uncertainty) {
+    say_line(fmt::format("feature {}: no influences are declared", id));
+    return;
+  }
+  LeftOutKeys keys;
+  auto said = *task->uncertainty;
+  describe(keys, said);
+  say_undeclared(fmt::format("feature {}", id), keys.names);
+}
+
+/// What the plan leaves undeclared is in no interval.
+void say_undeclared(const plans::Plan& plan) {
+  bool surfaces = false;
+  bool repeated = false;
+  for (const plans::FeaturePlan& feature : plan.features) {
+    say_undeclared(feature.id, feature.spindle);
+    say_undeclared(feature.id, feature.wheel);
+    say_undeclared(feature.id, feature.contour);
+    say_undeclared(feature.id, feature.rotary_axes);
+    surfaces = surfaces || !record::is_analysis(feature.type);
+    repeated = repeated || (plans::is_touched(feature) && feature.pose_search.repeats > 1);
+  }
+  if (!surfaces) return;
+  if (!plan.uncertainty) return say_line("uncertainty: not declared, no value has an interval");
+  say_undeclared("uncertainty", evaluation::undeclared_influences(
+                                    *plan.uncertainty, plan.part.expansion_per_K, repeated));
+}
+
+}  // namespace
 
 int validate(const ValidateArguments& arguments) {
   const auto plan = plans::read_plan(arguments.plan);
@@ -24,6 +83,7 @@ int validate(const ValidateArguments& arguments) {
   say_line(fmt::format("{}: valid; {} {}, {} feature{}", arguments.plan, plan->plan.name,
                        plan->plan.revision, plan->features.size(),
                        plan->features.size() == 1 ? "" : "s"));
+  say_undeclared(*plan);
   return kAllWell;
 }
 

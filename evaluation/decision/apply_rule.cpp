@@ -429,6 +429,26 @@ core::Phrase read_beyond_sentence(const KnownValue& value, const Limits& limits,
       with_unit(value, corrected_mm));
 }
 
+/// Why a value that was read within its limits is undecided: its interval lies or reaches beyond
+/// one of them. Nothing where it does neither.
+std::optional<core::Phrase> refuted_sentence(const KnownValue& value, const Limits& limits) {
+  const UncertaintyStatement& known = *value.statement;
+  const bool above = limits.upper_mm && known.high_mm > *limits.upper_mm;
+  if (!above && !(limits.lower_mm && known.low_mm < *limits.lower_mm)) return std::nullopt;
+  const std::string limit = limit_text(value, above ? *limits.upper_mm : *limits.lower_mm);
+  const std::string read = with_unit(value, value.measured_mm);
+  if (known.at_most) {
+    return core::phrase(
+        "read within the limit of {}: {}; free of noise and influences it is at most {}: neither "
+        "is proven",
+        limit, read, with_unit(value, known.high_mm));
+  }
+  return core::phrase(
+      "read within the limit of {}: {}; its interval, {} to {}, {} it: neither is proven", limit,
+      read, with_unit(value, known.low_mm), with_unit(value, known.high_mm),
+      beyond(known, limits) ? core::phrase("lies beyond") : core::phrase("reaches beyond"));
+}
+
 }  // namespace
 
 std::optional<double> RuleOutcome::specific_risk_1() const {
@@ -446,7 +466,7 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
   out.compared_mm = zones.compared_mm;
   out.acceptance = zones.acceptance;
   out.rejection = zones.rejection;
-  if (value.statement) {
+  if (rule.needs_interval()) {
     out.conformance_1 = conformance(*value.statement, rule.prior, 0.0, limits);
   }
   // JCGM 106 decides by the probability itself; the limits are the values where it reaches its
@@ -457,6 +477,13 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
     out.verdict = p >= 1.0 - rule.consumer_risk_1 ? Verdict::kConforms
                   : p <= rule.producer_risk_1     ? Verdict::kDoesNotConform
                                                   : Verdict::kUndecided;
+  }
+  if (!rule.needs_interval() && value.statement && out.verdict == Verdict::kConforms) {
+    if (auto why = refuted_sentence(value, limits)) {
+      out.verdict = Verdict::kUndecided;
+      out.sentence = *std::move(why);
+      return out;
+    }
   }
   const bool bound = rule.needs_interval() && value.statement->at_most;
   if (bound) {

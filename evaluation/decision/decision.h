@@ -101,7 +101,8 @@ struct RuleOutcome {
   double compared_mm = 0.0;  ///< The measured value (simple acceptance) or the corrected one.
   Limits acceptance = {};    ///< A value within these conforms: the limits less the guard bands.
   Limits rejection = {};     ///< A value beyond these does not: the limits plus the guard bands.
-  std::optional<double> conformance_1 = {};  ///< Probability that the part conforms.
+  /// Probability that the part conforms; none under a rule that takes no uncertainty into account.
+  std::optional<double> conformance_1 = {};
 
   /// Probability that this verdict is wrong: the specific consumer's risk of an accepted part, the
   /// specific producer's risk of a rejected one. None while undecided or without an interval.
@@ -113,7 +114,8 @@ struct RuleOutcome {
 /// The errors of the value are assumed to have the same distribution for every part of this kind:
 /// that of the statement, shifted. `y` is the corrected value, [lo, hi] its interval, U = (hi - lo)
 /// / 2, P the probability that the part conforms:
-///   simple acceptance  conforms where the measured value <= T
+///   simple acceptance  conforms where the measured value <= T; undecided where a stated interval
+///                      lies or reaches beyond T although the value was read within it
 ///   ISO 14253-1        y + f (hi - y) <= T conforms, y - f (y - lo) > T does not, else undecided
 ///   JCGM 106           P >= 1 - R_c conforms, P <= R_p does not, else undecided
 ///   N:1                only where T >= N (hi - lo): y <= T conforms, else does not
@@ -137,7 +139,7 @@ struct RuleOutcome {
 
 /// Global risks (JCGM 106, clause 9) of the outcome of apply_rule(), over the prior of the rule,
 /// where the errors of the compared value are distributed as in the statement for every part. None
-/// without a prior or a distribution.
+/// without a prior or a distribution, or under a rule that takes no uncertainty into account.
 [[nodiscard]] std::optional<GlobalRisks> global_risks(const DecisionRule& rule,
                                                       const KnownValue& value,
                                                       const RuleOutcome& outcome,

@@ -6,6 +6,9 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
@@ -182,7 +185,7 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
     return unseen_words(value.unseen_rad);
   }
   if (auto fault = nominal_fault(result)) return fault;
-  if (record.ending != "finished") return core::phrase("the run did not finish");
+  if (!result.complete) return core::phrase("the run did not finish");
   if (result.feature.strategy != record::Strategy::kPointsFile) {
     if (auto fault = probe_fault(record, probe)) return fault;
   }
@@ -196,6 +199,11 @@ struct Circumstances {
   const core::Result<DecisionRule>& rule;
   const std::optional<fit::ProbeTip>& probe;
 };
+
+/// The number of a value that a rule compares.
+Quoting quoting_under(const core::Result<DecisionRule>& rule) {
+  return {.as_read = rule && !rule->needs_interval()};
+}
 
 /// Against a mask, the harmonic nearest to its limit decides; that limit is the tolerance.
 /// Certificates play no part.
@@ -337,9 +345,10 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
     ValueOperator how(ReferenceTerm(finding->reference), FilterTerm(finding->filter),
                       SamplingTerm(sampling_words(result, out.characteristic)),
                       TipTerm(tip_words(result)), TemperatureTerm(temperature_words(result)));
-    Judged judged{StatedValue(
-        value.symbol, value.value_mm, std::move(how), found.interval.judged[i],
-        by.rule ? by.rule->measurand : Measurand::kSampledPoints, unit_of(out.characteristic))};
+    Judged judged{StatedValue(value.symbol, value.value_mm, std::move(how),
+                              found.interval.judged[i],
+                              by.rule ? by.rule->measurand : Measurand::kSampledPoints,
+                              unit_of(out.characteristic), quoting_under(by.rule))};
     if (asked.lower_mm && asked.tolerance_mm) {
       judged.tolerance_mm = *asked.tolerance_mm - *asked.lower_mm;
     }
@@ -353,6 +362,12 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   judge_together(by.rule, found.interval, *worst);
   out.value = std::move(worst->value);
   auto missing = reason_for_void(by.record, by.probe, result, {}, out.characteristic);
+  for (const DatumResult& datum : finding->datums) {
+    for (const std::size_t feature : datum.features) {
+      if (!missing && !is_complete(by.record, feature))
+        missing = core::phrase("the run did not finish");
+    }
+  }
   if (!missing) missing = finding->no_verdict;
   if (!missing && !finding->unique && by.rule && by.rule->needs_interval()) {
     missing = core::phrase(
@@ -366,6 +381,43 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   out.reason = std::move(worst->reason);
   out.outcome = std::move(worst->outcome);
   out.risks = worst->risks;
+}
+
+/// An interval that is narrower than the probing form that the run itself showed counts only what
+/// was declared: where no probing form is declared, no verdict rests on it.
+void hold_against_probe(const Circumstances& by, const FeatureResult& result,
+                        CharacteristicResult& out) {
+  const bool decided = out.verdict == Verdict::kConforms || out.verdict == Verdict::kDoesNotConform;
+  if (!decided || !by.rule || !by.rule->needs_interval() || !by.probe ||
+      result.feature.strategy == record::Strategy::kPointsFile) {
+    return;
+  }
+  const UncertaintyStatement* known = out.value->statement();
+  if (known == nullptr || covers_probing_form(out.value->uncertainty().result()->declaration)) {
+    return;
+  }
+  const double span_mm = by.probe->form_mm;
+  double half_mm = 0.5 * span_mm;
+  if (out.value->unit() == core::ValueUnit::kUrad) {  // in mrad, over the size of the surface
+    Eigen::AlignedBox3d box;
+    for (const CloudPoint& point : result.cloud) box.extend(point.tip_mm);
+    half_mm *= 1e3 / box.diagonal().norm();
+  }
+  if (known->expanded_mm() >= half_mm) return;
+  out.verdict = Verdict::kUndecided;
+  out.outcome.reset();
+  out.risks.reset();
+  // Rounded up, so that what is pasted is not below what was seen.
+  const double limit_um = std::ceil(100.0 * micrometres(span_mm)) / 100.0;
+  out.reason = core::phrase(
+      "the qualification of this run shows a probing form of {:.3f} um, the plan declares none, "
+      "and "
+      "the interval, U = {} {}, leaves no room for it: neither verdict is proven; declare {} in "
+      "place of repeatability_um, or the lobes of the probe",
+      micrometres(span_mm), core::um(known->expanded_mm()),
+      core::name_of(core::unit_of_difference(out.value->unit())),
+      core::as_it_is(
+          fmt::format(R"("uncertainty": {{"probe": {{"form_limit_um": {:g}}}}})", limit_um)));
 }
 
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
@@ -385,7 +437,8 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
                     value->range ? deciding_mm(*value->range, limit_mm) : value->value_mm,
                     operator_of(result, out.characteristic),
                     uncertainty_of(by.record, result, by.probe, out.characteristic),
-                    by.rule ? by.rule->measurand : Measurand::kSampledPoints);
+                    by.rule ? by.rule->measurand : Measurand::kSampledPoints, core::ValueUnit::kUm,
+                    quoting_under(by.rule));
   if (const auto missing =
           reason_for_void(by.record, by.probe, result, *value, out.characteristic)) {
     out.reason = *missing;
@@ -490,6 +543,7 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
     } else {
       judge(by, result, out);
     }
+    hold_against_probe(by, result, out);
     result.characteristics.push_back(std::move(out));
   }
 }

@@ -11,7 +11,6 @@
 #include "core/units.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/prediction/internal/expected_form.h"
-#include "record/tasks/uncertainty.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -213,6 +212,22 @@ Prediction rehearsed(const record::RunRecord& record, const TrialInspection& reh
 }
 
 }  // namespace
+
+std::vector<std::string> undeclared_influences(const record::UncertaintyTask& said,
+                                               const std::optional<double>& expansion_per_K,
+                                               bool repeated) {
+  record::RunRecord run;
+  run.settings = record::settings_of_uncertainty(said, expansion_per_K);
+  FeatureResult feature;
+  if (repeated) feature.repeat_sigma_mm = 0.0;
+  std::vector<std::string> out;
+  const auto declared = declared_for(run, feature, std::nullopt);
+  if (!declared) return out;
+  for (const InfluenceStatement& line : influence_statements(declared->influences)) {
+    if (!line.covered && line.text == core::phrase("not declared")) out.push_back(line.name);
+  }
+  return out;
+}
 
 core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
                                  const record::Characteristic& asked,

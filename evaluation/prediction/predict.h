@@ -8,6 +8,7 @@
 #include "core/result.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "record/run_record.h"
+#include "record/tasks/uncertainty.h"
 
 namespace rondure::evaluation {
 
@@ -24,6 +25,12 @@ struct PredictionOptions {
   std::uint64_t seed = 1;     ///< Same seed, same numbers, at any number of threads.
   int threads = 0;            ///< 0: as many as the processor has.
 };
+
+/// The names of the influences of a touched surface that a plan leaves undeclared.
+/// @param repeated  Points are touched more than once, which shows the repeatability of a touch.
+[[nodiscard]] std::vector<std::string> undeclared_influences(
+    const record::UncertaintyTask& said, const std::optional<double>& expansion_per_K,
+    bool repeated);
 
 /// The interval that a run would state, relative to the value that it would state.
 struct PredictedStatement {

@@ -150,6 +150,7 @@ struct FeatureResult {
   std::vector<Gate> gates;  ///< Of an analysis, and of the fixture: all that were checked.
   /// All values above are at 20 degC; none: as measured.
   std::optional<ThermalCorrection> thermal;
+  bool complete = true;  ///< All of it was measured; false: the run ended before that.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.

@@ -217,6 +217,12 @@ bool is_final(const record::RunRecord& record, const record::PoseVisit& visit) {
       });
 }
 
+bool is_complete(const record::RunRecord& record, std::size_t feature) {
+  const auto later = [&](const auto& data) { return data.feature > static_cast<int>(feature); };
+  return record.ending == "finished" || std::ranges::any_of(record.poses, later) ||
+         std::ranges::any_of(record.series, later);
+}
+
 std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                        const record::PoseVisit& visit, record::Strategy strategy) {
   const auto cloud = measured_cloud(touches_of(record, visit.id));

@@ -60,6 +60,10 @@ struct RepeatNoise {
 /// was repeated has two marked clouds: the later one counts. All merged poses count.
 [[nodiscard]] bool is_final(const record::RunRecord& record, const record::PoseVisit& visit);
 
+/// Whether all of a feature was measured: features are measured one after another, so that of an
+/// unfinished run those are complete after which another one was begun.
+[[nodiscard]] bool is_complete(const record::RunRecord& record, std::size_t feature);
+
 /// f of a pose from its own touches; none without touches.
 [[nodiscard]] std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                                      const record::PoseVisit& visit,

@@ -64,13 +64,28 @@ const UncertaintyStatement* UncertaintyStatus::about(Measurand measurand) const 
 }
 
 StatedValue::StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
-                         UncertaintyStatus uncertainty, Measurand measurand, core::ValueUnit unit)
+                         UncertaintyStatus uncertainty, Measurand measurand, core::ValueUnit unit,
+                         Quoting quoting)
     : symbol_(std::move(symbol)),
       value_mm_(value_mm),
       operator_(std::move(value_operator)),
       uncertainty_(std::move(uncertainty)),
       measurand_(measurand),
-      unit_(unit) {}
+      unit_(unit),
+      quoting_(quoting) {}
+
+double StatedValue::quoted_mm() const {
+  const UncertaintyStatement* known = statement();
+  if (known == nullptr || quoting_.as_read) return value_mm_;
+  if (quoting_.at_least) return known->low_mm;
+  return known->at_most ? known->high_mm : known->estimate_mm;
+}
+
+StatedValue::Bound StatedValue::bound() const {
+  if (quoting_.at_least) return Bound::kLower;
+  const UncertaintyStatement* known = statement();
+  return known != nullptr && known->at_most && !quoting_.as_read ? Bound::kUpper : Bound::kNone;
+}
 
 StatedValue StatedValue::moved_to(double value_mm) const {
   StatedValue out = *this;
@@ -90,11 +105,17 @@ std::string StatedValue::in_digits(double length_mm) const {
 
 core::Phrase StatedValue::value_text() const {
   const UncertaintyStatement* known = statement();
-  if (known == nullptr) return core::phrase("{} {}", in_digits(value_mm_), name_of(unit_));
-  if (known->at_most)
-    return core::phrase("at most {} {}", in_digits(known->high_mm), name_of(unit_));
-  return core::phrase("{} {} [{}, {}]", in_digits(known->estimate_mm), name_of(unit_),
-                      in_digits(known->low_mm), in_digits(known->high_mm));
+  const std::string quoted = in_digits(quoted_mm());
+  const auto unit = name_of(unit_);
+  if (bound() == Bound::kLower) return core::phrase("at least {} {}", quoted, unit);
+  if (bound() == Bound::kUpper) return core::phrase("at most {} {}", quoted, unit);
+  if (known == nullptr) return core::phrase("{} {}", quoted, unit);
+  const std::string low = in_digits(known->low_mm);
+  const std::string high = in_digits(known->high_mm);
+  if (!quoting_.as_read) return core::phrase("{} {} [{}, {}]", quoted, unit, low, high);
+  if (known->at_most) return core::phrase("{} {}, corrected at most {}", quoted, unit, high);
+  return core::phrase("{} {}, corrected {} [{}, {}]", quoted, unit, in_digits(known->estimate_mm),
+                      low, high);
 }
 
 core::Phrase StatedValue::operator_text() const {
@@ -108,20 +129,31 @@ core::Phrase StatedValue::operator_text() const {
 
 core::Phrase StatedValue::sentence() const {
   const UncertaintyStatement* known = statement();
-  if (known == nullptr) {
-    return core::phrase("{} = {} ({})", symbol_words(symbol_), value_text(), operator_text());
+  const core::Phrase symbol = symbol_words(symbol_);
+  if (known == nullptr || (quoting_.as_read && quoting_.at_least)) {
+    return bound() == Bound::kLower
+               ? core::phrase("{} is {} ({})", symbol, value_text(), operator_text())
+               : core::phrase("{} = {} ({})", symbol, value_text(), operator_text());
   }
-  if (known->at_most) {
-    return core::phrase("{} is at most {} {} ({:g} %); as read {} {} ({})", symbol_words(symbol_),
-                        in_digits(known->high_mm), name_of(unit_),
-                        100.0 * uncertainty_.coverage_1(), in_digits(value_mm_), name_of(unit_),
-                        operator_text());
+  const auto unit = name_of(unit_);
+  const double percent = 100.0 * uncertainty_.coverage_1();
+  const std::string read = in_digits(value_mm_);
+  const std::string low = in_digits(known->low_mm);
+  const std::string high = in_digits(known->high_mm);
+  if (quoting_.as_read && known->at_most) {
+    return core::phrase("{} = {} {} as read; corrected at most {} {} ({:g} %) ({})", symbol, read,
+                        unit, high, unit, percent, operator_text());
   }
-  return core::phrase("{} = {} {}, {:g} % [{}, {}]; as read {} {} ({})", symbol_words(symbol_),
-                      in_digits(known->estimate_mm), name_of(unit_),
-                      100.0 * uncertainty_.coverage_1(), in_digits(known->low_mm),
-                      in_digits(known->high_mm), in_digits(value_mm_), name_of(unit_),
-                      operator_text());
+  if (bound() != Bound::kNone) {
+    return core::phrase("{} is {} ({:g} %); as read {} {} ({})", symbol, value_text(), percent,
+                        read, unit, operator_text());
+  }
+  const std::string estimate = in_digits(known->estimate_mm);
+  return quoting_.as_read
+             ? core::phrase("{} = {} {} as read; corrected {} {}, {:g} % [{}, {}] ({})", symbol,
+                            read, unit, estimate, unit, percent, low, high, operator_text())
+             : core::phrase("{} = {} {}, {:g} % [{}, {}]; as read {} {} ({})", symbol, estimate,
+                            unit, percent, low, high, read, unit, operator_text());
 }
 
 }  // namespace rondure::evaluation

@@ -62,23 +62,32 @@ class UncertaintyStatus {
   double coverage_1_ = 0.0;
 };
 
+/// Which number of a value is the quoted one.
+struct Quoting {
+  /// The value as read, which a rule that takes no uncertainty into account compares; its interval
+  /// stands beside it. Else the estimate.
+  bool as_read = false;
+  bool at_least = false;  ///< The true value is not below: a bound, never inside an interval.
+};
+
 /// A value as every report writes it: always with its operator and the status of its uncertainty.
 /// Of an angle all numbers are in mrad, not mm (core::ValueUnit).
 class StatedValue {
  public:
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints,
-              core::ValueUnit unit = core::ValueUnit::kUm);
+              core::ValueUnit unit = core::ValueUnit::kUm, Quoting quoting = {});
 
   /// Value as read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
-  /// Quoted value: the estimate, which lies in the interval, or the upper bound where only that is
-  /// known; without an interval the value as read [mm].
-  [[nodiscard]] double quoted_mm() const {
-    const UncertaintyStatement* known = statement();
-    if (known == nullptr) return value_mm_;
-    return known->at_most ? known->high_mm : known->estimate_mm;
-  }
+  /// Quoted value, the one that is compared with a limit: the estimate, which lies in the interval;
+  /// of a bound the end of the interval; the value as read without an interval, or where the rule
+  /// judges it [mm].
+  [[nodiscard]] double quoted_mm() const;
+  enum class Bound { kNone, kLower, kUpper };
+  /// Whether the quoted value is only a bound of the true one.
+  [[nodiscard]] Bound bound() const;
+  [[nodiscard]] bool quoted_as_read() const { return quoting_.as_read; }
   /// Unit of the texts: mm for a size, urad for an angle, um for all else.
   [[nodiscard]] core::ValueUnit unit() const { return unit_; }
   /// A value in that unit, with as many decimals of a micrometre or microradian as the interval
@@ -95,13 +104,15 @@ class StatedValue {
     return uncertainty_.about(measurand_);
   }
 
-  /// "8.31 um [7.60, 9.40]": the estimate with its interval; "at most 3.21 um" where only that is
-  /// known; as read, "8.312 um", without an interval.
+  /// "8.31 um [7.60, 9.40]": the estimate with its interval; "at most 3.21 um", "at least 8.10 um"
+  /// where only that is known; as read, "8.312 um", without an interval; "8.35 um, corrected 8.31
+  /// [7.60, 9.40]" where the rule judges what was read.
   [[nodiscard]] core::Phrase value_text() const;
   /// "MZCY; unfiltered; ...; at the sampled points", with "no uncertainty stated" where it is so.
   [[nodiscard]] core::Phrase operator_text() const;
   /// "CYLt = 8.31 um, 95 % [7.60, 9.40]; as read 8.35 um (MZCY; unfiltered; ...; at the sampled
-  /// points)"; "RONt is at most 3.21 um (95 %); as read 4.35 um (...)".
+  /// points)"; "RONt is at most 3.21 um (95 %); as read 4.35 um (...)"; "CYLt = 8.35 um as read;
+  /// corrected 8.31 um, 95 % [7.60, 9.40] (...)".
   [[nodiscard]] core::Phrase sentence() const;
 
  private:
@@ -111,6 +122,7 @@ class StatedValue {
   UncertaintyStatus uncertainty_;
   Measurand measurand_;
   core::ValueUnit unit_;
+  Quoting quoting_;
 };
 
 }  // namespace rondure::evaluation

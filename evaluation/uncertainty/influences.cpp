@@ -1,5 +1,6 @@
 #include "evaluation/uncertainty/influences.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -96,9 +97,10 @@ class Declaration {
   }
 
   /// One of two ways to say the same: without a number it is not declared.
-  void limit(std::string name, bool given, const core::Phrase& text) {
+  void limit(std::string name, bool given, const core::Phrase& text,
+             const core::Phrase& missing = core::phrase("not declared")) {
     const bool covered = declared_ && given;
-    lines.push_back({std::move(name), covered, covered ? text : core::phrase("not declared")});
+    lines.push_back({std::move(name), covered, covered ? text : missing});
   }
 
   void never(std::string name, core::Phrase text) {
@@ -111,9 +113,11 @@ class Declaration {
   bool declared_ = false;
 };
 
-void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out) {
-  const ProbeInfluences probe = declared.value_or(ProbeInfluences{});
-  out.group(declared.has_value());
+void say_probe(const Influences& influences, Declaration& out) {
+  const ProbeInfluences probe = influences.probe.value_or(ProbeInfluences{});
+  out.group(influences.probe.has_value());
+  const bool limited = probe.form_limit_mm > 0.0;
+  const core::Phrase contained = core::phrase("contained in the probing form limit");
   const double sigma_um = kUm * probe.repeatability_mm;
   core::Phrase repeatability =
       core::phrase("standard deviation {:.4g} um of a touch, normal", sigma_um);
@@ -125,18 +129,24 @@ void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out)
                       ? core::phrase("{}; neighbours alike over {:.4g} mm", repeatability,
                                      probe.correlation_length_mm)
                       : core::phrase("{}; each touch anew", repeatability);
-  out.limit("probe-repeatability", probe.repeatability_known, repeatability);
+  out.limit("probe-repeatability", limited || probe.repeatability_known,
+            limited ? contained : repeatability);
   core::Phrase lobes;
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
     const core::Phrase one =
         core::phrase("{} lobes of amplitude {:.4g} um", lobe.order, kUm * lobe.amplitude_mm);
     lobes = lobes.empty() ? one : core::phrase("{}, {}", lobes, one);
   }
-  out.line("probe-lobing", core::phrase("{}, phase unknown, uniform",
-                                        lobes.empty() ? core::phrase("none") : lobes));
-  out.limit("probing-form-limit", probe.form_limit_mm > 0.0,
+  out.limit("probe-lobing", limited || !lobes.empty(),
+            limited ? contained : core::phrase("{}, phase unknown, uniform", lobes));
+  const auto& span_mm = influences.probing_span_mm;
+  out.limit("probing-form-limit", limited,
             core::phrase("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
-                         kUm * probe.form_limit_mm));
+                         kUm * probe.form_limit_mm),
+            span_mm ? core::phrase("not declared; the qualification of this run shows a probing "
+                                   "form of {:.3f} um",
+                                   kUm * *span_mm)
+                    : core::phrase("not declared"));
   out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; moves radii, no form",
                                              kUm * probe.tip_radius_mm));
   if (probe.reference_sphere_mm > 0.0) {
@@ -280,7 +290,7 @@ core::Result<void> check_influences(const Influences& influences) {
 
 std::vector<InfluenceStatement> influence_statements(const Influences& influences) {
   Declaration out;
-  say_probe(influences.probe, out);
+  say_probe(influences, out);
   say_machine(influences.machine, out);
   say_thermal(influences.thermal, out);
   say_fixture(influences.fixture, out);
@@ -295,6 +305,12 @@ std::vector<InfluenceStatement> influence_statements(const Influences& influence
   out.never("software",
             core::phrase("round-off; held by the certificates of the fits, not by this interval"));
   return std::move(out.lines);
+}
+
+bool covers_probing_form(const std::vector<InfluenceStatement>& declaration) {
+  return std::ranges::any_of(declaration, [](const InfluenceStatement& line) {
+    return line.covered && (line.name == "probe-lobing" || line.name == "probing-form-limit");
+  });
 }
 
 }  // namespace rondure::evaluation

@@ -99,6 +99,9 @@ struct Influences {
   std::optional<ThermalInfluences> thermal;
   std::optional<FixtureInfluences> fixture;
   std::optional<CalibrationInfluences> calibration;  ///< None: the run used none.
+  /// Probing form that the qualification of this run showed: a fact, which the declaration quotes
+  /// where no probing form is declared. None: nothing was touched.
+  std::optional<double> probing_span_mm = {};
 };
 
 /// One line of the declaration according to ISO/TS 15530-4: whether the simulation covers an
@@ -114,5 +117,9 @@ struct InfluenceStatement {
 
 /// Every influence of a form measurement, covered or not, in a fixed order.
 [[nodiscard]] std::vector<InfluenceStatement> influence_statements(const Influences& influences);
+
+/// Whether the declaration of an interval covers how the pre-travel changes with the direction:
+/// lobes, or a limit of the probing form.
+[[nodiscard]] bool covers_probing_form(const std::vector<InfluenceStatement>& declaration);
 
 }  // namespace rondure::evaluation

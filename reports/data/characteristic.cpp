@@ -152,7 +152,7 @@ Json characteristic_json(const record::Feature& feature,
                {"symbol", evaluation::symbol_of(asked)},
                {"reference", evaluation::reference_of(asked)},
                {"value_um", optional_um(result.value_mm())},
-               {"quoted_um", result.value && !is_at_most(*result.value)
+               {"quoted_um", result.value && !is_bound(*result.value)
                                  ? Json(in_um(result.value->quoted_mm()))
                                  : Json(nullptr)},
                {"tolerance_um", limit_um(found, asked.tolerance_mm)},

@@ -18,6 +18,7 @@
 #include "evaluation/results/finding.h"
 #include "reports/data/internal/limits.h"
 #include "reports/escaping.h"
+#include "reports/words/internal/gates.h"
 
 namespace rondure::reports {
 namespace {
@@ -72,15 +73,15 @@ std::string size_fields(const record::Characteristic& asked) {
          limit_field(core::ValueUnit::kMm, asked.tolerance_mm);
 }
 
-/// ",quoted,low,high": the estimate and its interval.
+/// ",quoted,low,high": the quoted value and the interval, of a bound its one end.
 std::string interval_fields(const evaluation::CharacteristicResult& result) {
   const evaluation::UncertaintyStatement* known =
       result.value ? result.value->statement() : nullptr;
-  // Of "at most 3.2 um" only the upper end is stated.
-  const bool both = known != nullptr && !known->at_most;
-  return "," + (both ? um_field(known->estimate_mm) : "") + "," +
-         (both ? um_field(known->low_mm) : "") + "," +
-         (known != nullptr ? um_field(known->high_mm) : "");
+  if (known == nullptr) return ",,,";
+  const bool at_least = result.value->bound() == evaluation::StatedValue::Bound::kLower;
+  return "," + (is_bound(*result.value) ? "" : um_field(result.value->quoted_mm())) + "," +
+         (known->at_most ? "" : um_field(known->low_mm)) + "," +
+         (at_least ? "" : um_field(known->high_mm));
 }
 
 /// ",value_urad,quoted_urad,low_urad,high_urad,lower_limit_urad,upper_limit_urad" of a run with

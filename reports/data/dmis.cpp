@@ -130,7 +130,7 @@ core::Result<ToleranceBlock> tolerance_block(const evaluation::CharacteristicRes
                        result.verdict == evaluation::Verdict::kDoesNotConform;
   if (word == nullptr || !decided || !result.value || !asked.toleranced()) return none("");
   ToleranceBlock block;
-  block.actual = fmt::format("{},{}", word, decimal(shown_mm(*result.value)));
+  block.actual = fmt::format("{},{}", word, decimal(result.value->quoted_mm()));
   if (evaluation::unit_of(asked) == core::ValueUnit::kMm) {
     if (!asked.lower_mm || !asked.tolerance_mm) return none("TOL/DIAM needs both limits; ");
     if (result.finding && result.finding->judged.size() > 1)

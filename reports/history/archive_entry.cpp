@@ -78,7 +78,7 @@ record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
   // The archive keeps values as they are held: lengths in mm, angles in mrad.
   if (evaluation::unit_of(asked) == core::ValueUnit::kUrad) out.unit = "mrad";
   // A bound is no value: it would enter control limits and capability as one.
-  if (found.value && !is_at_most(*found.value)) out.value = found.value->quoted_mm();
+  if (found.value && !is_bound(*found.value)) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;
   out.lower_limit = asked.lower_mm;
   out.verdict = name_of(found.verdict);

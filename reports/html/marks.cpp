@@ -87,16 +87,17 @@ std::string form_symbol(record::Form form) {
 
 namespace {
 
-/// The interval as a bar draws it: none where only its upper end is stated, which is the bar.
+/// The interval as a bar draws it: none where only one of its ends is stated.
 const evaluation::UncertaintyStatement* interval_of(const evaluation::StatedValue& value) {
-  return is_at_most(value) ? nullptr : value.statement();
+  const evaluation::UncertaintyStatement* known = value.statement();
+  return is_bound(value) || (known != nullptr && known->at_most) ? nullptr : known;
 }
 
 }  // namespace
 
 std::string tolerance_bar(const evaluation::CharacteristicResult& result, double tolerance_mm) {
   constexpr double kWidth = 150.0;
-  const double value_mm = shown_mm(*result.value);
+  const double value_mm = result.value->quoted_mm();
   const evaluation::UncertaintyStatement* known = interval_of(*result.value);
   // Where no rule decided, its limits are the tolerance itself.
   const auto& outcome = result.outcome;

@@ -37,9 +37,10 @@ std::string statements(const evaluation::DecisionRule& rule) {
   return html.empty() ? html : "<dl>" + html + "</dl>";
 }
 
-/// @param unit  Of the value; the uncertainty of a length is always in µm.
+/// @param unit      Of the value; the uncertainty of a length is always in µm.
+/// @param at_least  Only the lower end is known.
 std::string statement_entry(const std::string& name, const evaluation::UncertaintyStatement& s,
-                            core::ValueUnit unit, double coverage_1) {
+                            core::ValueUnit unit, double coverage_1, bool at_least) {
   const int decimals = evaluation::decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
   const auto value = [&](double mm) {
@@ -55,6 +56,15 @@ std::string statement_entry(const std::string& name, const evaluation::Uncertain
         with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
                   trf("upper end of the {:g} % interval; noise and influences make up too "
                       "much of the value for more. Numbers stable to {}",
+                      100.0 * coverage_1, with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
+        "lead");
+  }
+  if (at_least) {
+    return entry(
+        name,
+        with_note(fmt::format("≥ {} {}", value(s.low_mm), sign),
+                  trf("lower end of the {:g} % interval; the points may miss more of the "
+                      "value. Numbers stable to {}",
                       100.0 * coverage_1, with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
         "lead");
   }
@@ -137,6 +147,7 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
                                      in_sentence(result.value->sentence()), u.trials));
   html += R"(<dl class="keys">)";
   const core::ValueUnit unit = result.value->unit();
+  const bool at_least = result.value->bound() == evaluation::StatedValue::Bound::kLower;
   html += entry(tr("As read, not corrected"),
                 fmt::format("{} {}",
                             unit == core::ValueUnit::kMm ? result.value->in_digits(u.uncorrected_mm)
@@ -144,9 +155,10 @@ std::string value_part(const evaluation::CharacteristicResult& result, bool of_c
                             core::sign_of(unit)));
   html += statement_entry(
       of_cloud ? tr("At the sampled points, free of noise") : tr("Free of noise and influences"),
-      u.sampled, unit, status.coverage_1());
+      u.sampled, unit, status.coverage_1(), at_least);
   if (u.whole) {
-    html += statement_entry(tr("Of the whole surface"), *u.whole, unit, status.coverage_1());
+    html +=
+        statement_entry(tr("Of the whole surface"), *u.whole, unit, status.coverage_1(), at_least);
     html += entry(tr("Form spectrum of it"), in_sentence(u.spectrum_source), "wide-key");
   }
   html += of_cloud ? bias_entries(u) + finding_entry(u)

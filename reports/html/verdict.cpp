@@ -171,7 +171,7 @@ std::vector<evaluation::JudgedValue> judged_values(const evaluation::Characteris
   std::vector<evaluation::JudgedValue> judged;
   if (result.finding) judged = result.finding->judged;
   if (judged.empty()) judged = {{"", 0.0, {asked.lower_mm, asked.tolerance_mm}}};
-  if (judged.size() == 1) judged.front().value_mm = shown_mm(*result.value);
+  if (judged.size() == 1) judged.front().value_mm = result.value->quoted_mm();
   return judged;
 }
 
@@ -179,28 +179,38 @@ std::string bar_cell(const evaluation::CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
   if (!result.value || !result.characteristic.toleranced()) return "<td></td>";
   // A signed value below zero does not fit on a bar that begins there.
-  if (has_sides(result.characteristic) || shown_mm(*result.value) < 0.0)
+  if (has_sides(result.characteristic) || result.value->quoted_mm() < 0.0)
     return fmt::format("<td>{}</td>", limits_bar(result, judged_values(result)));
   if (!(*limit > 0.0)) return "<td></td>";
-  return fmt::format(R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
-                     trf("{} % of the limit", fixed(100.0 * shown_mm(*result.value) / *limit, 0)));
+  return fmt::format(
+      R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
+      trf("{} % of the limit", fixed(100.0 * result.value->quoted_mm() / *limit, 0)));
 }
 
-/// The deciding value; with an interval, the estimate, that interval and the value as read.
+/// The deciding value, the one bold number; the interval and the other values as notes.
 std::string value_cell(const evaluation::StatedValue& value) {
   std::string html =
-      fmt::format(R"(<span class="value">{}{}</span> {})", is_at_most(value) ? "≤ " : "",
-                  value.in_digits(shown_mm(value)), core::sign_of(value.unit()));
-  if (is_at_most(value)) {
-    return html + fmt::format(R"(<div class="note">{}</div><div class="note">{}</div>)",
-                              tr("upper bound only"),
-                              trf("as read {}", value.in_digits(value.value_mm())));
+      fmt::format(R"(<span class="value">{}{}</span> {})", bound_sign(value, "≤ ", "≥ "),
+                  value.in_digits(value.quoted_mm()), core::sign_of(value.unit()));
+  const auto add_note = [&](const std::string& text) {
+    html += fmt::format(R"(<div class="note">{}</div>)", text);
+  };
+  const evaluation::UncertaintyStatement* known = value.statement();
+  const std::string interval = known == nullptr
+                                   ? std::string()
+                                   : fmt::format("[{}, {}]", value.in_digits(known->low_mm),
+                                                 value.in_digits(known->high_mm));
+  if (is_bound(value)) {
+    add_note(std::string(bound_sign(value, tr("upper bound only"), tr("lower bound only"))));
+  } else if (value.quoted_as_read() && known != nullptr) {
+    add_note(known->at_most
+                 ? trf("as read; corrected ≤ {}", value.in_digits(known->high_mm))
+                 : trf("as read; corrected {} {}", value.in_digits(known->estimate_mm), interval));
+  } else if (known != nullptr) {
+    add_note(interval);
   }
-  if (const evaluation::UncertaintyStatement* known = value.statement()) {
-    html += fmt::format(R"(<div class="note">[{}, {}]</div><div class="note">{}</div>)",
-                        value.in_digits(known->low_mm), value.in_digits(known->high_mm),
-                        trf("as read {}", value.in_digits(value.value_mm())));
-  }
+  if (known != nullptr && !value.quoted_as_read())
+    add_note(trf("as read {}", value.in_digits(value.value_mm())));
   return html;
 }
 
@@ -210,10 +220,10 @@ std::string values_cell(const evaluation::CharacteristicResult& result) {
   if (!result.finding || result.finding->judged.size() < 2) return value_cell(stated);
   std::string html;
   for (const evaluation::JudgedValue& value : result.finding->judged) {
-    html += value.value_mm == stated.value_mm()
-                ? value_cell(stated)
-                : fmt::format(R"(<span class="value">{}</span> {})",
-                              stated.in_digits(value.value_mm), core::sign_of(stated.unit()));
+    html +=
+        value.value_mm == stated.value_mm()
+            ? value_cell(stated)
+            : fmt::format("{} {}", stated.in_digits(value.value_mm), core::sign_of(stated.unit()));
     html += fmt::format(R"(<div class="note">{}</div>)", escaped(tr(value.symbol)));
   }
   return html;
@@ -277,6 +287,17 @@ std::string row(const evaluation::FeatureResult& feature,
   if (result.outcome) words += risks_in_words(result);
   if (const std::string own = own_rule_in_words(asked); !own.empty())
     words += "<br/>" + trf("Decision rule of this line: {}", escaped(own));
+  if (result.value && result.value->uncertainty().result()) {
+    const evaluation::UncertaintyResult& found = *result.value->uncertainty().result();
+    for (const bool covered : {true, false}) {
+      const std::string names = influences_in_words(
+          found, covered, [](const std::string& name) { return worded(core::Phrase(name)); });
+      if (!names.empty()) {
+        words += "<br/>" + (covered ? trf("In the interval: {}", names)
+                                    : trf("Not in the interval: {}", names));
+      }
+    }
+  }
   if (result.value)
     words += "<br/>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
@@ -343,7 +364,8 @@ std::string verdict_section(const record::RunRecord& record,
   html += fmt::format(
       R"(<div class="verdict">{}<div><div class="word {}" role="heading" aria-level="2">{}</div><div class="why">{}</div>)"
       "</div></div>",
-      verdict_mark(verdict, 76), css_name(verdict), capitalised(tr(name_of(verdict))),
+      verdict_mark(verdict, 76), css_name(verdict),
+      incomplete_headline(record, evaluation).value_or(capitalised(tr(name_of(verdict)))),
       sentence(evaluation));
   if (record.header.simulated) {
     html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", tr("Simulated:"),

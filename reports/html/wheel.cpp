@@ -292,7 +292,8 @@ std::string runout_entry(const fit::WheelMeasurement& m) {
   }
   const std::string fim = um(m.runout->fim_mm) + " µm";
   if (const core::Phrase& bound = m.runout->bound_because; !bound.empty()) {
-    return entry(tr("Radial run-out"), with_note("≥ " + fim, in_sentence(bound)));
+    return entry(tr("Radial run-out"),
+                 with_note("≥ " + fim, trf("as read; {}", in_sentence(bound))));
   }
   return entry(
       tr("Radial run-out"),

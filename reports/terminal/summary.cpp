@@ -73,7 +73,7 @@ std::vector<SummaryLine> lines_of(const evaluation::WheelResult& facts) {
         {"run-out", bound.empty()
                         ? core::phrase("{} um; effective radius {:.6f} mm", um(m.runout->fim_mm),
                                        m.runout->effective_radius_mm)
-                        : core::phrase("at least {} um: {}", um(m.runout->fim_mm), bound)});
+                        : core::phrase("at least {} um as read: {}", um(m.runout->fim_mm), bound)});
   }
   if (m.runout) {
     if (core::Phrase stated = effective_radius_in_words(facts); !stated.empty())
@@ -171,7 +171,8 @@ std::string upper(std::string_view text) {
 void add_head(std::string& out, const record::RunRecord& record,
               const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
-  out += upper(tr(name_of(evaluation.verdict))) + "\n";
+  out += incomplete_headline(record, evaluation).value_or(upper(tr(name_of(evaluation.verdict)))) +
+         "\n";
   const auto rule = rule_sentence(evaluation);
   add_wrapped(out, tr("rule"), rule ? *rule : evaluation.rule.error().what);
   std::string part = header.part_id;
@@ -192,8 +193,10 @@ void add_head(std::string& out, const record::RunRecord& record,
   }
 }
 
-/// Bias of a value and the largest influence.
-void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
+/// Bias of a value, the largest influence, and what the interval contains and what it does not.
+/// @param said  Said of the feature so far: what several intervals contain is said once.
+void add_uncertainty(std::string& out, const evaluation::StatedValue& value,
+                     std::set<std::string>& said) {
   const evaluation::UncertaintyResult& u = *value.uncertainty().result();
   const std::string unit(name_of(value.unit()));
   const auto line = [&](const std::string& name, const evaluation::UncertaintyStatement& s) {
@@ -204,6 +207,12 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
       add_wrapped(out, name,
                   trf("at most {} {} {}; noise and influences make up too much of it for a value",
                       number(s.high_mm), unit, tr(name_of(s.measurand))));
+      return;
+    }
+    if (value.bound() == evaluation::StatedValue::Bound::kLower) {
+      add_wrapped(out, name,
+                  trf("at least {} {} {}; the points may miss more of it", number(s.low_mm), unit,
+                      tr(name_of(s.measurand))));
       return;
     }
     add_wrapped(out, name,
@@ -225,6 +234,12 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   }
   add_wrapped(out, "    " + tr("bias"), bias);
   for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
+  for (const bool covered : {true, false}) {
+    const std::string names =
+        influences_in_words(u, covered, [](const std::string& name) { return tr(name); });
+    const std::string head = "    " + (covered ? tr("in it") : tr("not in it"));
+    if (!names.empty() && said.insert(head + names).second) add_wrapped(out, head, names);
+  }
 }
 
 /// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm", of a value with a sign "-20 to 5
@@ -319,8 +334,8 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
                         std::set<std::string>& said) {
   const record::Characteristic& asked = result.characteristic;
   const std::string value = result.value
-                                ? fmt::format("{}{} {}", is_at_most(*result.value) ? "<= " : "",
-                                              result.value->in_digits(shown_mm(*result.value)),
+                                ? fmt::format("{}{} {}", bound_sign(*result.value, "<= ", ">= "),
+                                              result.value->in_digits(result.value->quoted_mm()),
                                               name_of(result.value->unit()))
                                 : tr("no value");
   std::string line = fmt::format(
@@ -342,7 +357,7 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
   if (const std::string own = own_rule_in_words(asked); !own.empty())
     add_wrapped(out, "    " + tr("rule"), own);
   if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
-  if (!simple && result.value) add_uncertainty(out, *result.value);
+  if (!simple && result.value) add_uncertainty(out, *result.value, said);
   if (result.finding && result.value) add_finding(out, *result.finding, *result.value, said);
 }
 

@@ -198,6 +198,15 @@ TEST(Examples, TheTruthOfARoundnessIsFilteredAsItsValue) {
   EXPECT_EQ(compared, 2) << "RONt and RONq";
 }
 
+TEST(Examples, ValidateNamesWhatIsNotDeclared) {
+  EXPECT_THAT(rondure({"validate", example("01_spool_simulated.json")}).out,
+              HasSubstr("uncertainty: not declared, so in no interval: probing-form-limit"));
+  EXPECT_THAT(rondure({"validate", example("16_four_analyses.json")}).out,
+              HasSubstr("feature wheel: not declared, so in no interval: expansion_per_K"));
+  EXPECT_THAT(rondure({"validate", example("15_shaft_drawing.json")}).out,
+              HasSubstr("uncertainty: not declared, no value has an interval"));
+}
+
 /// The call-outs of a report that do not conform, as "feature: characteristic".
 std::vector<std::string> failing(const json& report) {
   std::vector<std::string> out;

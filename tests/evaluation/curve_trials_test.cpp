@@ -26,6 +26,7 @@ namespace rondure::evaluation {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Kind = DecisionRule::Kind;
 
 constexpr double kMicron = core::kMicrometre;
@@ -672,15 +673,15 @@ TEST(UpperBound, ProvesNoLowerLimit) {
   }
 }
 
-TEST(UpperBound, SimpleAcceptanceComparesWhatWasRead) {
+TEST(UpperBound, SimpleAcceptanceComparesWhatWasReadWhereTheBoundDoesNotRefuteIt) {
   const KnownValue value = bound(0.0, 3.0 * kMicron, 2.0 * kMicron);
-  const Limits limit{.lower_mm = {}, .upper_mm = 2.5 * kMicron};
-  const auto outcome = apply_rule(DecisionRule(), value, limit);
-  ASSERT_TRUE(outcome);
-  EXPECT_EQ(outcome->verdict, Verdict::kConforms);
-  KnownValue estimated = value;
-  estimated.statement->at_most = false;
-  EXPECT_EQ(apply_rule(DecisionRule(), estimated, limit)->sentence, outcome->sentence);
+  const auto judged = [&](double limit_um) {
+    return apply_rule(DecisionRule(), value, {.lower_mm = {}, .upper_mm = limit_um * kMicron});
+  };
+  EXPECT_EQ(judged(3.5)->verdict, Verdict::kConforms);
+  EXPECT_EQ(judged(2.5)->verdict, Verdict::kUndecided);
+  EXPECT_THAT(judged(2.5)->sentence, HasSubstr("it is at most 3.00 um: neither is proven"));
+  EXPECT_EQ(judged(1.5)->verdict, Verdict::kDoesNotConform);
 }
 
 TEST(UpperBound, IsStatedAsOne) {
@@ -695,6 +696,32 @@ TEST(UpperBound, IsStatedAsOne) {
   EXPECT_THAT(stated.sentence().english(),
               HasSubstr("RONt is at most 3.2 um (95 %); as read 4.4 um (LSCI; "));
   EXPECT_EQ(stated.quoted_mm(), result.sampled.high_mm);
+}
+
+// The number that is compared is the one that is quoted.
+TEST(Quoted, IsTheValueAsReadWhereTheRuleJudgesThatAndABoundHasItsSign) {
+  UncertaintyResult result;
+  result.sampled = *bound(8.0 * kMicron, 9.0 * kMicron, 0.0).statement;
+  result.sampled.at_most = false;
+  const ValueOperator how(ReferenceTerm(core::phrase("LSCI")), FilterTerm({}), SamplingTerm({}),
+                          TipTerm({}), TemperatureTerm({}));
+  const auto stated = [&](Quoting quoting) {
+    return StatedValue("RONt", 9.2 * kMicron, how, UncertaintyStatus::stated(result, 0.95), {},
+                       core::ValueUnit::kUm, quoting);
+  };
+  const StatedValue read = stated({.as_read = true});
+  EXPECT_EQ(read.quoted_mm(), 9.2 * kMicron);
+  EXPECT_EQ(read.value_text().english(), "9.20 um, corrected 8.50 [8.00, 9.00]");
+  EXPECT_THAT(read.sentence().english(),
+              HasSubstr("RONt = 9.20 um as read; corrected 8.50 um, 95 % [8.00, 9.00] (LSCI; "));
+  const StatedValue least = stated({.at_least = true});
+  EXPECT_EQ(least.quoted_mm(), 8.0 * kMicron);
+  EXPECT_EQ(least.value_text().english(), "at least 8.00 um");
+  EXPECT_THAT(least.sentence().english(),
+              HasSubstr("RONt is at least 8.00 um (95 %); as read 9.20 um (LSCI; "));
+  const StatedValue read_least = stated({.as_read = true, .at_least = true});
+  EXPECT_EQ(read_least.value_text().english(), "at least 9.20 um");
+  EXPECT_THAT(read_least.sentence().english(), Not(HasSubstr("[")));
 }
 
 TEST(Capability, AnIntervalWiderThanTheLimitsAreApartLeavesTheValueUndecided) {
@@ -716,7 +743,7 @@ TEST(Capability, AnIntervalWiderThanTheLimitsAreApartLeavesTheValueUndecided) {
     EXPECT_EQ(beyond->verdict, Verdict::kDoesNotConform);
   }
   EXPECT_FALSE(apply_rule(lenient(Kind::kNToOne), value, near)) << "void, as ever";
-  EXPECT_EQ(apply_rule(DecisionRule(), value, near)->verdict, Verdict::kConforms);
+  EXPECT_EQ(apply_rule(DecisionRule(), value, near)->verdict, Verdict::kUndecided);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +33,7 @@ namespace {
 using core::printable;
 
 using record::RunRecord;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // A value cannot be made without its terms, nor with one in the place of another.
@@ -114,10 +116,91 @@ TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
     EXPECT_NEAR(result.value->uncertainty().result()->uncorrected_mm, result.value->value_mm(),
                 1e-6);
     ASSERT_TRUE(result.outcome);
-    EXPECT_EQ(*result.outcome->conformance_1, 1.0);
+    const bool simple = std::string_view(rule) == "simple-acceptance";
+    EXPECT_EQ(result.outcome->conformance_1, simple ? std::nullopt : std::optional(1.0));
+    EXPECT_EQ(result.value->quoted_mm(), simple ? result.value->value_mm() : known->estimate_mm);
+    EXPECT_EQ(result.outcome->compared_mm, result.value->quoted_mm());
     EXPECT_THAT(result.value->sentence(), HasSubstr("(MZCY; unfiltered; 4 x 7 points; r_tip 2.0000 "
                                                     "mm; 20.0 degC; at the sampled points)"));
   }
+}
+
+/// The touches of the sphere with three lobes; the probing form is then some 2.7 um.
+void add_lobes(RunRecord& run) {
+  const Eigen::Vector3d center(300.0, 0.0, 100.0);
+  for (record::Touch& touch : run.touches) {
+    if (touch.purpose != record::Touch::Purpose::kQualification) continue;
+    const Eigen::Vector3d out = touch.tip_mm - center;
+    touch.tip_mm += 1.4e-3 * std::cos(3.0 * std::atan2(out.y(), out.x())) * out.normalized();
+  }
+}
+
+// A repeatability of 0.05 um is declared, and the probe has shown 2.7 um of lobes on the sphere.
+TEST(Verdict, OfAnIntervalThatLeavesOutTheProbingFormIsUndecided) {
+  for (const double limit_mm : {20e-3, 3e-3}) {
+    RunRecord run = touched_run("iso-14253-1");
+    run.settings[5].number = 0.05;
+    run.features[0].characteristics[0].tolerance_mm = limit_mm;
+    const Verdict decided = limit_mm > 10e-3 ? Verdict::kConforms : Verdict::kDoesNotConform;
+    EXPECT_EQ(result_of(run).verdict, decided) << "no lobes, no doubt";
+    add_lobes(run);
+    const auto evaluation = evaluate(run);
+    ASSERT_TRUE(evaluation && evaluation->probe);
+    const CharacteristicResult& result = evaluation->features[0].characteristics[0];
+    EXPECT_EQ(result.verdict, Verdict::kUndecided);
+    EXPECT_FALSE(result.outcome);
+    const double seen_um = 1e3 * evaluation->probe->form_mm;
+    EXPECT_GT(seen_um, 2.0);
+    const std::string seen = fmt::format("shows a probing form of {:.3f} um", seen_um);
+    const std::string block =
+        fmt::format(R"("uncertainty": {{"probe": {{"form_limit_um": {:g}}}}})",
+                    std::ceil(100.0 * seen_um) / 100.0);
+    EXPECT_THAT(result.reason, AllOf(HasSubstr(seen), HasSubstr(block)));
+    const std::string summary = testing::one_line(write_summary(run, *evaluation));
+    EXPECT_THAT(summary,
+                AllOf(HasSubstr(block), HasSubstr("not in it probe-lobing, probing-form-limit")));
+    EXPECT_THAT(
+        write_html(run, *evaluation),
+        AllOf(
+            HasSubstr(fmt::format("shows a probing form of {:.3f} µm", seen_um)),
+            HasSubstr(fmt::format("form_limit_um&quot;: {:g}", std::ceil(100.0 * seen_um) / 100.0)),
+            HasSubstr("Not in the interval: <bdi>probe-lobing</bdi>, <bdi>probing-form-limit")));
+    // Pasted in place of the repeatability, the block is what was asked for.
+    run.settings[5] = {"uncertainty/probe/form_limit_um", std::ceil(100.0 * seen_um) / 100.0, ""};
+    EXPECT_EQ(result_of(run).verdict, decided);
+    run.settings[5] = {"uncertainty/probe/repeatability_um", 0.05, ""};
+    run.features[0].strategy = record::Strategy::kPointsFile;  // another probe touched those
+    EXPECT_EQ(result_of(run).verdict, decided);
+    run.features[0].strategy = record::Strategy::kGuided;
+    run.header.decision_rule = "simple-acceptance";
+    EXPECT_EQ(result_of(run).verdict, decided);
+  }
+}
+
+// One missed touch on the last feature.
+TEST(Verdict, OfARunThatDidNotFinishStandsForTheFeaturesThatAreComplete) {
+  RunRecord run = touched_run("iso-14253-1");
+  run.features.push_back(run.features[0]);
+  run.features[1].id = "last";
+  run.poses.push_back({1, 1, {}, {}, false, 0.0});
+  run.ending = "failed";
+  auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  EXPECT_EQ(evaluation->features[0].characteristics[0].verdict, Verdict::kConforms);
+  EXPECT_EQ(evaluation->features[1].characteristics[0].verdict, Verdict::kVoid);
+  EXPECT_EQ(evaluation->verdict, Verdict::kVoid);
+  EXPECT_THAT(write_summary(run, *evaluation),
+              ::testing::StartsWith("INCOMPLETE: 1 of 2 judged\n"));
+  EXPECT_THAT(write_html(run, *evaluation), HasSubstr(">INCOMPLETE: 1 of 2 judged<"));
+  run.features[0].characteristics[0].tolerance_mm = 3e-3;
+  evaluation = evaluate(run);
+  EXPECT_EQ(evaluation->verdict, Verdict::kDoesNotConform);
+  EXPECT_THAT(write_summary(run, *evaluation),
+              ::testing::StartsWith("INCOMPLETE: 1 of 2 judged, does not conform\n"));
+  // The repeats of its final cloud were not complete.
+  run.poses.pop_back();
+  EXPECT_EQ(evaluate(run)->features[0].characteristics[0].reason.english(),
+            "the run did not finish");
 }
 
 // What the points do not see can only add: a partial arc conforms to nothing.

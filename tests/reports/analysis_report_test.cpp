@@ -326,6 +326,25 @@ TEST(AnalysisInterval, AnUpperBoundIsNowhereAValue) {
   EXPECT_TRUE(archive_entry(value.record, value.evaluation, "").results.front().value);
 }
 
+// Of a wheel of few points: on the first page as on the second, and in every file.
+TEST(AnalysisInterval, ALowerBoundIsNowhereWithinTwoEnds) {
+  Case made = spindle_case(record::Form::kRunOut, "Run-out");
+  auto& value = made.evaluation.features.front().characteristics.front().value;
+  const StatedValue was = *value;
+  value.emplace("Run-out", 0.0031, was.value_operator(), was.uncertainty(),
+                Measurand::kSampledPoints, core::ValueUnit::kUm, Quoting{.at_least = true});
+  const auto asked = analysis_document(made)["features"][0]["characteristics"][0];
+  EXPECT_TRUE(asked["quoted_um"].is_null());
+  EXPECT_THAT(std::string(asked["stated"]), HasSubstr("Run-out is at least 0.1 um (95 %)"));
+  EXPECT_THAT(write_results_csv(made.record, made.evaluation), HasSubstr(",,0.1,\n"));
+  EXPECT_THAT(write_qif(made.record, made.evaluation),
+              HasSubstr("none: the value is the lower bound, 97.5 % lie above"));
+  EXPECT_THAT(analysis_summary(made), AllOf(HasSubstr(">= 0.1 um"), Not(HasSubstr("within ["))));
+  EXPECT_THAT(page_of(made),
+              AllOf(HasSubstr("<span class=\"value\">≥ 0.1</span>"), HasSubstr("lower bound only"),
+                    HasSubstr("as read 3.1"), Not(HasSubstr("[0.1"))));
+}
+
 TEST(AnalysisPage, DrawsNoFrameForWhatIso1101DoesNotKnow) {
   const std::vector<std::pair<record::Form, const char*>> plain = {
       {record::Form::kMotionSynchronous, "EM sync"},

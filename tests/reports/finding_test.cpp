@@ -271,7 +271,7 @@ TEST(FindingCompare, NamesWhatItLeavesOut) {
 TEST(FindingPage, StatesSizesInMillimetresWithBothLimits) {
   const std::string page = page_of(drawing_case());
   EXPECT_THAT(page, AllOf(HasSubstr(">≤ 50 mm<br/>≥ 49.984 mm<"), HasSubstr(">50.001200</span> mm"),
-                          HasSubstr(">49.993100</span> mm<div class=\"note\">d LP SN</div>"),
+                          HasSubstr(">49.993100 mm<div class=\"note\">d LP SN</div>"),
                           HasSubstr("<span>0</span><span>-0.016</span>"),
                           HasSubstr("<span class=\"modifier\">E</span>")));
 }

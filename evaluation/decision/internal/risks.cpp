@@ -48,7 +48,10 @@ std::optional<double> conformance(const UncertaintyStatement& known,
 
 std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownValue& value,
                                         const RuleOutcome& outcome, const Limits& limits) {
-  if (!rule.prior || !value.statement || value.statement->values_mm.empty()) return std::nullopt;
+  if (!rule.needs_interval() || !rule.prior || !value.statement ||
+      value.statement->values_mm.empty()) {
+    return std::nullopt;
+  }
   const Prior& prior = *rule.prior;
   const auto& values = value.statement->values_mm;
   const double count = static_cast<double>(values.size());

@@ -38,6 +38,7 @@ ProbeInfluences probe_influences(const record::ProbeInfluencesTask& said,
                                          : 0.0;
   out.reference_sphere_mm = said.reference_sphere_um.value_or(0.0) * core::kMicrometre;
   for (const record::LobeInfluenceTask& lobe : said.lobes) {
+    if (lobe.amplitude_um == 0.0) continue;  // declares nothing
     out.lobes.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre, 0.0});
   }
   return out;
@@ -202,6 +203,9 @@ std::optional<Declared> declared_for(const record::RunRecord& record, const Feat
     }
   }
   out.influences.calibration = calibration_influences(record, result);
+  if (probe && result.feature.strategy != record::Strategy::kPointsFile) {
+    out.influences.probing_span_mm = probe->form_mm;
+  }
   out.options = options_of(said);
   if (said.form_spectrum) out.spectrum = spectrum_of(*said.form_spectrum);
   return out;

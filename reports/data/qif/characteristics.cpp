@@ -345,10 +345,14 @@ std::string uncertainty_words(const record::Feature& feature,
   const auto number = [&](double value_mm) {
     return decimal(in_file_unit(result.characteristic, value_mm));
   };
-  if (known->at_most) {
-    return fmt::format("none: the value is the upper bound, {:g} % lie below {} {}",
+  if (is_bound(*result.value) || known->at_most) {
+    const bool lower = result.value->bound() == evaluation::StatedValue::Bound::kLower;
+    return fmt::format("none: {}{:g} % lie {} {} {}",
+                       bound_sign(*result.value, "the value is the upper bound, ",
+                                  "the value is the lower bound, "),
                        50.0 * (1.0 + result.value->uncertainty().coverage_1()),
-                       number(known->high_mm), unit);
+                       lower ? "above" : "below", number(lower ? known->low_mm : known->high_mm),
+                       unit);
   }
   return fmt::format("standard uncertainty in {} (k = 1), {}; {:g} % lie within {} and {} {}", unit,
                      name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
@@ -375,9 +379,10 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   if (has_reference(asked)) add_algorithm(node, asked.reference);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   if (!result.value || !std::isfinite(result.value->value_mm())) return;
-  pugi::xml_node value = add(node, "Value", decimal(in_file_unit(asked, shown_mm(*result.value))));
+  pugi::xml_node value =
+      add(node, "Value", decimal(in_file_unit(asked, result.value->quoted_mm())));
   const evaluation::UncertaintyStatement* known = result.value->statement();
-  if (known != nullptr && !known->at_most) {
+  if (known != nullptr && !known->at_most && !is_bound(*result.value)) {
     set(value, "combinedUncertainty", decimal(in_file_unit(asked, known->standard_uncertainty_mm)));
   }
   if (asked.reference != Reference::kMinimumZone) return;

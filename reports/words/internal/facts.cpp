@@ -115,6 +115,25 @@ core::Phrase sentence_of(const fit::Certificate& certificate) {
   return {};
 }
 
+std::optional<std::string> incomplete_headline(const record::RunRecord& record,
+                                               const evaluation::Evaluation& evaluation) {
+  using evaluation::Verdict;
+  std::size_t asked = 0;
+  std::size_t judged = 0;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+      if (!result.characteristic.toleranced()) continue;
+      ++asked;
+      if (result.verdict != Verdict::kVoid) ++judged;
+    }
+  }
+  if (record.ending == "finished" || judged == 0) return std::nullopt;
+  std::string out = trf("INCOMPLETE: {} of {} judged", judged, asked);
+  if (evaluation.verdict == Verdict::kDoesNotConform)
+    out += tr(", ") + tr(name_of(evaluation.verdict));
+  return out;
+}
+
 std::vector<std::string> missing_parts(const record::RunRecord& record,
                                        const evaluation::Evaluation& evaluation) {
   std::vector<std::string> parts;
@@ -143,6 +162,16 @@ std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluatio
 std::string own_rule_in_words(const record::Characteristic& asked) {
   const auto& own = asked.indication.decision_rule;
   return own ? sentence_of(evaluation::rule_of(*own)) : std::string();
+}
+
+std::string influences_in_words(const evaluation::UncertaintyResult& found, bool covered,
+                                std::string (*say)(const std::string& name)) {
+  std::string out;
+  for (const evaluation::InfluenceStatement& influence : found.declaration) {
+    if (influence.covered != covered) continue;
+    out += (out.empty() ? "" : tr(", ")) + say(influence.name);
+  }
+  return out;
 }
 
 std::vector<AbsentInterval> absent_intervals(const evaluation::FeatureResult& feature) {

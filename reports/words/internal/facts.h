@@ -23,6 +23,12 @@ namespace rondure::reports {
 /// The statement of a certificate, in one sentence.
 [[nodiscard]] core::Phrase sentence_of(const fit::Certificate& certificate);
 
+/// The headline of a run that did not finish, in place of its verdict: "INCOMPLETE: 9 of 10
+/// judged", and that it does not conform where that is proven. None of a finished run, and where
+/// nothing could be judged.
+[[nodiscard]] std::optional<std::string> incomplete_headline(
+    const record::RunRecord& record, const evaluation::Evaluation& evaluation);
+
 /// The missing parts of a run that did not finish, one sentence each.
 [[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,
                                                      const evaluation::Evaluation& evaluation);
@@ -38,6 +44,12 @@ namespace rondure::reports {
 
 /// The rule of a characteristic that has its own, in words; empty where that of the run holds.
 [[nodiscard]] std::string own_rule_in_words(const record::Characteristic& asked);
+
+/// The names of the influences that an interval contains, or of those that it does not.
+/// @param say  A name as terminal or page writes it.
+[[nodiscard]] std::string influences_in_words(const evaluation::UncertaintyResult& found,
+                                              bool covered,
+                                              std::string (*say)(const std::string& name));
 
 /// Why values of an analysis have no interval: each reason once.
 struct AbsentInterval {

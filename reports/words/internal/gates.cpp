@@ -55,12 +55,14 @@ std::string in_words(const std::vector<Gate>& gates) {
   return text;
 }
 
-bool is_at_most(const evaluation::StatedValue& value) {
-  return value.statement() != nullptr && value.statement()->at_most;
+bool is_bound(const evaluation::StatedValue& value) {
+  return value.bound() != evaluation::StatedValue::Bound::kNone;
 }
 
-double shown_mm(const evaluation::StatedValue& value) {
-  return is_at_most(value) ? value.statement()->high_mm : value.quoted_mm();
+std::string_view bound_sign(const evaluation::StatedValue& value, std::string_view at_most,
+                            std::string_view at_least) {
+  if (!is_bound(value)) return {};
+  return value.bound() == evaluation::StatedValue::Bound::kUpper ? at_most : at_least;
 }
 
 }  // namespace rondure::reports

@@ -20,9 +20,10 @@ namespace rondure::reports {
 /// language of the report.
 [[nodiscard]] std::string in_words(const std::vector<evaluation::Gate>& gates);
 
-/// Whether only the upper end of the interval of a value is stated.
-[[nodiscard]] bool is_at_most(const evaluation::StatedValue& value);
-/// The one number of a value: that upper end, where only it is stated, else the quoted value [mm].
-[[nodiscard]] double shown_mm(const evaluation::StatedValue& value);
+/// Whether only an upper or a lower bound of a value is stated.
+[[nodiscard]] bool is_bound(const evaluation::StatedValue& value);
+/// The sign of such a bound before the number; else empty.
+[[nodiscard]] std::string_view bound_sign(const evaluation::StatedValue& value,
+                                          std::string_view at_most, std::string_view at_least);
 
 }  // namespace rondure::reports
