@@ -317,7 +317,7 @@ TEST(Watch, TakesNoBodyInChunksAndNoEndlessHead) {
 
 TEST(Watch, EndsSoonThoughABrowserWasKilledOrNeverReads) {
   const TemporaryFolder folder;
-  WatchedRun run(run_words(folder, "1000"));
+  WatchedRun run(run_words(folder, "300"));
   EXPECT_FALSE(run.look_until("now", "Measuring").is_null());  // and never asks again
   const int silent = connect_to(run.port());
   const auto start = std::chrono::steady_clock::now();

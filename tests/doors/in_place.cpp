@@ -1,8 +1,9 @@
-// In place of plans/checks/internal/plan_reach.cpp, plans/analyses/contour_simulation.cpp and
-// web/page.cpp, which need half of the program and read nothing: they work with a plan that was
-// read and checked, and the page goes out.
+// In place of plans/checks/internal/plan_reach.cpp, plans/analyses/contour_simulation.cpp,
+// fit/profiles/roundness.cpp and web/page.cpp, which need half of the program and read nothing:
+// they work with a plan that was read and checked, and the page goes out.
 
 #include "core/decompositions.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "plans/analyses/internal/contour_kind.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "web/page.h"
@@ -18,6 +19,15 @@ template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::com
 }  // namespace Eigen
 
 namespace rondure {
+namespace fit {
+
+core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> /*angles_rad*/,
+                                                   std::span<const double> /*radii_mm*/,
+                                                   const RoundnessOptions& /*options*/) {
+  return RoundnessEvaluation();
+}
+
+}  // namespace fit
 namespace plans {
 
 core::Result<void> check_room(const Plan& /*plan*/) { return {}; }
