@@ -119,6 +119,26 @@ core::Result<ProbeHead> head_of(const SpindleTask& task, const RadiusOf& earlier
   return out;
 }
 
+/// SpindleResult::gain_within: a layout may have its pole between the ends.
+double gain_within(const std::vector<ProbeSource>& sources, const fit::ThreeProbeResult& found) {
+  constexpr int kSteps = 8;  // of a quarter of a standard uncertainty
+  const auto stated = found.layout.angles_rad();
+  double out = 0.0;
+  for (const ProbeSource& source : sources) {
+    const auto by = source.per_u.segment<3>(fit::kFirstAngle);
+    for (int step = -kSteps; step <= kSteps && !by.isZero(0.0); ++step) {
+      const double times = 0.25 * step;
+      const auto layout = fit::ProbeLayout::of(stated[1] - stated[0] + times * (by[1] - by[0]),
+                                               stated[2] - stated[1] + times * (by[2] - by[1]));
+      if (!layout) return HUGE_VAL;
+      for (const fit::RecoveredHarmonic& h : found.harmonics) {
+        if (h.recovered) out = std::max(out, layout->gain(h.order));
+      }
+    }
+  }
+  return out;
+}
+
 std::vector<std::vector<double>> turns_of(const fit::ThreeProbeResult& result,
                                           std::vector<double> fit::CentreMotion::*direction) {
   std::vector<std::vector<double>> out;
@@ -190,6 +210,8 @@ core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, in
   facts->wheel_radius = std::move(head->wheel_radius);
   const auto sources = probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(),
                                      facts->arm, head->layout, facts->wheel_radius);
+  facts->gain_within = gain_within(sources, facts->separation);
+  facts->greatest_gain = task->greatest_gain;
   facts->first_harmonic = fit::observe_first_harmonic(facts->separation, covariance_of(sources));
   for (Gate& gate : gates_of(*facts, readings, feature.characteristics)) {
     if (gate.outcome == Gate::Outcome::kVoids && voids_all(gate) && !facts->void_because) {

@@ -25,6 +25,12 @@ constexpr double kSurelySeen = 10.0;
 constexpr double kNormal999 = 3.0902;
 /// Share of the range of a probe that counts; beyond, it may be clipped or bent.
 constexpr double kUsableRange = 0.9;
+/// Of a tolerance, what undulations above the highest recovered may add.
+constexpr double kBeyondShare = 0.1;
+/// Standard uncertainties from which on an amplitude is no noise: in 50 one of 5000 times.
+constexpr double kStandsOut = 5.0;
+/// Times the rms, the peak to valley of many undulations at most.
+constexpr double kOfMany = 6.0;
 
 /// 0.999 quantile of chi square, by Wilson and Hilferty: within 1 % from two degrees of freedom on.
 double chi2_999(double freedom) {
@@ -81,6 +87,11 @@ Gate blind_gate(const SpindleResult& facts) {
   // Without declarations nothing vouches for the probes: no rule gives a verdict, nor does simple
   // acceptance.
   out.outcome = facts.declares_probes() ? Outcome::kWarns : Outcome::kVoids;
+  if (auto reason = blind_on_an_arm(facts)) {
+    out.outcome = Outcome::kVoids;
+    out.reason = *std::move(reason);
+    return out;
+  }
   out.reason =
       facts.declares_probes()
           ? phrase(
@@ -94,6 +105,26 @@ Gate blind_gate(const SpindleResult& facts) {
                 "none are declared: a wrong gain goes unnoticed; mount the part 5 to 20 um off "
                 "centre and declare gain_1 and angle_deg",
                 micrometres(facts.separation.eccentricity_mm));
+  return out;
+}
+
+/// Probes that a declared influence may bring nearly in line: no interval bounds what that does.
+Gate layout_gate(const SpindleResult& facts) {
+  Gate out{.code = "layout",
+           .condition = phrase("greatest noise gain within two standard uncertainties of an angle "
+                               "or the arm"),
+           .found = facts.gain_within,
+           .limit = facts.greatest_gain,
+           .unit = {},
+           .outcome = Outcome::kPassed,
+           .reason = {}};
+  if (*out.found <= *out.limit) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = phrase(
+      "within two standard uncertainties of what is declared, angles of probes or arm, the noise "
+      "gain of a harmonic reaches {:.3g}, the limit is {:g}: the probes come too close to one "
+      "line; know angles and arm better, or choose another layout",
+      facts.gain_within, facts.greatest_gain);
   return out;
 }
 
@@ -226,18 +257,18 @@ Gate suppressed_gate(const SpindleResult& facts) {
   return out;
 }
 
-/// The filter of the profile asks for more than is recovered.
-Gate band_gate(const SpindleResult& facts) {
+/// The filter of the profile passes more than is recovered.
+Gate band_gate(const SpindleResult& facts, const record::Characteristic& asked) {
+  const double lost_mm = passed_beyond_mm(facts, asked.form == Form::kRoundnessRms);
   Gate out{.code = "band",
-           .condition = phrase("highest harmonic recovered, at least the cut-off of the filter"),
-           .found = static_cast<double>(facts.separation.harmonics.back().order),
-           .limit = {},
-           .unit = {},
+           .condition = phrase("what the filter passes above the highest harmonic recovered, limit "
+                               "T/10"),
+           .found = micrometres(lost_mm),
+           .limit = micrometres(kBeyondShare * *asked.tolerance_mm),
+           .unit = "um",
            .outcome = Outcome::kPassed,
            .reason = {}};
-  const fit::FilterOptions& filter = facts.roundness.filter;
-  if (filter.filter != fit::ProfileFilter::kNone) out.limit = filter.cutoff_upr;
-  if (auto reason = beyond_the_band(facts)) {
+  if (auto reason = beyond_the_band(facts, asked)) {
     out.outcome = Outcome::kVoids;
     out.reason = *std::move(reason);
   }
@@ -459,16 +490,50 @@ bool any_limit(std::span<const record::Characteristic> characteristics,
 
 }  // namespace
 
-std::optional<core::Phrase> beyond_the_band(const SpindleResult& result) {
+double passed_beyond_mm(const SpindleResult& result, bool rms) {
+  const fit::FilterOptions& filter = result.roundness.filter;
+  const bool filters = filter.filter != fit::ProfileFilter::kNone;
+  double sum_mm = 0.0;
+  double power_mm2 = 0.0;
+  for (const fit::RecoveredHarmonic& h : result.separation.beyond) {
+    if (!h.recovered || h.amplitude_mm <= kStandsOut * h.sigma_mm) continue;
+    const double left = filters ? std::exp2(-std::pow(h.order / filter.cutoff_upr, 2.0)) : 1.0;
+    sum_mm += 2.0 * left * h.amplitude_mm;
+    power_mm2 += 0.5 * std::pow(left * h.amplitude_mm, 2.0);
+  }
+  const double rms_mm = std::sqrt(power_mm2);
+  return rms ? rms_mm : std::min(sum_mm, kOfMany * rms_mm);
+}
+
+std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
+                                            const record::Characteristic& asked) {
   const fit::FilterOptions& filter = result.roundness.filter;
   const int highest = result.separation.harmonics.back().order;
-  if (filter.filter == fit::ProfileFilter::kNone || filter.cutoff_upr <= highest) {
+  if (filter.filter != fit::ProfileFilter::kNone && filter.cutoff_upr > highest) {
+    return phrase(
+        "the filter of the profile passes up to {:g} UPR, harmonics are recovered up to {} only: "
+        "roundness may be greater; raise highest_order, or lower cutoff_upr",
+        filter.cutoff_upr, highest);
+  }
+  const double lost_mm = passed_beyond_mm(result, asked.form == Form::kRoundnessRms);
+  if (!asked.tolerance_mm || lost_mm <= kBeyondShare * *asked.tolerance_mm) return std::nullopt;
+  return phrase(
+      "the readings hold undulations above {}, of which the filter passes up to {:.3g} um, more "
+      "than a tenth of the tolerance of {:g} um: raise highest_order to {}",
+      highest, micrometres(lost_mm), micrometres(*asked.tolerance_mm), 2 * highest);
+}
+
+std::optional<core::Phrase> blind_on_an_arm(const SpindleResult& result) {
+  const bool knows_arm = result.wheel_radius || (result.influences && result.influences->arm_mm);
+  if (!result.declares_probes() || !result.arm.swings() || knows_arm ||
+      !result.first_harmonic->blind()) {
     return std::nullopt;
   }
   return phrase(
-      "the filter of the profile passes up to {:g} UPR, harmonics are recovered up to {} only: "
-      "roundness may be greater; raise highest_order, or lower cutoff_upr",
-      filter.cutoff_upr, highest);
+      "the eccentricity of {:.3g} um is too small to show an arm of another length, and none is "
+      "declared: the wear of the wheel turns the probes; declare arm_mm, take the radius from a "
+      "wheel, or mount the part 5 to 20 um off centre",
+      micrometres(result.separation.eccentricity_mm));
 }
 
 std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result) {
@@ -481,18 +546,16 @@ std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result) {
 std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings& readings,
                            std::span<const record::Characteristic> characteristics) {
   // The first that voids gives the reason: a bad reading is named before what it does to the rest.
-  std::vector<Gate> out = {disconnect_gate(readings),
-                           readings_gate(result),
-                           first_harmonic_gate(result),
-                           blind_gate(result),
-                           turns_gate(result),
-                           small_scatter_gate(result),
-                           weak_gate(result, characteristics),
+  std::vector<Gate> out = {disconnect_gate(readings),   readings_gate(result),
+                           first_harmonic_gate(result), blind_gate(result),
+                           layout_gate(result),         turns_gate(result),
+                           small_scatter_gate(result),  weak_gate(result, characteristics),
                            suppressed_gate(result)};
   if (result.probe_range_mm) out.push_back(range_gate(result));
   if (false_oval_mm(result)) out.push_back(quadratic_gate(result, characteristics));
-  if (any_limit(characteristics, {Form::kRoundness, Form::kRoundnessRms})) {
-    out.push_back(band_gate(result));
+  for (const record::Characteristic& asked : characteristics) {
+    const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
+    if (part && asked.tolerance_mm) out.push_back(band_gate(result, asked));
   }
   if (any_limit(characteristics, {Form::kMotionAsynchronous})) {
     out.push_back(few_turns_gate(result));
@@ -502,8 +565,9 @@ std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings
 }
 
 bool voids_all(const Gate& gate) {
-  return gate.code == "first-harmonic" || gate.code == "k1-blind" || gate.code == "turns" ||
-         gate.code == "disconnect" || gate.code == "readings" || gate.code == "range";
+  return gate.code == "first-harmonic" || gate.code == "k1-blind" || gate.code == "layout" ||
+         gate.code == "turns" || gate.code == "disconnect" || gate.code == "readings" ||
+         gate.code == "range";
 }
 
 }  // namespace rondure::evaluation

@@ -340,6 +340,9 @@ class SpindleTrials {
                slope.y_mm / (2.0 * step)};
       slopes_.emplace_back(i, std::move(slope));
     }
+    straight_ = std::ranges::all_of(sources_, [&](const ProbeSource& s) {
+      return straight_to(s, 2.0) && straight_to(s, -2.0);
+    });
   }
 
   [[nodiscard]] Values values() const { return {facts_, model_}; }
@@ -362,9 +365,7 @@ class SpindleTrials {
   /// Without any draw, a whole evaluation of readings that a source has moved by so many standard
   /// uncertainties.
   [[nodiscard]] State at(const ProbeSource& source, double times) const {
-    // What the first harmonic would say of it is taken out again.
-    const fit::ProbeErrors seen = source.per_u - first_.gain * (first_.sensitivity * source.per_u);
-    const fit::ProbeErrors q = first_.mean - times * seen;
+    const fit::ProbeErrors q = first_.mean - times * left_of(source);
     const fit::SpindleCurves curves = model_.at(q);
     State out{curves.profile_mm, curves.x_mm, curves.y_mm};
     if (contrasts_) out.turns_mm = revolutions(contrasts_->curve().found_mm);
@@ -373,6 +374,38 @@ class SpindleTrials {
   }
 
  private:
+  /// Errors for one standard uncertainty of a source, less what the first harmonic says of them.
+  [[nodiscard]] fit::ProbeErrors left_of(const ProbeSource& source) const {
+    return source.per_u - first_.gain * (first_.sensitivity * source.per_u);
+  }
+
+  /// Change of the curves by errors of the probes, along the slopes.
+  [[nodiscard]] fit::SpindleCurves along_slopes(const fit::ProbeErrors& by) const {
+    fit::SpindleCurves out = {Eigen::VectorXd::Zero(base_.profile_mm.size()),
+                              Eigen::VectorXd::Zero(base_.x_mm.size()),
+                              Eigen::VectorXd::Zero(base_.y_mm.size())};
+    for (const auto& [component, slope] : slopes_) {
+      out.profile_mm += by[component] * slope.profile_mm;
+      out.x_mm += by[component] * slope.x_mm;
+      out.y_mm += by[component] * slope.y_mm;
+    }
+    return out;
+  }
+
+  /// Whether the slopes give the change by a source within a tenth. Near a layout with probes in
+  /// line they do not, and every trial separates anew.
+  [[nodiscard]] bool straight_to(const ProbeSource& source, double times) const {
+    constexpr double kShare = 0.1;
+    const fit::ProbeErrors by = times * left_of(source);
+    const fit::SpindleCurves expected = along_slopes(by);
+    const fit::SpindleCurves rest =
+        sum_of(sum_of(model_.at(first_.mean + by), -1.0, base_), -1.0, expected);
+    const auto power = [](const fit::SpindleCurves& c) {
+      return c.profile_mm.squaredNorm() + c.x_mm.squaredNorm() + c.y_mm.squaredNorm();
+    };
+    return power(rest) <= kShare * kShare * power(expected) + kLeastNoise_mm * kLeastNoise_mm;
+  }
+
   /// Revolutions less their mean, over the work, from their contrasts.
   [[nodiscard]] std::array<Eigen::MatrixXd, 2> revolutions(
       const std::vector<double>& contrasts) const {
@@ -413,11 +446,11 @@ class SpindleTrials {
         Eigen::Map<const Eigen::VectorXd>(part.data(), static_cast<Eigen::Index>(part.size())),
         xy.first, xy.second};
     if (!contrasts.empty()) out.turns_mm = revolutions(contrasts);
-    for (const auto& [component, slope] : slopes_) {
-      out.profile_mm += by[component] * slope.profile_mm;
-      out.x_mm += by[component] * slope.x_mm;
-      out.y_mm += by[component] * slope.y_mm;
-    }
+    const fit::SpindleCurves change =
+        straight_ ? along_slopes(by) : sum_of(model_.at(first_.mean + by), -1.0, base_);
+    out.profile_mm += change.profile_mm;
+    out.x_mm += change.x_mm;
+    out.y_mm += change.y_mm;
     const fit::ProbeErrors all = first_.mean + by;
     out.gain = 1.0 - all.segment<3>(fit::kFirstGain).mean();
     return out;
@@ -436,6 +469,7 @@ class SpindleTrials {
   std::optional<Contrasts> contrasts_;
   std::optional<CurveDraws> turns_;
   std::vector<std::pair<int, fit::SpindleCurves>> slopes_;
+  bool straight_ = true;
 };
 
 double deviation_of(const std::vector<double>& values) {
@@ -493,6 +527,7 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
         phrase("gains and angles of the probes are not declared: declare gain_1 and angle_deg in "
                "`uncertainty` of the feature"));
   }
+  if (auto why = blind_on_an_arm(result)) return none(*why);
   if (result.no_interval_because) return none(*result.no_interval_because);
   if (result.wheel_radius && !result.wheel_radius->errors) {
     return none(no_radius_uncertainty(*result.wheel_radius));

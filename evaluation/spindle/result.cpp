@@ -76,7 +76,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   AnalysisValue out;
   out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
   out.void_because = loss_of(facts);
-  if (!out.void_because && asked.tolerance_mm) out.void_because = beyond_the_band(facts);
+  if (!out.void_because && asked.tolerance_mm) out.void_because = beyond_the_band(facts, asked);
   if (!out.void_because && asked.tolerance_mm) {
     for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
       if (!out.void_because && weak(h, *asked.tolerance_mm)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,10 @@ struct SpindleResult {
   /// By the declared errors of the probes; without gain and angle by usual ones, and then only its
   /// blindness counts.
   std::optional<fit::FirstHarmonic> first_harmonic = {};
+  /// Greatest noise gain of a recovered harmonic where a declared influence moves the angles of the
+  /// probes by up to two standard uncertainties, and its limit.
+  double gain_within = 0.0;
+  double greatest_gain = HUGE_VAL;
   std::optional<double> probe_range_mm = {};  ///< Whole range of a probe, where the plan states it.
   double greatest_reading_mm = 0.0;           ///< Largest distance of a reading from 0.
   /// Why the settings allow no interval: a regularised recovery, the printed formula.
@@ -61,8 +66,16 @@ constexpr int kLeastAsynchronousTurns = 8;
 /// Standard uncertainty of an amplitude up to which its limit is judged, in parts of the limit.
 constexpr double kWeakShare = 0.25;
 
-/// Why the filter of the profile asks for harmonics that are not recovered, or nothing.
-[[nodiscard]] std::optional<core::Phrase> beyond_the_band(const SpindleResult& result);
+/// What the filter of the profile passes of the readings above the highest harmonic recovered, of
+/// amplitudes that stand out of the noise: most of a peak to valley, or the rms [mm].
+[[nodiscard]] double passed_beyond_mm(const SpindleResult& result, bool rms);
+/// Why roundness misses harmonics that the filter of the profile passes, or nothing: the cut-off is
+/// above the highest recovered, or those above it hold more than a tenth of the tolerance.
+[[nodiscard]] std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
+                                                          const record::Characteristic& asked);
+/// Why nothing vouches for the arm of tracking probes: no eccentricity shows it and it is not
+/// declared; or nothing.
+[[nodiscard]] std::optional<core::Phrase> blind_on_an_arm(const SpindleResult& result);
 /// Why the readings do not show total motion, or nothing.
 [[nodiscard]] std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result);
 /// All gates of a spindle, passed or not.

@@ -74,6 +74,9 @@ struct ThreeProbeResult {
   std::vector<double> beta_rad = {};
   std::vector<RecoveredHarmonic> harmonics = {};  ///< 2..highest.
   std::vector<int> unrecovered = {};              ///< Harmonics above the greatest gain.
+  /// What the readings hold from there to twice the highest order, as far as the samples leave it
+  /// unchanged. It is not in the profile, although a filter may pass it.
+  std::vector<RecoveredHarmonic> beyond = {};
 
   std::vector<CentreMotion> motion =
       {};                         ///< One per revolution, without eccentricity and probe zeros.

@@ -98,6 +98,21 @@ struct Guard {
   }
 };
 
+/// The harmonics above the highest that a filter may still pass.
+std::vector<RecoveredHarmonic> beyond_of(const Spectrum& sum, const Guard& guard,
+                                         std::size_t count) {
+  std::vector<RecoveredHarmonic> out;
+  const int last = std::min(2 * guard.options.highest,
+                            static_cast<int>(last_untouched(count, guard.options.highest)));
+  for (int order = guard.options.highest + 1; order <= last; ++order) {
+    RecoveredHarmonic& harmonic = out.emplace_back(guard.look_at(order));
+    if (!harmonic.recovered) continue;
+    const Complex part = sum[static_cast<std::size_t>(order)] / guard.layout.transfer(order);
+    harmonic.amplitude_mm = 2.0 * std::abs(part) / static_cast<double>(count);
+  }
+  return out;
+}
+
 /// Computes the half spectrum of the part, and its harmonics as a table.
 Spectrum recover(const Spectrum& sum, const Guard& guard, std::size_t count, double start_rad,
                  ThreeProbeResult& result) {
@@ -285,6 +300,7 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
     return core::fail(refined.error());
   }
   judge_residual(sum, part, samples, result);
+  result.beyond = beyond_of(sum, guard, samples.count);
   result.mean_readings_mm = samples.mean_mm;
   result.drift_mm = drift_per_turn(samples);
   result.scatter_mm = scatter_by_order_mm(samples, layout, options.highest);

@@ -44,7 +44,8 @@ struct World {
   int turns = 1;
   int samples = 1024;
   std::uint64_t seed = 2;
-  bool specified = false;  ///< Noise as the specification draws it: turn, probe, sample.
+  std::vector<fit::Wave> chatter;  ///< Of the part, beside the profile of the worked cases.
+  bool specified = false;          ///< Noise as the specification draws it: turn, probe, sample.
 };
 
 double x_um(double a) {
@@ -63,7 +64,7 @@ double exact_um(const World& world, std::size_t i, double alpha) {
   const double along = y_um(alpha) * std::cos(direction) + x_um(alpha) * std::sin(direction);
   const double across = x_um(alpha) * std::cos(direction) - y_um(alpha) * std::sin(direction);
   const auto profile = [&](double theta) {
-    return fit::sum_of(part.profile, theta) +
+    return fit::sum_of(part.profile, theta) + fit::sum_of(world.chatter, theta) +
            world.eccentricity_um * std::cos(theta - 35.0 * kDegree);
   };
   const double radius_um = kArm.pin_radius_mm / kMicrometre;
@@ -459,7 +460,17 @@ TEST(SpindleGates, VoidWhereNothingWouldShowAWrongGainThatIsNotDeclared) {
   EXPECT_THAT(gate(undeclared, "k1-blind").reason.english(), HasSubstr("goes unnoticed"));
   for (const CharacteristicResult& one : undeclared.characteristics)
     EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
-  const FeatureResult known = result_of(run_of(world, probes(0.002, 0.02)));
+  // Nor does anything show an arm that is not declared.
+  const FeatureResult no_arm = result_of(run_of(world, probes(0.002, 0.02)));
+  EXPECT_EQ(gate(no_arm, "k1-blind").outcome, Gate::Outcome::kVoids);
+  EXPECT_THAT(gate(no_arm, "k1-blind").reason.english(), HasSubstr("declare arm_mm"));
+  for (const CharacteristicResult& one : no_arm.characteristics) {
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+    EXPECT_EQ(one.value->statement(), nullptr);
+  }
+  auto influences = probes(0.002, 0.02);
+  influences.arm_mm = declared_probe(0.005);
+  const FeatureResult known = result_of(run_of(world, influences));
   EXPECT_EQ(gate(known, "k1-blind").outcome, Gate::Outcome::kWarns);
   EXPECT_THAT(gate(known, "k1-blind").reason.english(), HasSubstr("certificates alone"));
 }
@@ -612,6 +623,87 @@ TEST(SpindleGates, DoNotJudgeRoundnessOfFewerHarmonicsThanItsFilterPasses) {
           << result.characteristics.at(c).reason;
     }
     EXPECT_NE(result.characteristics.at(2).verdict, Verdict::kVoid);
+  }
+}
+
+// Chatter of 60 and 66 UPR: a filter of 50 UPR passes 37 and 30 % of it.
+TEST(SpindleGates, DoNotJudgeRoundnessWithoutTheChatterThatItsFilterPasses) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  world.chatter = {{60, 1.2, 0.3}, {66, 1.0, -1.1}};
+  const auto left = [](double order) { return std::exp2(-std::pow(order / 50.0, 2.0)); };
+  const fit::SpindleCase part;
+  double low = 0.0;
+  double high = 0.0;
+  for (int n = 0; n < 20'000; ++n) {
+    const double theta = core::kTwoPi * n / 20'000.0;
+    double r = 0.0;
+    for (const auto& waves : {part.profile, world.chatter}) {
+      for (fit::Wave wave : waves) {
+        wave.amplitude_um *= left(wave.order);
+        r += fit::sum_of({wave}, theta);
+      }
+    }
+    low = std::min(low, r);
+    high = std::max(high, r);
+  }
+  const double truth_um = high - low;
+  auto run = run_of(world, probes(0.002, 0.02));
+  // Between what the orders up to 50 hold and what the filter passes.
+  run.features[0].characteristics = {asked("RONt", record::Form::kRoundness, truth_um - 0.4)};
+  const FeatureResult short_of = result_of(run);
+  EXPECT_EQ(gate(short_of, "band").outcome, Gate::Outcome::kVoids);
+  EXPECT_EQ(short_of.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(short_of.characteristics.at(0).reason.english(), HasSubstr("highest_order to 100"));
+  EXPECT_LT(*short_of.characteristics.at(0).value_mm() / kMicrometre, truth_um - 0.4);
+  EXPECT_NEAR(*gate(short_of, "band").found, 2.0 * (1.2 * left(60) + left(66)), 0.05);
+  auto task = record::task_of<record::SpindleTask>(run.features[0].settings);
+  ASSERT_TRUE(task);
+  task->highest_order = 100;
+  run.features[0].settings = record::settings_of_task(*task);
+  const FeatureResult whole = result_of(run);
+  EXPECT_EQ(gate(whole, "band").outcome, Gate::Outcome::kPassed);
+  EXPECT_NEAR(*whole.characteristics.at(0).value_mm() / kMicrometre, truth_um, 0.03);
+  EXPECT_EQ(whole.characteristics.at(0).verdict, Verdict::kDoesNotConform);
+}
+
+// Layout A comes to probes in line at an arm 0.19 mm longer: what an arm known to 0.15 mm does has
+// no bound. The readings are of an arm one standard uncertainty off.
+TEST(SpindleGates, VoidALayoutThatADeclaredArmBringsIntoLine) {
+  World world = readings_of_a_wrong_gain();
+  world.layout = fit::published_layout_a();
+  world.gain = {0.0, 0.0, 0.0};
+  const auto off_by = [&](double mm) {
+    const auto places = world.layout.angles_rad();
+    for (std::size_t i = 0; i < 3; ++i) {
+      world.angle_deg[i] = mm * std::sin(places[i]) / kArm.pin_radius_mm / kDegree;
+    }
+  };
+  const auto with_arm = [&](double u_mm) {
+    auto influences = probes(0.002, 0.02);
+    influences.noise_um = declared_probe(0.02);
+    influences.arm_mm = declared_probe(u_mm);
+    return result_of(run_of(world, influences));
+  };
+  off_by(-0.15);
+  const FeatureResult wide = with_arm(0.15);
+  EXPECT_EQ(gate(wide, "layout").outcome, Gate::Outcome::kVoids);
+  for (const CharacteristicResult& one : wide.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+  // Known to 0.05 mm the noise gain stays below its limit, and every trial separates anew: the
+  // slopes alone are off by a third.
+  const std::array<double, 3> truth_um = {12.3125, 2.6825, 2.9490};
+  for (const double mm : {-0.05, 0.05}) {
+    SCOPED_TRACE(mm);
+    off_by(mm);
+    const FeatureResult known = with_arm(0.05);
+    EXPECT_EQ(gate(known, "layout").outcome, Gate::Outcome::kPassed);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const CharacteristicResult& one = known.characteristics.at(c);
+      ASSERT_TRUE(one.value && one.value->statement() != nullptr) << one.reason;
+      EXPECT_LT(one.value->statement()->low_mm / kMicrometre, truth_um[c]) << c;
+      EXPECT_GT(one.value->statement()->high_mm / kMicrometre, truth_um[c]) << c;
+    }
   }
 }
 
@@ -791,6 +883,7 @@ TEST(SpindleInterval, CoversAnArmAndNamesWhatItDoesNot) {
   world.gain = {0.0, 0.0, 0.0};
   world.eccentricity_um = 0.0;
   auto influences = probes(0.002, 0.02);
+  influences.arm_mm = declared_probe(1e-4);  // of an arm that nobody declares nothing is known
   const auto width = [&] {
     const FeatureResult result = result_of(run_of(world, influences));
     const UncertaintyStatement* stated = result.characteristics.at(0).value->statement();
