@@ -50,22 +50,19 @@ std::string statement_entry(const std::string& name, const evaluation::Uncertain
   const auto with_small_sign = [&](const std::string& text) {
     return fmt::format("{} {}", text, core::sign_of(core::unit_of_difference(unit)));
   };
-  if (s.at_most) {
+  if (s.at_most || at_least) {
+    const std::string stable = with_small_sign(tiny_um(s.numerical_tolerance_mm));
     return entry(
         name,
-        with_note(fmt::format("≤ {} {}", value(s.high_mm), sign),
-                  trf("upper end of the {:g} % interval; noise and influences make up too "
-                      "much of the value for more. Numbers stable to {}",
-                      100.0 * coverage_1, with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
-        "lead");
-  }
-  if (at_least) {
-    return entry(
-        name,
-        with_note(fmt::format("≥ {} {}", value(s.low_mm), sign),
-                  trf("lower end of the {:g} % interval; the points may miss more of the "
-                      "value. Numbers stable to {}",
-                      100.0 * coverage_1, with_small_sign(tiny_um(s.numerical_tolerance_mm)))),
+        with_note(fmt::format("{} {} {}", s.at_most ? "≤" : "≥",
+                              value(s.at_most ? s.high_mm : s.low_mm), sign),
+                  s.at_most
+                      ? trf("upper end of the {:g} % interval; noise and influences make up too "
+                            "much of the value for more. Numbers stable to {}",
+                            100.0 * coverage_1, stable)
+                      : trf("lower end of the {:g} % interval; the points may miss more of the "
+                            "value. Numbers stable to {}",
+                            100.0 * coverage_1, stable)),
         "lead");
   }
   return entry(name,
