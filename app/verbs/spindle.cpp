@@ -126,6 +126,8 @@ std::string spindle_table(const evaluation::SpindleResult& result) {
       s.least_error_shown < 0.1
           ? fmt::format("shows a probe gain from {:.2g} % off, an angle from {:.2g} deg",
                         100.0 * s.least_error_shown, core::degrees(s.least_error_shown))
+      : s.turns_against_work()
+          ? std::string("blind to gains and angles")
           : std::string("blind to gains and angles: mount 5 to 20 um off centre"));
   for (const auto* warnings : {&s.warnings, &result.roundness.warnings}) {
     for (const core::Error& w : *warnings) out += fmt::format("  warning   {}\n", core::to_line(w));

@@ -144,8 +144,12 @@ core::Result<Associated> size_of_section(const PreparedSurface& surface,
   return circle;
 }
 
-/// GG, GX, GN, GC of the whole feature: of its cylinder, or of the circle of its one section.
+/// GG, GX, GN, GC of the whole feature: of its cylinder or sphere, or of the circle of its one
+/// section.
 core::Result<Associated> whole_size(const PreparedSurface& surface, Size size, Proof proof) {
+  if (surface.of->feature.shape == record::Shape::kSphere) {
+    return associated_sphere(surface.points_mm, reference_of_size(size));
+  }
   if (!is_circle(surface)) return associated_cylinder(surface, reference_of_size(size), proof);
   const auto sections = asked_sections(surface, {});
   if (!sections) return core::fail(sections.error());

@@ -83,7 +83,8 @@ Gate blind_gate(const SpindleResult& facts) {
            .outcome = Outcome::kPassed,
            .reason = {}};
   if (std::isfinite(first.u_lambda)) out.found = 3.0 * first.u_lambda;
-  if (!first.blind()) return out;
+  // An eccentricity that turns the wrong way is there: no advice to mount the part off centre.
+  if (!first.blind() || facts.separation.turns_against_work()) return out;
   // Without declarations nothing vouches for the probes: no rule gives a verdict, nor does simple
   // acceptance.
   out.outcome = facts.declares_probes() ? Outcome::kWarns : Outcome::kVoids;
@@ -215,11 +216,13 @@ Gate weak_gate(const SpindleResult& facts,
            .unit = {},
            .outcome = Outcome::kPassed,
            .reason = {}};
-  int order = 0;
+  const fit::RecoveredHarmonic* weakest = nullptr;
+  double its_limit_mm = 0.0;
   const auto look = [&](const fit::RecoveredHarmonic& h, double limit_mm) {
     if (!h.recovered || h.sigma_mm / limit_mm <= out.found.value_or(-1.0)) return;
     out.found = h.sigma_mm / limit_mm;
-    order = h.order;
+    weakest = &h;
+    its_limit_mm = limit_mm;
   };
   for (const record::Characteristic& asked : characteristics) {
     const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
@@ -233,9 +236,9 @@ Gate weak_gate(const SpindleResult& facts,
   if (!(out.found.value_or(0.0) > kWeakShare)) return out;
   out.outcome = Outcome::kVoids;
   out.reason = phrase(
-      "the standard uncertainty of harmonic {} is {:.2g} of its limit, at most a quarter is "
-      "judged: record more revolutions or choose a layout with less gain there",
-      order, *out.found);
+      "the standard uncertainty of harmonic {}, {:.2g} um, is more than a quarter of its limit of "
+      "{:g} um: record more revolutions or choose a layout with less gain there",
+      weakest->order, micrometres(weakest->sigma_mm), micrometres(its_limit_mm));
   return out;
 }
 

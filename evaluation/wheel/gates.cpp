@@ -17,6 +17,7 @@ using core::um;
 constexpr double kLossShare = 0.1;  ///< Of the tolerance; more makes a bound.
 /// Of the tolerance; what may move a radius by more voids it: form on an arc, temperature.
 constexpr double kFormShare = 0.25;
+constexpr double kUnknown_K = 5.0;            ///< From 20 degC, where no temperature is recorded.
 constexpr double kUsualExpansion_1_K = 8e-6;  ///< Of a vitrified wheel, where none is stated.
 
 using Outcome = Gate::Outcome;
@@ -55,10 +56,10 @@ Gate loss_gate(const WheelResult& facts, const record::Characteristic& asked) {
 }
 
 /// Size of the change of the radius from 20 degC to its temperature, by the stated expansion or a
-/// usual one.
+/// usual one; of a temperature that is not known, by what a shop may be off.
 double growth_mm(const WheelResult& facts) {
   return facts.evaluation.wheel.radius_mm * facts.expansion_1_K.value_or(kUsualExpansion_1_K) *
-         std::abs(facts.above_20_K.value_or(0.0));
+         std::abs(facts.above_20_K.value_or(kUnknown_K));
 }
 
 /// Quadruples, as fit decides on them: the first that does not pass gives its reason.
@@ -91,15 +92,22 @@ std::vector<Gate> quadruple_gates(const WheelResult& facts) {
 
 Gate correlation_gate(const fit::WheelMeasurement& m,
                       std::span<const record::Characteristic> characteristics) {
-  Gate out = gate("form-on-an-arc", core::phrase("correlation of neighbouring residuals"),
-                  m.correlation, fit::kCorrelationLimit);
   const double form_mm = m.form_in_radius_mm();
+  Gate out =
+      gate("form-on-an-arc", core::phrase("what lobes of orders 2 and 3 may move R by, limit T/4"),
+           core::micrometres(form_mm), std::nullopt, "um");
   if (form_mm == 0.0) return out;
   out.outcome = Outcome::kWarns;
-  out.reason = core::phrase("form may move R by {} um to each side", um(form_mm));
+  out.reason =
+      core::phrase("lobes of orders 2 and 3 may move R by {} um to each side", um(form_mm));
   for (const record::Characteristic& asked : characteristics) {
     if (asked.form != record::Form::kRadius) continue;
-    if (auto reason = form_moves_radius(m, radius_tolerance_mm(asked))) {
+    const auto tolerance_mm = radius_tolerance_mm(asked);
+    if (tolerance_mm) {
+      const double limit_um = core::micrometres(kFormShare * *tolerance_mm);
+      out.limit = std::min(out.limit.value_or(limit_um), limit_um);
+    }
+    if (auto reason = form_moves_radius(m, tolerance_mm)) {
       out.outcome = Outcome::kVoids;
       out.reason = *std::move(reason);
     }
@@ -114,7 +122,7 @@ Gate length_gate(const WheelResult& facts, const record::Characteristic& asked) 
                   corrected ? core::phrase("correction of the radius to 20 degC")
                             : core::phrase("change of the radius by its temperature, limit T/4"),
                   std::nullopt, std::nullopt, "um");
-  if (facts.above_20_K) out.found = core::micrometres(growth_mm(facts));
+  out.found = core::micrometres(growth_mm(facts));
   const auto tolerance_mm = radius_tolerance_mm(asked);
   if (!corrected && tolerance_mm) out.limit = core::micrometres(kFormShare * *tolerance_mm);
   if (auto reason = not_at_20_degC(facts, asked)) {
@@ -150,7 +158,9 @@ BetweenPoints between_points(const WheelResult& facts, record::Form form) {
   BetweenPoints out;
   out.gap_rad = fit::angular_order(facts.points_mm, center_mm).largest_gap_rad;
   if (!m.sees_whole_turn()) return out;
-  const auto amplitudes = fit::found_amplitudes(facts.points_mm, center_mm);
+  const double point_um = facts.declared ? record::u_of(facts.declared->point_um) : 0.0;
+  const auto amplitudes =
+      fit::found_amplitudes(facts.points_mm, center_mm, point_um * core::kMicrometre);
   out.held = static_cast<int>(amplitudes.size());
   // Points in four clusters hold the eccentricity, but no oval: what they miss has no bound.
   if (out.held >= kOrdersOfLobes) {
@@ -199,9 +209,9 @@ std::optional<core::Phrase> form_moves_radius(const fit::WheelMeasurement& wheel
   const double form_mm = wheel.form_in_radius_mm();
   if (!tolerance_mm || form_mm <= kFormShare * *tolerance_mm) return std::nullopt;
   return core::phrase(
-      "neighbouring residuals are alike (tau {:.2f}): form may move R by {} um to each side, more "
+      "the points see {:.0f} deg: lobes of orders 2 and 3 may move R by {} um to each side, more "
       "than a quarter of the tolerance of {} um; measure more of the circle",
-      wheel.correlation, um(form_mm), um(*tolerance_mm));
+      wheel.order.coverage_rad() / kDegree, um(form_mm), um(*tolerance_mm));
 }
 
 std::optional<core::Phrase> not_at_20_degC(const WheelResult& facts,
@@ -214,6 +224,13 @@ std::optional<core::Phrase> not_at_20_degC(const WheelResult& facts,
   }
   if (facts.expansion_1_K || !tolerance_mm || growth_mm(facts) <= kFormShare * *tolerance_mm) {
     return std::nullopt;
+  }
+  if (!facts.above_20_K) {
+    return core::phrase(
+        "the temperature of the wheel was not recorded: 5 K change its radius by some {} um, more "
+        "than a quarter of the tolerance of {} um: give the points a column temperature_degC, or "
+        "declare environment.assumed_degC",
+        um(growth_mm(facts)), um(*tolerance_mm));
   }
   return core::phrase(
       "the wheel was measured at {:.2f} degC, which changes its radius by some {} um, more than a "
@@ -231,8 +248,7 @@ std::vector<Gate> gates_of(const WheelResult& result,
     if (runout || asked.form == record::Form::kRoundness) out.push_back(loss_gate(result, asked));
   }
   for (const record::Characteristic& asked : characteristics) {
-    const bool judged = asked.form == record::Form::kRadius && asked.toleranced();
-    if (judged && (result.above_20_K || result.expansion_1_K)) {
+    if (asked.form == record::Form::kRadius && asked.toleranced()) {
       out.push_back(length_gate(result, asked));
     }
   }

@@ -407,27 +407,12 @@ std::vector<RadiusError> errors_of_radius(const WheelResult& result, const Edge&
   const Influences u = standard_of(said);
   return {{"edge-points", "wheel.radius",
            record::u_of(said.point_um) * kMicrometre * m.factors.radius, false},
+          {"wheel-lobes", "wheel.lobes", m.lobes_in_radius_mm, false},
           {"stage-scale", "stage.scale", u.scale_1 * m.radius_mm, is_flat(said.scale_ppm)},
           {"edge-threshold", "wheel.threshold", u.threshold_mm, is_flat(said.threshold_um)},
           {"wheel-wear", "wheel.wear", u.wear_mm, is_flat(said.wear_um)},
           {"stage-squareness", "stage.squareness", u.squareness_rad * edge.oval_in_radius_mm(),
            is_flat(said.squareness_urad)}};
-}
-
-/// Widens a statement by as much on either side: what form may move the value by has no
-/// distribution.
-/// @param least_mm  What the value is never below: 0 of an amount.
-void widen(double by_mm, double least_mm, UncertaintyResult& result) {
-  UncertaintyStatement& said = result.sampled;
-  const double middle = said.estimate_mm;
-  for (double& v : said.values_mm) v = std::max(least_mm, v + (v < middle ? -by_mm : by_mm));
-  said.low_mm = std::max(least_mm, said.low_mm - by_mm);
-  said.high_mm += by_mm;
-  said.standard_uncertainty_mm = std::hypot(said.standard_uncertainty_mm, by_mm);
-  result.notes.push_back(core::phrase(
-      "widened by {} um to each side: neighbouring residuals are alike, and form moves the radius "
-      "of an arc",
-      core::um(by_mm)));
 }
 
 /// The interval of R - R_nom with its sign, or of its amount: trials of the signed departure, then
@@ -461,17 +446,19 @@ UncertaintyStatus radius_interval(const WheelResult& result, const Edge& edge, b
   for (const RadiusError& error : errors) terms.push_back({std::string(error.name), error.u_mm});
   const Depends depends = {.axis = false, .scale = true, .squareness = true, .common = true};
   std::vector<InfluenceStatement> declaration = declaration_of(result, depends);
+  if (m.lobes_in_radius_mm > 0.0) {
+    declaration.push_back({"wheel-lobes", true,
+                           core::phrase("lobes of orders 2 and 3, {} um in R, from the residuals "
+                                        "of the arc",
+                                        core::um(m.lobes_in_radius_mm))});
+  }
   if (result.expansion_1_K) {
     declaration.push_back(statement_of("wheel-expansion", said.expansion_per_K, "1/K"));
     declaration.push_back(statement_of("wheel-temperature", said.temperature_K, "K"));
   }
-  auto found =
-      statement_of_trials(std::move(trials), std::move(terms), std::move(declaration), options);
-  const double least_mm = with_sign ? -HUGE_VAL : 0.0;
-  if (const double form_mm = m.form_in_radius_mm(); found && form_mm > 0.0) {
-    widen(form_mm, least_mm, *found);
-  }
-  return stated(std::move(found), options);
+  return stated(
+      statement_of_trials(std::move(trials), std::move(terms), std::move(declaration), options),
+      options);
 }
 
 /// Why there is no interval of anything.

@@ -5,20 +5,22 @@
 #include <cmath>
 
 #include "core/decompositions.h"
+#include "core/units.h"
 #include "fit/contour/error.h"
 #include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
 
-/// Least-squares fit of c + a cos + b sin to a series.
+/// Least-squares fit of c + a cos + b sin to a series, over the work angle.
 Eigen::Vector3d plot_centre(std::span<const double> alpha_rad, const std::vector<double>& values) {
+  const std::vector<double> shares = work_shares(alpha_rad);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (std::size_t n = 0; n < alpha_rad.size(); ++n) {
     const Eigen::Vector3d row(1.0, std::cos(alpha_rad[n]), std::sin(alpha_rad[n]));
-    normal += row * row.transpose();
-    right += row * values[n];
+    normal += shares[n] * row * row.transpose();
+    right += shares[n] * row * values[n];
   }
   return core::solve_ldlt(normal, right);
 }
@@ -34,6 +36,17 @@ double widest_spread(const std::vector<std::vector<double>>& turns) {
 }
 
 }  // namespace
+
+std::vector<double> work_shares(std::span<const double> alpha_rad) {
+  const std::size_t count = alpha_rad.size();
+  std::vector<double> out(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const double before = n > 0 ? alpha_rad[n - 1] : alpha_rad.back() - core::kTwoPi;
+    const double after = n + 1 < count ? alpha_rad[n + 1] : alpha_rad.front() + core::kTwoPi;
+    out[n] = (after - before) / (2.0 * core::kTwoPi);
+  }
+  return out;
+}
 
 AxisMotion axis_motion(std::span<const double> alpha_rad,
                        std::span<const std::vector<double>> turns_mm) {

@@ -17,9 +17,14 @@ struct AxisMotion {
   std::vector<std::vector<double>> turns_mm;  ///< Every revolution about that same centre.
 };
 
+/// The part of a turn of the work for which each sample of a turn stands; they add to 1. Samples
+/// that are uniform on a tracked part are not uniform over the work.
+/// @param alpha_rad  Work angle of each sample, increasing, N >= 3.
+[[nodiscard]] std::vector<double> work_shares(std::span<const double> alpha_rad);
+
 /// Computes the error motion values of ISO 230-7 from the polar plot of one direction. The centre
-/// of the plot is that of the least-squares circle of the mean revolution: a constant and one cycle
-/// per turn are not error motion.
+/// of the plot is that of the least-squares circle of the mean revolution over the work angle: a
+/// constant and one cycle per turn are not error motion.
 /// @param alpha_rad  Work angle of each sample of a revolution, N >= 4.
 /// @param turns_mm   The revolutions, N values each; at least one. O(N revolutions).
 /// Source: ISO 230-7:2015, 3.2 (error motion polar plot and values).

@@ -66,11 +66,8 @@ SeparationModel::SeparationModel(const ThreeProbeResult& result) : result_(resul
   places_rad_ = thinned(theta, rows);
   profile_waves_ = waves(places_rad_, highest).rightCols(2 * (highest - 1));
   turn_waves_ = waves(thinned(result.alpha_rad, rows), highest_motion_);
-  // A constant and one cycle a turn, by least squares over the samples, are not error motion.
-  const Eigen::MatrixXd centre = turn_waves_.leftCols(3);
-  const Eigen::MatrixXd rest = turn_waves_.rightCols(2 * (highest_motion_ - 1));
-  const Eigen::Matrix3d square = centre.transpose() * centre;
-  motion_waves_ = rest - centre * square.ldlt().solve(centre.transpose() * rest);
+  // A constant and one cycle a turn are not error motion; over the work the rest is free of them.
+  motion_waves_ = turn_waves_.rightCols(2 * (highest_motion_ - 1));
 }
 
 SpindleCurves SeparationModel::at(const ProbeErrors& q) const {

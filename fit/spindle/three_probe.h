@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -84,6 +85,9 @@ struct ThreeProbeResult {
   CentreMotion mean_motion_before = {};  ///< Mean before removal of eccentricity and zeros.
   double eccentricity_mm = 0.0;          ///< |c| of c e^{j alpha}; includes motion of that shape.
   double eccentricity_rad = 0.0;         ///< Its direction on the part: a cos + b sin, atan2(b, a).
+  /// Amplitude of what turns once a turn against the work. An eccentric part does so where the
+  /// probe angles are counted in the wrong sense.
+  double against_work_mm = 0.0;
 
   double noise_mm = 0.0;  ///< s: stated or estimated.
   /// Estimated from the scatter of the revolutions; for a single one, from the weighted sum above
@@ -113,6 +117,11 @@ struct ThreeProbeResult {
   /// in `warnings`. If there is any, part and motion must not be judged.
   std::vector<core::Error> contradictions = {};
   std::vector<core::Error> warnings = {};
+
+  /// Whether more than 1 um, and five times the eccentricity, turns against the work.
+  [[nodiscard]] bool turns_against_work() const {
+    return against_work_mm > std::max(1e-3, 5.0 * eccentricity_mm);
+  }
 };
 
 /// Separates the form of a part from the motion of its centre with three probes.
@@ -121,7 +130,8 @@ struct ThreeProbeResult {
 /// all revolutions, with a low pass for more than N readings per revolution. The revolutions are
 /// averaged, and H = H1 + k2 H2 + k3 H3 is divided by G(k), with the true angles, in the frequency
 /// domain. The motion follows from H_i(theta) - r(theta + Phi_i) by least squares over the three
-/// probes; the best fit of c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) is removed.
+/// probes; the best fit of c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) over the work
+/// angle is removed: over theta, to which the swing of a tracked pin adds, it would take motion.
 ///
 /// @return kRank (layout); the errors of check_swing_arm(); kSampling (lengths differ, too few
 ///         readings, highest above N/2 - 1, or no data to estimate the noise); kNotFinite (row);

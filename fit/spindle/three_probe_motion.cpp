@@ -6,18 +6,20 @@
 
 #include <Eigen/Dense>
 
-#include "core/units.h"
+#include "fit/spindle/axis_motion.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {
 namespace {
 
-/// e^{j alpha} and e^{-j beta} of every sample.
+/// e^{j alpha} and e^{-j beta} of every sample, and its share of a turn of the work.
 struct Turns {
   Spectrum work;
   Spectrum swing;
+  std::vector<double> shares;
 
-  Turns(std::span<const double> alpha_rad, std::span<const double> beta_rad) {
+  Turns(std::span<const double> alpha_rad, std::span<const double> beta_rad)
+      : shares(work_shares(alpha_rad)) {
     work.reserve(alpha_rad.size());
     swing.reserve(alpha_rad.size());
     for (std::size_t n = 0; n < alpha_rad.size(); ++n) {
@@ -40,23 +42,22 @@ Eigen::Matrix<double, 2, 3> as_published(const ProbeLayout& layout, double beta_
   return p;
 }
 
-/// Fits c e^{j alpha} + c0 e^{-j beta} to RY - j RX.
+/// Fits c e^{j alpha} + c0 e^{-j beta} to RY - j RX by least squares over the work angle, to which
+/// other motion, of whole cycles a turn of the work, contributes nothing.
 std::array<Complex, 2> eccentric_part(const CentreMotion& motion, const Turns& turns) {
   Complex cross;
   Complex first;
   Complex second;
-  const std::size_t n = turns.work.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Complex value(motion.y_mm[i], -motion.x_mm[i]);
-    cross += std::conj(turns.work[i]) * turns.swing[i];
+  for (std::size_t i = 0; i < turns.work.size(); ++i) {
+    const Complex value = turns.shares[i] * Complex(motion.y_mm[i], -motion.x_mm[i]);
+    cross += turns.shares[i] * std::conj(turns.work[i]) * turns.swing[i];
     first += std::conj(turns.work[i]) * value;
     second += std::conj(turns.swing[i]) * value;
   }
-  // Normal equations of two unit vectors: [n, cross; conj(cross), n].
-  const auto count = static_cast<double>(n);
-  const double determinant = count * count - std::norm(cross);
-  return {(count * first - cross * second) / determinant,
-          (count * second - std::conj(cross) * first) / determinant};
+  // Normal equations of two unit vectors: [1, cross; conj(cross), 1].
+  const double determinant = 1.0 - std::norm(cross);
+  return {(first - cross * second) / determinant,
+          (second - std::conj(cross) * first) / determinant};
 }
 
 void subtract(const std::array<Complex, 2>& part, const Turns& turns, CentreMotion& motion) {
@@ -142,26 +143,24 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
   // c = a - j b for a cos(theta) + b sin(theta) on the part.
   result.eccentricity_mm = std::abs(eccentric[0]);
   result.eccentricity_rad = -std::arg(eccentric[0]);
+  Complex against;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Complex value(result.mean_motion.y_mm[n], -result.mean_motion.x_mm[n]);
+    against += turned.shares[n] * turned.work[n] * value;
+  }
+  result.against_work_mm = std::abs(against);
 }
 
 CentreMotion motion_without_zeros(const ThreeProbeResult& result) {
   CentreMotion out = result.mean_motion_before;
-  const std::size_t count = out.x_mm.size();
-  const auto swing = [&](std::size_t n) { return std::polar(1.0, -result.beta_rad[n]); };
+  const Turns turns(result.alpha_rad, result.beta_rad);
   Complex sum;
-  Complex zeros;
-  for (std::size_t n = 0; n < count; ++n) {
-    const double before = n > 0 ? result.alpha_rad[n - 1] : result.alpha_rad.back() - core::kTwoPi;
-    const double after =
-        n + 1 < count ? result.alpha_rad[n + 1] : result.alpha_rad.front() + core::kTwoPi;
-    sum += (after - before) * Complex(out.y_mm[n], -out.x_mm[n]);
-    zeros += (after - before) * swing(n);
+  Complex swing;
+  for (std::size_t n = 0; n < turns.shares.size(); ++n) {
+    sum += turns.shares[n] * Complex(out.y_mm[n], -out.x_mm[n]);
+    swing += turns.shares[n] * turns.swing[n];
   }
-  for (std::size_t n = 0; n < count; ++n) {
-    const Complex zero = sum / zeros * swing(n);
-    out.y_mm[n] -= zero.real();
-    out.x_mm[n] += zero.imag();
-  }
+  subtract({Complex(), sum / swing}, turns, out);
   return out;
 }
 

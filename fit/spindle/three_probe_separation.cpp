@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -256,6 +257,33 @@ core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard
                   motion, part_radius_mm));
 }
 
+/// Names motion against the work, which is no eccentricity, and what the probes would say with
+/// their angles counted in the other sense: the weights, and so all checks of them, are the same.
+void judge_sense(const ProbeSamples& samples, const Guard& guard, ThreeProbeResult& result) {
+  if (!result.turns_against_work()) return;
+  const auto layout = ProbeLayout::of(-guard.layout.phi2_rad(), -guard.layout.phi3_rad());
+  assert(layout);
+  ThreeProbeResult other{.layout = *layout};
+  other.revolutions = result.revolutions;
+  other.alpha_rad = result.alpha_rad;
+  other.beta_rad = result.beta_rad;
+  const Guard turned{guard.options, *layout, guard.noise_mm, guard.values};
+  const Spectrum part =
+      recover(weighted_spectrum(samples, *layout), turned, samples.count, samples.start_rad, other);
+  separate_motion(samples, part, guard.options, other);
+  const auto um = [](double mm) { return fmt::format("{:.3g} um", core::micrometres(mm)); };
+  result.contradictions.push_back(
+      {Code::kInconsistent,
+       fmt::format("once a turn, {} turn against the work and {} with it, as an eccentricity does; "
+                   "with the probe angles counted in the other sense, {} and {}: {}",
+                   um(result.against_work_mm), um(result.eccentricity_mm),
+                   um(other.against_work_mm), um(other.eccentricity_mm),
+                   other.turns_against_work()
+                       ? "look at the order of the columns and at the angles of the probes"
+                       : "state the angles with the other sign")});
+  result.warnings.push_back(result.contradictions.back());
+}
+
 }  // namespace
 
 core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& readings,
@@ -307,6 +335,7 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   warn_of_loss(options, result);
   warn_of_sampling(samples, options, result);
   find_contradictions(readings, samples, arm, options, result);
+  judge_sense(samples, guard, result);
   return result;
 }
 

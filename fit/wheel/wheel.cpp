@@ -10,6 +10,7 @@
 
 #include "core/statistics.h"
 #include "fit/geometry/column_extremes.h"
+#include "fit/wheel/loss.h"
 
 namespace rondure::fit {
 namespace {
@@ -182,6 +183,12 @@ void fill_circle(const Points& used, const std::optional<WheelPointErrors>& erro
   out.spread_mm = std::sqrt(squares / (n - 3.0));
   out.factors = least_squares ? circle_factors(out.order.angles_rad) : quadruple_factors(used, out);
   out.correlation = correlation_time(residuals, out.order.closed());
+  // The circle that a wheel sweeps has no lobes, unless its points say so.
+  const bool lobed = out.mode == WheelMode::kIndexed || out.correlation > kCorrelationLimit;
+  if (lobed && !out.order.closed()) {
+    out.lobes_in_radius_mm = lobes_in_radius_mm(out.order.angles_rad, residuals,
+                                                errors ? errors->point_mm : out.spread_mm);
+  }
   if (errors) {
     // The spread holds the form of the wheel as well; a declared error of a point does not.
     out.center_uncertainty_mm = errors->point_mm * out.factors.center;
@@ -291,6 +298,12 @@ void warn(WheelMeasurement& out) {
     add(core::Code::kNoAxis,
         "roundness only: radial run-out and the effective radius need the spindle axis");
   }
+  constexpr double kSameAxis = 1e-4;  // mm; no spindle holds a wheel that well
+  if (out.runout && out.runout->eccentricity_mm < kSameAxis) {
+    add(core::Code::kNoAxis,
+        "the stated axis is the centre of these points within 0.1 um: run-out about it is their "
+        "roundness; state the axis of the spindle, not that of the wheel");
+  }
   if (out.correlation > kCorrelationLimit) {
     add(core::Code::kCorrelated,
         fmt::format("neighbouring residuals are alike (tau {:.2f}, white noise 1.0 to 1.1): form "
@@ -374,11 +387,6 @@ std::string_view name_of(WheelMean mean) {
 
 bool WheelMeasurement::sees_whole_turn() const {
   return order.largest_gap_rad <= kWidestGap * (1.0 + 1e-9);
-}
-
-double WheelMeasurement::form_in_radius_mm() const {
-  const bool form = correlation > kCorrelationLimit && !order.closed();
-  return form ? 0.5 * deviation_mm * factors.radius : 0.0;
 }
 
 std::optional<double> WheelMeasurement::effective_radius_mm() const {

@@ -92,6 +92,10 @@ struct WheelMeasurement {
   double center_uncertainty_mm = 0.0;
   /// u(R), standard: s_r factors.radius sqrt(tau), or of the declared errors.
   double radius_uncertainty_mm = 0.0;
+  /// Standard uncertainty of R by lobes of orders 2 and 3 of a wheel at rest, and where
+  /// neighbouring residuals are alike (tau > kCorrelationLimit); 0 of points that go round. Not in
+  /// u(R).
+  double lobes_in_radius_mm = 0.0;
   double spread_mm = 0.0;  ///< s_r, standard deviation of the distances, n - 3.
   /// PV of the distances of the points that count in S and R: the roundness about S, not run-out,
   /// unless points were dropped.
@@ -118,9 +122,8 @@ struct WheelMeasurement {
   /// Whether the points lie all round: no gap above kWidestGap. A wider gap leaves no run-out and
   /// no roundness; what a narrower one hides, loss_in_gap_mm() bounds.
   [[nodiscard]] bool sees_whole_turn() const;
-  /// What form may move R on an arc, to each side [mm]: PV a_R / 2 where neighbouring residuals are
-  /// alike (tau > kCorrelationLimit) on points that do not go round; else 0.
-  [[nodiscard]] double form_in_radius_mm() const;
+  /// What lobes may move R on an arc, to each side: two standard uncertainties [mm].
+  [[nodiscard]] double form_in_radius_mm() const { return 2.0 * lobes_in_radius_mm; }
   /// The radius that cuts: the farthest from the axis (kIndexed with an axis; none if that is only
   /// a bound), or R itself (kEnvelope).
   [[nodiscard]] std::optional<double> effective_radius_mm() const;

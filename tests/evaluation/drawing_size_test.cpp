@@ -10,6 +10,7 @@
 #include "evaluation/part/internal/families.h"
 #include "fit/profiles/profile_filter.h"
 #include "fit/references/one_sided_cylinder.h"
+#include "tests/evaluation/drawing_part.h"
 #include "tests/evaluation/drawing_surface.h"
 
 // Expected numbers: methods, drawing section 12; tolerances: section 13.
@@ -336,6 +337,24 @@ TEST(DrawingSize, OfAPerfectCircleTouchedBesideItsCentreIsItsDiameter) {
 }
 
 double round_12(int /*layer*/, double /*angle*/) { return 12.0; }
+
+/// Points all over a ball: the cylinder through them has a radius of its own.
+TEST(DrawingSize, OfABallIsThatOfItsSphere) {
+  constexpr int kPoints = 40;
+  constexpr double kGolden = 2.399963229728653;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = (2.0 * i + 1.0) / kPoints - 1.0;
+    const double r = std::sqrt(1.0 - z * z);
+    points.emplace_back(13.45 * r * std::cos(kGolden * i), 13.45 * r * std::sin(kGolden * i),
+                        13.45 * z);
+  }
+  test::DrawnPart part;
+  part.add("ball", record::Shape::kSphere, {points}).tip_radius_mm = 1.0;
+  for (const SizeKind size : {SizeKind::kGG, SizeKind::kGN, SizeKind::kGX, SizeKind::kGC}) {
+    EXPECT_NEAR(part.value(size_asked(size)), 24.9, kSizeDigits);
+  }
+}
 
 TEST(DrawingSize, OfOddLayersSaysToPlanAnEvenNumber) {
   const auto odd = drawn(test::turned_layers(2, 7, round_12), kShaft);

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -11,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/noise.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/wheel/result.h"
@@ -89,6 +93,27 @@ FeatureResult evaluated_wheel(const test::SpecifiedWheel& wheel, const WheelTask
   return evaluated_wheel(run_of(wheel.points_mm, task, {asked(form, tolerance_um)}, rule));
 }
 
+struct LobedArc {
+  test::Points2 points_mm;
+  double radius_mm = 0.0;
+};
+
+/// 24 points on an arc of a wheel with lobes of 1.2 um (2) and 0.8 um (3), all places random.
+LobedArc lobed_arc(std::uint64_t seed, double arc_deg, double point_mm) {
+  core::KeyedNoise noise(seed, {140});
+  const double first = core::kTwoPi * noise.uniform();
+  const double two = core::kTwoPi * noise.uniform();
+  const double three = core::kTwoPi * noise.uniform();
+  LobedArc out{{}, test::SpecifiedWheel::kRadius_mm};
+  for (int i = 0; i < 24; ++i) {
+    const double a = first + arc_deg * core::kDegree * i / 23.0;
+    const double r = out.radius_mm + 1.2e-3 * std::cos(2.0 * a - two) +
+                     0.8e-3 * std::cos(3.0 * a - three) + point_mm * noise.normal();
+    out.points_mm.emplace_back(12.0 + r * std::cos(a), -7.0 + r * std::sin(a));
+  }
+  return out;
+}
+
 const UncertaintyStatement& statement(const CharacteristicResult& result) {
   static const UncertaintyStatement kNone;
   EXPECT_TRUE(result.value && result.value->statement() != nullptr) << result.reason;
@@ -141,10 +166,11 @@ TEST(WheelInterval, W1SixteenPointsAllRound) {
     // The truth at the points.
     EXPECT_LT(said.low_mm * 1e3, 11.557);
     EXPECT_GT(said.high_mm * 1e3, 11.557);
-    // The bound of the body is 0.645 um; the amplitudes found hold the noise up to order 7 as well.
+    // The bound of the body is 0.645 um; of the noise of seven orders a quarter is left.
     const Gate* loss = wheel_gate(feature, "loss-between-points");
     ASSERT_NE(loss, nullptr);
-    EXPECT_NEAR(loss->found.value(), 1.412, 1e-3);
+    EXPECT_GT(loss->found.value(), 0.645);
+    EXPECT_LT(loss->found.value(), 1.1);
     EXPECT_NEAR(loss->limit.value(), 2.0, 1e-12);
     EXPECT_EQ(loss->outcome, Gate::Outcome::kPassed);
   }
@@ -156,8 +182,9 @@ TEST(WheelInterval, W1TheRuleOfTheIntervalAcceptsLessThanTheValueAsMeasured) {
   const auto verdict = [&](record::Form form, double tolerance_um, std::string_view rule) {
     return evaluated_wheel(wheel, task, form, tolerance_um, rule).characteristics.at(0).verdict;
   };
-  // Between 16 points 1.41 um may be missing, more than a tenth of 12 um.
-  EXPECT_EQ(verdict(record::Form::kRunOut, 12.0, kSimple), Verdict::kVoid);
+  // 11.335 um as read, at most 13.25.
+  EXPECT_EQ(verdict(record::Form::kRunOut, 12.0, kSimple), Verdict::kUndecided);
+  EXPECT_EQ(verdict(record::Form::kRunOut, 12.0, kIso), Verdict::kUndecided);
   const auto dense = test::specified_wheel(1, test::even_degrees(64, 0.0, 5.625));
   const auto of_dense = [&](double tolerance_um, std::string_view rule) {
     return evaluated_wheel(dense, task_of(dense), record::Form::kRunOut, tolerance_um, rule)
@@ -205,7 +232,7 @@ TEST(WheelInterval, W1TheSignOfTheDepartureCounts) {
   }
   EXPECT_EQ(judged(-17.0, 17.0, kSimple).verdict, Verdict::kUndecided);
   EXPECT_EQ(judged(-17.0, 17.0, kIso).verdict, Verdict::kUndecided);
-  EXPECT_EQ(judged(-30.0, -16.8, kIso).verdict, Verdict::kUndecided);
+  EXPECT_EQ(judged(-50.0, -16.8, kIso).verdict, Verdict::kUndecided);
 }
 
 TEST(WheelInterval, W1RadiusWithWhatIsDeclaredOfIt) {
@@ -228,22 +255,6 @@ TEST(WheelInterval, W1RadiusWithWhatIsDeclaredOfIt) {
   EXPECT_NEAR(u_um(), std::hypot(0.1, 1.5 / std::sqrt(3.0)), 0.05);
 }
 
-// Both signs of the departure count: a wheel of nominal radius is held to +-T.
-TEST(WheelInterval, ADepartureIsHeldToBothSides) {
-  const auto wheel = test::specified_wheel(1, kAllRound);
-  WheelTask task = task_of(wheel);
-  task.nominal_radius_mm = 49.983123;
-  task.uncertainty->threshold_um = DeclaredInfluence{1.0};
-  const auto verdict = [&](double tolerance_um) {
-    return evaluated_wheel(wheel, task, record::Form::kRadius, tolerance_um, kIso)
-        .characteristics.at(0)
-        .verdict;
-  };
-  // 1.96 u is 1.97 um on each side; the trials folded at 0 end at 2.25 um.
-  EXPECT_EQ(verdict(1.9), Verdict::kUndecided);
-  EXPECT_EQ(verdict(2.5), Verdict::kConforms);
-}
-
 /// A run whose points carry a temperature.
 record::RunRecord at_degC(record::RunRecord run, double degC) {
   record::Series& data = run.series.at(0);
@@ -254,6 +265,22 @@ record::RunRecord at_degC(record::RunRecord run, double degC) {
   data.columns.push_back({"temperature_degC", "degC"});
   data.values = std::move(values);
   return run;
+}
+
+// Both signs of the departure count: a wheel of nominal radius is held to +-T.
+TEST(WheelInterval, ADepartureIsHeldToBothSides) {
+  const auto wheel = test::specified_wheel(1, kAllRound);
+  WheelTask task = task_of(wheel);
+  task.nominal_radius_mm = 49.983123;
+  task.uncertainty->threshold_um = DeclaredInfluence{1.0};
+  const auto verdict = [&](double tolerance_um) {
+    const auto run =
+        run_of(wheel.points_mm, task, {asked(record::Form::kRadius, tolerance_um)}, kIso);
+    return evaluated_wheel(at_degC(run, 20.0)).characteristics.at(0).verdict;
+  };
+  // 1.96 u is 1.97 um on each side; the trials folded at 0 end at 2.25 um.
+  EXPECT_EQ(verdict(1.9), Verdict::kUndecided);
+  EXPECT_EQ(verdict(2.5), Verdict::kConforms);
 }
 
 // R 49.983123 mm at 30 degC is 4.0 um less at 20 degC with 8e-6/K: R / (1 + 8e-5). A nominal radius
@@ -291,6 +318,24 @@ TEST(WheelInterval, ARadiusIsJudgedAt20DegC) {
 
 // u: R dT u_alpha = 49.983 mm x 10 K x 1e-6/K = 0.50 um, R alpha u_T = 49.983 mm x 8e-6/K x 1 K =
 // 0.40 um, and 0.10 um of the points.
+// 5 K are 2 um of a radius of 50 mm. Without a temperature nothing says that they were not there.
+TEST(WheelInterval, ARadiusWithoutTemperatureIsJudgedOnlyWhereItMattersLittle) {
+  const auto wheel = test::specified_wheel(1, kAllRound);
+  WheelTask task = task_of(wheel);
+  task.nominal_radius_mm = 49.983;
+  for (const std::string_view rule : {kSimple, kIso}) {
+    SCOPED_TRACE(rule);
+    const auto narrow = evaluated_wheel(wheel, task, record::Form::kRadius, 7.9, rule);
+    EXPECT_EQ(narrow.characteristics.at(0).verdict, Verdict::kVoid);
+    EXPECT_THAT(narrow.characteristics.at(0).reason.english(), HasSubstr("was not recorded"));
+    EXPECT_NEAR(wheel_gate(narrow, "length-scale")->found.value(), 2.0, 0.01);
+    EXPECT_EQ(evaluated_wheel(wheel, task, record::Form::kRadius, 8.1, rule)
+                  .characteristics.at(0)
+                  .verdict,
+              Verdict::kConforms);
+  }
+}
+
 TEST(WheelInterval, TheCorrectionTo20DegCHasAnUncertainty) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   WheelTask task = task_of(wheel);
@@ -420,12 +465,8 @@ TEST(WheelInterval, LossBetweenPointsMakesABound) {
   const auto whole = test::specified_wheel(1, kAllRound);
   for (const std::string_view rule : {kSimple, kIso}) {
     SCOPED_TRACE(rule);
-    const auto of = [&](double tolerance_um) {
-      return evaluated_wheel(whole, task_of(whole), record::Form::kRunOut, tolerance_um, rule);
-    };
-    // 1.41 um may be missing: above a tenth of 14 um, below one of 15 um.
-    EXPECT_EQ(of(14.0).characteristics[0].verdict, Verdict::kVoid);
-    EXPECT_EQ(of(15.0).characteristics[0].verdict, Verdict::kConforms);
+    const auto conforms = evaluated_wheel(whole, task_of(whole), record::Form::kRunOut, 15.0, rule);
+    EXPECT_EQ(conforms.characteristics[0].verdict, Verdict::kConforms);
   }
 }
 
@@ -506,20 +547,20 @@ TEST(WheelInterval, APathForABoundOfTheEffectiveRadiusIsRefused) {
 }
 
 // Wear on an arc moves the radius by far more than its noise.
-TEST(WheelInterval, FormOnAnArcWidensTheRadiusOrVoidsIt) {
+TEST(WheelInterval, FormOnAnArcIsInTheIntervalOfTheRadiusOrVoidsIt) {
   auto wheel = test::specified_wheel(4, test::even_degrees(25, 0.0, 5.0));
   for (std::size_t i = 8; i < 14; ++i) {
     const Eigen::Vector2d outward = (wheel.points_mm[i] - wheel.true_axis_mm).normalized();
     wheel.points_mm[i] -= 4e-3 * outward;
   }
   const WheelTask task = task_of(wheel);
-  const auto wide = evaluated_wheel(wheel, task, record::Form::kRadius, 60.0, kIso);
+  const auto wide = evaluated_wheel(wheel, task, record::Form::kRadius, 100.0, kIso);
   const auto& m = std::get<WheelResult>(wide.analysis->found).evaluation.wheel;
   ASSERT_GT(m.correlation, fit::kCorrelationLimit);
-  const double form_mm = 0.5 * m.deviation_mm * m.factors.radius;
-  EXPECT_EQ(m.form_in_radius_mm(), form_mm);
+  const double form_mm = m.form_in_radius_mm();
+  EXPECT_GT(form_mm, 4.0 * m.radius_uncertainty_mm);
   const UncertaintyStatement& said = statement(wide.characteristics[0]);
-  EXPECT_GT(0.5 * (said.high_mm - said.low_mm), form_mm);
+  EXPECT_GT(said.high_mm, 0.95 * form_mm);
   EXPECT_TRUE(std::ranges::is_sorted(said.values_mm));
   EXPECT_EQ(wheel_gate(wide, "form-on-an-arc")->outcome, Gate::Outcome::kWarns);
   for (const std::string_view rule : {kSimple, kIso}) {
@@ -534,6 +575,68 @@ TEST(WheelInterval, FormOnAnArcWidensTheRadiusOrVoidsIt) {
     EXPECT_EQ(between.characteristics[0].verdict, Verdict::kVoid);
     EXPECT_THAT(between.characteristics[0].reason.english(), HasSubstr("a quarter"));
     EXPECT_EQ(wheel_gate(between, "form-on-an-arc")->outcome, Gate::Outcome::kVoids);
+  }
+}
+
+// An arc does not tell lobes of two and three from the radius: noise of the points alone held 41,
+// 35 and 68 % of the true radii. The arcs lie anywhere on wheels of random phases.
+TEST(WheelInterval, TheRadiusOfAnArcHoldsTheTruthWithItsLobes) {
+  constexpr int kWheels = 200;
+  UncertaintyOptions options;
+  options.least_trials = 400;
+  record::Characteristic radius = asked(record::Form::kRadius, 100.0);
+  radius.lower_mm = -0.1;
+  for (const double arc_deg : {120.0, 140.0, 220.0}) {
+    SCOPED_TRACE(arc_deg);
+    int held = 0;
+    for (int seed = 0; seed < kWheels; ++seed) {
+      const auto [points_mm, true_mm] =
+          lobed_arc(static_cast<std::uint64_t>(seed), arc_deg, 0.4e-3);
+      WheelResult result;
+      result.points_mm = points_mm;
+      result.task.wheel.nominal_radius_mm = 50.0;
+      result.task.wheel.errors = fit::WheelPointErrors{.point_mm = 0.4e-3};
+      result.declared.emplace().point_um = DeclaredInfluence{0.4};
+      auto found = fit::evaluate_wheel(result.points_mm, result.task);
+      ASSERT_TRUE(found) << found.error().what;
+      result.evaluation = *std::move(found);
+      options.seed = static_cast<std::uint64_t>(seed);
+      const auto intervals = intervals_of(result, std::span(&radius, 1), options);
+      const auto* said = intervals.at(0).about(Measurand::kSampledPoints);
+      ASSERT_NE(said, nullptr) << intervals.at(0).why();
+      const double departure_mm = true_mm - 50.0;
+      if (said->low_mm <= departure_mm && departure_mm <= said->high_mm) ++held;
+    }
+    std::printf("%3.0f deg: %d of %d intervals hold R\n", arc_deg, held, kWheels);
+    EXPECT_GE(held, 178);  // 95 % less 3.3 standard deviations of the count
+    EXPECT_LE(held, 199);
+  }
+}
+
+// More points have more orders, each with its share of the noise: of ten wheels of 24 points none
+// had a verdict.
+TEST(WheelInterval, NoiseIsNoLossBetweenPoints) {
+  constexpr int kWheels = 20;
+  for (const std::size_t n : {16, 24, 36}) {
+    SCOPED_TRACE(n);
+    int conform = 0;
+    for (std::uint64_t seed = 0; seed < kWheels; ++seed) {
+      auto wheel =
+          test::specified_wheel(seed, test::even_degrees(n, 0.0, 360.0 / static_cast<double>(n)));
+      core::KeyedNoise noise(seed, {24});
+      for (std::size_t i = 0; i < n; ++i) {
+        const Eigen::Vector2d outward = (wheel.true_points_mm[i] - wheel.true_axis_mm).normalized();
+        wheel.points_mm[i] = wheel.true_points_mm[i] + 1e-3 * noise.normal() * outward;
+      }
+      WheelTask task = task_of(wheel);
+      task.uncertainty->point_um = DeclaredInfluence{1.0};
+      const auto feature = evaluated_wheel(wheel, task, record::Form::kRunOut, 20.0, kIso);
+      conform += feature.characteristics.at(0).verdict == Verdict::kConforms ? 1 : 0;
+      // The least that any noise leaves: eccentricity 5 um and the lobes hold most of it.
+      EXPECT_GT(wheel_gate(feature, "loss-between-points")->found.value(), 0.02);
+    }
+    std::printf("%zu points: %d of %d conform\n", n, conform, kWheels);
+    EXPECT_GE(conform, 17);
   }
 }
 

@@ -123,9 +123,11 @@ TEST(WheelRadiusFlow, AWornWheelNoLongerTurnsTheProbes) {
   WornArm arm;
   arm.task.wheel_radius_mm = 299.88;
   const FeatureResult by_number = second_of(after_wheel(wheel, arm.record()));
-  // The readings here are of first order, those behind these two figures are exact.
+  // The readings here are of first order, those behind these two figures are exact. 4.300 is
+  // printed for the motion with its one cycle a turn of X and Y; without, a separation written
+  // apart from this program finds 4.276.
   EXPECT_NEAR(read_um(by_number, 0), 10.517, 0.01);
-  EXPECT_NEAR(read_um(by_number, 1), 4.300, 0.03);
+  EXPECT_NEAR(read_um(by_number, 1), 4.276, 0.01);
   EXPECT_EQ(chain_gate_of(by_number), nullptr);
   arm.take_radius();
   const FeatureResult measured = second_of(after_wheel(wheel, arm.record()));

@@ -723,5 +723,30 @@ TEST(AxisMotion, GivesTheValuesOfThePolarPlot) {
   EXPECT_NEAR(single.total_mm, 2.0, 1e-12);
 }
 
+// Angles of the other sign have the same weights: the weighted sum says nothing of the sense.
+TEST(ThreeProbe, NamesProbeAnglesCountedInTheWrongSense) {
+  for (const bool tracked : {false, true}) {
+    SCOPED_TRACE(tracked);
+    SpindleCase part;
+    if (!tracked) part.arm.crank_radius_mm = 0.0;
+    part.profile.push_back({1, 12.0, 35.0 * core::kDegree});  // eccentricity
+    const ProbeReadings readings = readings_at(part, reference_layout(), uniform_alpha(1024));
+    ThreeProbeOptions options;
+    options.samples = 512;
+    options.noise_mm = 2e-5;
+    const auto right = separate_three_probe(readings, part.arm, reference_layout(), options);
+    ASSERT_TRUE(right) << right.error().what;
+    EXPECT_FALSE(right->turns_against_work());
+    EXPECT_TRUE(right->contradictions.empty());
+    const ProbeLayout turned =
+        ProbeLayout::of(-reference_layout().phi2_rad(), -reference_layout().phi3_rad()).value();
+    const auto wrong = separate_three_probe(readings, part.arm, turned, options);
+    ASSERT_TRUE(wrong) << wrong.error().what;
+    EXPECT_TRUE(wrong->turns_against_work());
+    ASSERT_FALSE(wrong->contradictions.empty());
+    EXPECT_THAT(wrong->contradictions.back().what, ::testing::HasSubstr("with the other sign"));
+  }
+}
+
 }  // namespace
 }  // namespace rondure::fit

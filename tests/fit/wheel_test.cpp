@@ -176,6 +176,34 @@ TEST(Wheel, FindsAmplitudesOnlyWhereThePlacesHoldThem) {
   EXPECT_NEAR(all_round[1], 1.2e-3, 1e-9);
   EXPECT_NEAR(all_round[2], 0.8e-3, 1e-9);
   EXPECT_TRUE(found_amplitudes(points(8, 60.0), {0.0, 0.0}).empty());
+  // Without noise in the points a declared one takes nothing off.
+  const auto declared = found_amplitudes(points(16, 360.0), {0.0, 0.0}, 5e-3);
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(declared[k], all_round[k], 1e-12);
+}
+
+// Of noise alone an order of n even points reads sigma sqrt(4 / n) in the root of its mean square.
+TEST(Wheel, TakesTheNoiseOffTheAmplitudesItFinds) {
+  double raw = 0.0;
+  double less = 0.0;
+  constexpr int kRuns = 100;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    const auto points = arc_points(24, 360.0, 50.0, 1e-3, seed);
+    for (const double a : found_amplitudes(points, {0.0, 0.0})) raw += a * a / (11 * kRuns);
+    for (const double a : found_amplitudes(points, {0.0, 0.0}, 1e-3)) less += a / (11 * kRuns);
+  }
+  EXPECT_NEAR(std::sqrt(raw), 1e-3 * std::sqrt(4.0 / 24.0), 0.02e-3);
+  EXPECT_LT(less, 0.5 * std::sqrt(raw));
+}
+
+TEST(Wheel, WarnsOfAnAxisThatIsItsOwnCentre) {
+  const auto points = arc_points(24, 360.0, 50.0, 1e-3, 7, {12.0, -7.0});
+  WheelOptions options;
+  options.axis_mm = ls_circle(points)->center_mm;
+  const auto own = measure_wheel(points, options);
+  ASSERT_TRUE(own) << own.error().what;
+  EXPECT_TRUE(warned(*own, core::Code::kNoAxis));
+  options.axis_mm->x() += 2e-3;
+  EXPECT_FALSE(warned(*measure_wheel(points, options), core::Code::kNoAxis));
 }
 
 TEST(Wheel, TheRadiusOfAFewRandomQuadruplesOnAnArcIsNotJudged) {

@@ -5,8 +5,10 @@
 #include "core/units.h"
 #include "evaluation/part/internal/layout.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/sphere.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone_sphere.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/zone/fit.h"
@@ -179,6 +181,23 @@ core::Result<Associated> associated_circle(fit::PlanePoints points_mm, Reference
   out.center_mm = circle->center_mm;
   out.range = circle->range;
   return out;
+}
+
+core::Result<Associated> associated_sphere(fit::SpacePoints points_mm, Reference reference) {
+  if (reference == Reference::kLeastSquares) {
+    return fit::ls_sphere(points_mm).map([](const fit::LsSphere& sphere) {
+      Associated out;
+      out.radius_mm = sphere.radius_mm;
+      out.deviation_mm = sphere.deviation_mm;
+      return out;
+    });
+  }
+  if (reference == Reference::kMinimumZone) {
+    return fit::min_zone_sphere(points_mm).map(of_zone<fit::MinZoneSphere>);
+  }
+  return (reference == Reference::kMinimumCircumscribed ? fit::min_circumscribed_sphere(points_mm)
+                                                        : fit::max_inscribed_sphere(points_mm))
+      .map(of_one_sided<fit::OneSidedSphere>);
 }
 
 }  // namespace rondure::evaluation

@@ -14,11 +14,11 @@
 #include "fit/zone/deviation_range.h"
 #include "record/run_record.h"
 
-// Private to the room: the cylinder or circle that a size or a form deviation is of.
+// Private to the room: the cylinder, circle or sphere that a size or a form deviation is of.
 
 namespace rondure::evaluation {
 
-/// A cylinder or circle associated with points.
+/// A cylinder, circle or sphere associated with points.
 struct Associated {
   double radius_mm = 0.0;     ///< Of the tip centres; of a minimum zone the mean of both [mm].
   double deviation_mm = 0.0;  ///< Greatest less least distance of the points from it.
@@ -41,5 +41,10 @@ struct Associated {
 /// @return as the fit of the reference.
 [[nodiscard]] core::Result<Associated> associated_circle(fit::PlanePoints points_mm,
                                                          record::Reference reference, Proof proof);
+
+/// The sphere of all points of a surface.
+/// @return as the fit of the reference.
+[[nodiscard]] core::Result<Associated> associated_sphere(fit::SpacePoints points_mm,
+                                                         record::Reference reference);
 
 }  // namespace rondure::evaluation

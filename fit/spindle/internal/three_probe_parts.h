@@ -52,7 +52,8 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
 [[nodiscard]] Eigen::Matrix<double, 2, 3> swung(const Eigen::Matrix<double, 2, 3>& p,
                                                 double beta_rad);
 
-/// Removes the best c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) from a motion.
+/// Removes the best c e^{j alpha} + c0 e^{-j beta} over the work angle (eccentricity, probe zeros)
+/// from a motion.
 void remove_eccentricity(std::span<const double> alpha_rad, std::span<const double> beta_rad,
                          CentreMotion& motion);
 
