@@ -1,7 +1,7 @@
 // The program killed by kill -9 at random moments of a run, on a real disk, and resumed: every
 // result is that of the run without interruption, no touch lost or doubled. 6 runs without
-// intervals; with RONDURE_FULL=1 (./test.sh --full) 500 with them. Prints what docs/reliability.md
-// says.
+// intervals; with RONDURE_FULL=1 (./test.sh --full) 150 with them. Prints what docs/reliability.md
+// says of 500 (RONDURE_FULL=all).
 
 #include <chrono>
 #include <csignal>
@@ -15,6 +15,7 @@
 #include "record/journal/journal.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
+#include "tests/core/full.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::app::testing {
@@ -24,13 +25,11 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
-
-std::size_t runs() { return full() ? 500 : 6; }
+std::size_t runs() { return static_cast<std::size_t>(test::cases(6, 150, 500)); }
 
 /// The first example; without intervals, which only its end would compute, where time counts.
 fs::path plan_in(const TemporaryFolder& folder) {
-  if (full()) return example("01_spool_simulated.json");
+  if (test::full()) return example("01_spool_simulated.json");
   write_plan(folder / "plan.json", {});
   return folder / "plan.json";
 }
@@ -197,7 +196,7 @@ TEST(KilledWhile, ItBeginsSealsWritesReportsOrArchives) {
   const TemporaryFolder plans;
   const fs::path plan = plan_in(plans);
   const Whole whole(plan);
-  const int rounds = full() ? 20 : 1;
+  const int rounds = test::cases(1, 6, 20);
   for (int i = 0; i < rounds; ++i) {
     const auto later = std::chrono::microseconds(i * 150);
     expect_survives_kill_when(whole, plan, "journal.db", true, later);       // head

@@ -1,6 +1,6 @@
 // How often the intervals of spindle, wheel and contour hold the truth, on inspections that are
 // simulated by other code (simulated_analyses.h), each drawn anew with all that is declared. 1 000
-// inspections with RONDURE_FULL=1 (./test.sh --full), 300 of asynchronous motion and contour, whose
+// inspections with RONDURE_FULL=1 (./test.sh --full), 100 of asynchronous motion and contour, whose
 // 1 000 take longer than a test may (RONDURE_FULL=all, without ctest). Else a few, whose mean U is
 // held against that of 1 000: so few show a wrong width before they show a wrong coverage.
 #include <algorithm>
@@ -50,7 +50,7 @@ UncertaintyOptions few_trials(std::uint64_t seed) {
 }
 
 constexpr int kAll = 1000;
-constexpr int kOfSlow = 300;  ///< Inspections with RONDURE_FULL=1 where one takes a second or more.
+constexpr int kOfSlow = 100;  ///< Inspections with RONDURE_FULL=1 where one takes a second or more.
 
 /// Figures of the specification, section 1.6, and of docs/uncertainty.md.
 struct Figure {
@@ -147,8 +147,7 @@ void expect_covered(const std::vector<Figure>& figures,
                     const std::function<Inspection(std::uint64_t)>& inspect, int few,
                     int full = kAll) {
   std::vector<CountedFigure> tallies(figures.begin(), figures.end());
-  const bool all = test::full() && std::string_view(std::getenv("RONDURE_FULL")) == "all";
-  const int inspections = all ? kAll : test::cases(few, full);
+  const int inspections = test::cases(few, full, kAll);
   for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(inspections); ++k) {
     SCOPED_TRACE(k);
     const Inspection made = inspect(k);

@@ -28,11 +28,11 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of a scenario. The sanitizers take few.
-int inspections(int few) {
+int inspections(int few, int of_full = 1000) {
 #ifdef __SANITIZE_ADDRESS__
   few = few / 2;
 #endif
-  return test::cases(few, 1000);
+  return test::cases(few, of_full, 1000);
 }
 
 constexpr double kPartRadius = 25.0;
@@ -272,7 +272,7 @@ evaluation::UncertaintyOptions few_trials() {
 /// 93 to 97 % of 1 000. Of fewer, within 3.3 standard deviations of 95 %, and U in the mean as
 /// docs/accuracy.md has it: within 10 % and 3.3 standard deviations of the mean.
 void expect_covered(const Tally& tally, const std::string& name, double expanded_um) {
-  const double width = test::full() ? 0.02 : 3.3 * std::sqrt(0.95 * 0.05 / tally.count);
+  const double width = tally.count >= 1000 ? 0.02 : 3.3 * std::sqrt(0.95 * 0.05 / tally.count);
   EXPECT_NEAR(tally.coverage(), 0.95, width) << name;
   if (test::full() || tally.count < 2) return;
   EXPECT_NEAR(tally.expanded_um, expanded_um, 0.1 * expanded_um + 3.3 * tally.expanded_open_um())
@@ -359,7 +359,7 @@ evaluation::FormSpectrum short_spectrum() {
 
 Tally tally_whole(const Scenario& now, const evaluation::FormSpectrum& declared, int few) {
   Tally tally;
-  tally.count = inspections(few);
+  tally.count = inspections(few, 200);
   for (int k = 0; k < tally.count; ++k) {
     const auto key = static_cast<std::uint64_t>(k);
     const SpectralForm form(true_spectrum(), core::KeyedNoise(kSeed, {3, key}));

@@ -1,4 +1,4 @@
-// The program itself on damaged runs and data files. With RONDURE_FULL=1 2000 cases a door.
+// The program itself on damaged runs and data files. With RONDURE_FULL=1 700 cases a door.
 
 #include <chrono>
 #include <cstdlib>
@@ -50,7 +50,7 @@ TEST(ProgramFuzz, NoResealedRunUpsetsAVerb) {
   const fs::path run = work_folder() / "program-run";
   const std::string archive = (work_folder() / "program-archive.db").string();
   ASSERT_FALSE(sample_runs().empty());
-  try_cases({25, 2'000}, [&](unsigned seed) {
+  try_cases({25, 700}, [&](unsigned seed) {
     write_resealed_run(run, seed);
     const std::vector<std::vector<std::string>> calls = {
         {"verify", run.string()},
@@ -70,7 +70,7 @@ TEST(ProgramFuzz, NoDamagedFileUpsetsAPlan) {
   const fs::path folder = work_folder() / "program-plan";
   const TableMutation rows(
       {app::testing::read(app::testing::source_dir() / "tests/data/axle_mzc_3/points.csv")});
-  try_cases({12, 2'000}, [&](unsigned seed) {
+  try_cases({12, 700}, [&](unsigned seed) {
     fs::remove_all(folder);
     fs::create_directory(folder);
     app::testing::write(folder / "plan.json", plan.dump());

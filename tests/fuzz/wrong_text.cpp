@@ -1,6 +1,8 @@
 #include "tests/fuzz/wrong_text.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -10,16 +12,16 @@
 namespace rondure::fuzz {
 namespace {
 
-/// A word of fmt or of C for a number that is none, standing alone.
-bool has_word(const std::string& text, const std::string& word) {
+/// Where a word of fmt or of C for a number that is none stands alone; npos if nowhere.
+std::size_t place_of(const std::string& word, const std::string& text) {
   const auto letter = [&](std::size_t i) {
     return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 ||
                                text[i] == '_' || text[i] == '"');
   };
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    if (!(at > 0 && letter(at - 1)) && !letter(at + word.size())) return true;
+    if (!(at > 0 && letter(at - 1)) && !letter(at + word.size())) return at;
   }
-  return false;
+  return std::string::npos;
 }
 
 std::string wrong_with_bytes(const std::string& text) {
@@ -41,7 +43,10 @@ std::string wrong_with_controls(const std::string& text) {
 std::string wrong_with_words(const std::string& text) {
   if (auto wrong = wrong_with_bytes(text); !wrong.empty()) return wrong;
   for (const char* word : {"nan", "inf", "-nan", "-inf"}) {
-    if (has_word(text, word)) return fmt::format("it says {}: {}", word, text.substr(0, 2000));
+    if (const std::size_t at = place_of(word, text); at != std::string::npos) {
+      return fmt::format("it says {}: ...{}", word,
+                         text.substr(at - std::min<std::size_t>(at, 300), 600));
+    }
   }
   return {};
 }

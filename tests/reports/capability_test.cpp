@@ -92,7 +92,7 @@ TEST(CapabilityBetween, TwoLimitsIsTheLesserOfBothSides) {
 TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
   // Of the small samples alone, where a bound of another method is farthest off, unless in full.
   const bool full = std::getenv("RONDURE_FULL") != nullptr;
-  const int rounds = full ? 20'000 : 1'000;
+  const int rounds = full ? 10'000 : 1'000;
   const std::vector<int> sizes = full ? std::vector<int>{30, 50, 200} : std::vector<int>{30};
   std::uint64_t state = 7;
   const double upper_point = 0.008 * std::exp(3.0 * 0.3);
