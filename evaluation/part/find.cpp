@@ -130,6 +130,7 @@ core::Result<Finding> find(const PartState& part, std::size_t feature,
     found = find_about_both(*surface, asked, *datums);
   }
   if (!found) return found;
+  part.add_pivots(found->pivots);
   found->left_out = surface->left_out;
   found->filter = surface->filter;
   found->warnings.insert(found->warnings.begin(), surface->warnings.begin(),

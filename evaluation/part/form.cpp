@@ -91,6 +91,7 @@ core::Result<Finding> find_cylindricity(const PreparedSurface& surface,
   if (!cylinder) return core::fail(cylinder.error());
   SurfaceForm found{.value_mm = cylinder->deviation_mm, .certified = cylinder->certified};
   Finding out;
+  out.pivots = cylinder->pivots;
   if (asked.reference == Reference::kLeastSquares) {
     const auto form = fit::cylindricity_parameters(surface.points_mm, cylinder->axis,
                                                    cylinder->radius_mm, surface.material.inside);

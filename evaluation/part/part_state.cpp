@@ -34,6 +34,7 @@ struct PartState::Memory {
   std::map<decltype(preparation_of(0, {})), Surface> surfaces;
   std::map<decltype(datum_key_of(0, {}, Proof::kFull)), core::Result<std::vector<DatumResult>>>
       datums;
+  double pivots = 0.0;
 
   Surface& of(std::span<const MeasuredSurface> part, std::size_t feature,
               const Indication& indication) {
@@ -52,6 +53,10 @@ const core::Result<PreparedSurface>& PartState::prepared(std::size_t feature,
                                                          const Indication& indication) const {
   return memory_->of(surfaces_, feature, indication).prepared;
 }
+
+void PartState::add_pivots(int pivots) const { memory_->pivots += pivots; }
+
+double PartState::pivots() const { return memory_->pivots; }
 
 SharedLines& PartState::lines(std::size_t feature, const Indication& indication) const {
   return memory_->of(surfaces_, feature, indication).lines;

@@ -32,6 +32,9 @@ class PartState {
       std::size_t feature, const record::Indication& indication) const;
   /// The generatrices of the surface that is prepared so.
   [[nodiscard]] SharedLines& lines(std::size_t feature, const record::Indication& indication) const;
+  /// Pivots of the searches without proof behind the values found of it.
+  void add_pivots(int pivots) const;
+  [[nodiscard]] double pivots() const;
   /// As datums_of() of the surfaces.
   [[nodiscard]] const core::Result<std::vector<DatumResult>>& datums(
       std::size_t feature, const record::Characteristic& asked, Proof proof) const;

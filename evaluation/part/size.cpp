@@ -171,6 +171,7 @@ core::Result<Finding> find_global(const PreparedSurface& surface,
         {symbol_of_size(name), surface.material.diameter_mm(whole->radius_mm), limits_of(asked)});
     add_rows(surface, whole->contacts, out);
     certified = whole->certified;
+    out.pivots = whole->pivots;
     unseen = unseen_part(surface);
   } else {
     const auto sections = asked_sections(surface, asked.indication);
@@ -395,6 +396,7 @@ core::Result<Finding> find_envelope(const PreparedSurface& surface,
   Finding out;
   out.reference = core::phrase("envelope: {} and two-point sizes as felt by the tip", name);
   const double mating_mm = surface.material.diameter_mm(mating->radius_mm);
+  out.pivots = mating->pivots;
   const Limits upper{.lower_mm = {}, .upper_mm = asked.tolerance_mm};
   const Limits lower{.lower_mm = asked.lower_mm, .upper_mm = {}};
   out.judged.push_back({symbol_of_size(name), mating_mm, inside ? lower : upper});

@@ -38,6 +38,7 @@ constexpr std::uint64_t kMostChains = 64;
 // kLeastTrials, of which 5 lie beyond each end of a 95 % interval.
 constexpr double kMostWork = 4e7;
 constexpr double kPointsOfCall = 300.0;
+constexpr double kPointsOfPivot = 200.0;  // of the searches for a reference
 constexpr int kLeastTrials = 200;
 
 /// Slope of the distances along the axis: tangent of the half angle of a cone.
@@ -207,7 +208,8 @@ struct PartTrials::Part {
   [[nodiscard]] std::vector<TouchedPoint> touched(std::size_t surface,
                                                   const Vector3d& middle_mm) const;
   [[nodiscard]] std::vector<bool> surfaces_of(std::span<const TrialQuestion> questions) const;
-  [[nodiscard]] int most_trials(std::span<const TrialQuestion> questions) const;
+  [[nodiscard]] int most_trials(std::span<const TrialQuestion> questions,
+                                double pivots_of_trial) const;
   void draw_one(std::span<const TrialQuestion> questions, Chain& chain, Values& out) const;
   void move(std::size_t surface, const VectorXd& deviations_mm,
             std::vector<MeasuredSurface>& part) const;
@@ -248,6 +250,7 @@ struct PartTrials::Part::Values {
   std::vector<std::vector<std::vector<double>>> bias_mm;
   std::vector<DrawTally> tallies;  ///< By surface.
   std::size_t done = 0;
+  double pivots = 0.0;  ///< Of all searches.
 };
 
 void PartTrials::Part::make_charts() {
@@ -469,7 +472,8 @@ std::vector<bool> PartTrials::Part::surfaces_of(std::span<const TrialQuestion> q
   return out;
 }
 
-int PartTrials::Part::most_trials(std::span<const TrialQuestion> questions) const {
+int PartTrials::Part::most_trials(std::span<const TrialQuestion> questions,
+                                  double pivots_of_trial) const {
   double work = 0.0;
   for (const TrialQuestion& question : questions) {
     if (fault_of(question)) continue;
@@ -479,6 +483,7 @@ int PartTrials::Part::most_trials(std::span<const TrialQuestion> questions) cons
     }
   }
   if (work == 0.0) return 0;
+  work += kPointsOfPivot * pivots_of_trial;
   const double most = std::max(kMostWork / work, static_cast<double>(kLeastTrials));
   return static_cast<int>(std::min(most, static_cast<double>(options.most_trials)));
 }
@@ -556,6 +561,7 @@ void PartTrials::Part::draw_one(std::span<const TrialQuestion> questions, Chain&
     }
     out.rows_mm[q].push_back(std::move(row));
   }
+  out.pivots += moved.pivots() + raised.pivots() + mirrored.pivots() + center.pivots();
   if (!inspect) return;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     if (!chain.forms[s]) continue;
@@ -621,10 +627,17 @@ class PartTrials::Part::Run {
     const auto each = [&](int trials) {
       return (static_cast<std::size_t>(trials) + chains_.size() - 1) / chains_.size();
     };
-    const std::size_t most = each(part_.most_trials(questions_));
+    std::size_t most = each(part_.most_trials(questions_, 0.0));
     if (most == 0) return;
+    // The first trials show what the searches take.
+    const std::size_t first = std::min(each(kLeastTrials), most);
+    more(first);
+    double pivots = 0.0;
+    for (const Values& chain : values_) pivots += chain.pivots;
+    const auto trials = static_cast<double>(first * chains_.size());
+    most = std::max(first, each(part_.most_trials(questions_, pivots / trials)));
     const std::size_t least = std::min(each(options.least_trials), most);
-    more(options.tolerance_mm > 0.0 ? least : most);
+    more(std::max(first, options.tolerance_mm > 0.0 ? least : most) - first);
     while (options.tolerance_mm > 0.0) {
       reached_ = chains_.size() > 1 && worst_tolerance_mm() <= options.tolerance_mm;
       const std::size_t done = values_.front().done;

@@ -88,6 +88,7 @@ struct Finding {
   /// Why no verdict may rest on the value: no certificate, a part of the turn unseen, several
   /// equally good circles with the limit between their deviations.
   std::optional<core::Phrase> no_verdict;
+  int pivots = 0;          ///< Of searches without proof: the measure of their time.
   bool unique = true;      ///< False: an interval would be that of one of several equal circles.
   core::Phrase reference;  ///< Words of the operator: "GN, as felt by the tip", "about A-B".
   core::Phrase filter;     ///< "unfiltered", "gaussian 50 UPR".

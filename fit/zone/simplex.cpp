@@ -85,8 +85,10 @@ template <int K>
 void ZoneSimplex<K>::start_basis() {
   const std::vector<double>& distances = rows_->distances();
   const Extremes extremes = column_extremes(distances);
-  // Violations below this are round-off of the distances and do not justify a pivot.
-  tolerance_ = 1e-13 * (extremes.high - extremes.low) + 4.0 * kEps * std::abs(extremes.high);
+  // Violations below this are round-off of the distances, or of moves as long as the box, and do
+  // not justify a pivot: the basis would go round in a ring of such columns.
+  tolerance_ =
+      1e-13 * (extremes.high - extremes.low) + 4.0 * kEps * (std::abs(extremes.high) + box_);
   put(0, {Column::Kind::kOuter, first_row_of(distances, extremes.high)});
   put(1, {Column::Kind::kInner, first_row_of(distances, extremes.low)});
   // The box takes up the imbalance of the two points, so the basis is triangular.

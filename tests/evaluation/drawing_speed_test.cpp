@@ -140,5 +140,43 @@ TEST(DrawingSpeed, OfTwentyCallOutsOfScannedJournalsWithUncertainty) {
 #endif
 }
 
+/// Each turn of a regular grid on a taper is degenerate, and the circumscribed cylinder that rests
+/// on its larger end may tilt in eight directions.
+TEST(DrawingSpeed, OfTheEnvelopeOfATaperedSeatWithUncertainty) {
+  std::vector<std::vector<Eigen::Vector3d>> layers(4);
+  for (int k = 0; k < 32; ++k) {
+    const double angle = core::kTwoPi * k / 8.0;
+    const int layer = k / 8;
+    const double r = 16.5 + 10.0 * core::kMicrometre * (2.0 * layer / 3.0 - 1.0);
+    layers[static_cast<std::size_t>(layer)].emplace_back(r * std::cos(angle), r * std::sin(angle),
+                                                         10.0 * layer);
+  }
+  record::RunRecord run;
+  run.header.run_id = "seat";
+  run.header.decision_rule = "iso-14253-1";
+  reports::add_to_points_run(run, "A", record::Shape::kCylinder, layers).characteristics = {
+      diameter("30h6 E", Indication::Size::kLP, Indication::Requirement::kEnvelope)};
+  const auto seconds = [&](core::Result<Evaluation>& out) {
+    const double used_s = test::processor_seconds();
+    out = evaluate(run);
+    return test::processor_seconds() - used_s;
+  };
+  core::Result<Evaluation> found = Evaluation();
+  const double without_s = seconds(found);
+  record::UncertaintyTask declared;
+  declared.probe.emplace().repeatability_um = 0.3;
+  run.settings = record::settings_of_uncertainty(declared, std::nullopt);
+  const double processor_s = seconds(found) - without_s;
+  ASSERT_TRUE(found.has_value());
+  const CharacteristicResult& one = found->features.front().characteristics.front();
+  ASSERT_TRUE(one.value && one.value->statement()) << one.reason.english();
+  std::printf("%d trials, %.3f s of the processors, d GN %.6f mm\n",
+              one.value->uncertainty().result()->trials, processor_s, *one.value_mm());
+  EXPECT_GE(one.value->uncertainty().result()->trials, 200);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_LT(processor_s, 0.3);
+#endif
+}
+
 }  // namespace
 }  // namespace rondure::evaluation

@@ -245,5 +245,22 @@ TEST(MinZoneCylinder, SaysHowTheDescentEnded) {
   EXPECT_GT(restarted, 0);
 }
 
+/// The rows of a certificate: contacts that differ by round-off, in a box that is far larger.
+TEST(ZoneProgram, OfRowsThatDifferByRoundOffTakesFewPivots) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise noise(seed, {1});
+    ZoneRows<4> rows;
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector2d side(std::cos(0.25 * M_PI * k), std::sin(0.25 * M_PI * k));
+      rows.push_back(1.8e-15 * std::floor(3.0 * noise.uniform()),
+                     {-side.x(), -side.y(), -side.x(), -side.y()});
+    }
+    const auto step = solve_zone_program<4>(rows, 0.04, kMinimumCircumscribed);
+    EXPECT_TRUE(step.solved);
+    EXPECT_LT(step.pivots, 20);
+  }
+}
+
 }  // namespace
 }  // namespace rondure::fit

@@ -69,13 +69,21 @@ core::Result<Associated> proven_cylinder(fit::SpacePoints points_mm, Reference r
   return out;
 }
 
-core::Result<Associated> next_cylinder(fit::SpacePoints points_mm, Reference reference,
-                                       const Eigen::Vector3d& direction) {
+/// The optimum next to the axis of the proven one of the cloud as measured, of which a trial moves
+/// the points a little. Without one a search about `direction` looks for it.
+core::Result<Associated> next_cylinder(const PreparedSurface& surface, Reference reference,
+                                       const Eigen::Vector3d& direction, double radius_mm) {
   const fit::ZoneWeights& weights = reference == Reference::kMinimumZone ? fit::kMinimumZone
                                     : reference == Reference::kMinimumCircumscribed
                                         ? fit::kMinimumCircumscribed
                                         : fit::kMaximumInscribed;
-  const auto zone = fit::CylinderZoneFitter().fit(points_mm, direction, weights);
+  const auto& known =
+      reference == Reference::kMaximumInscribed ? surface.of->mi_cylinder : surface.of->mc_cylinder;
+  fit::CylinderZoneFitter fitter;
+  core::Result<fit::CylinderZone> zone =
+      reference != Reference::kMinimumZone && known
+          ? fitter.fit_from(surface.points_mm, known->axis, weights, radius_mm)
+          : fitter.fit(surface.points_mm, direction, weights);
   if (!zone) return core::fail(zone.error());
   if (zone->ending != fit::ZoneEnding::kConverged) {
     return core::fail(core::Code::kNotConverged,
@@ -88,6 +96,7 @@ core::Result<Associated> next_cylinder(fit::SpacePoints points_mm, Reference ref
                       : 0.5 * (zone->outer_radius_mm + zone->inner_radius_mm);
   out.deviation_mm = zone->width_mm();
   out.axis = zone->place;
+  out.pivots = zone->pivots;
   add_contacts(zone->outer, out);
   add_contacts(zone->inner, out);
   return out;
@@ -141,7 +150,7 @@ core::Result<Associated> associated_cylinder(const PreparedSurface& surface, Ref
     out.axis = ls->axis;
     return out;
   }
-  if (proof == Proof::kNone) return next_cylinder(points_mm, reference, direction);
+  if (proof == Proof::kNone) return next_cylinder(surface, reference, direction, ls->radius_mm);
   // As the evaluation of the feature: only layers say something of the direction of a points file.
   const fit::AxisScope cone{.kind = fit::AxisScope::Kind::kCone, .nominal = direction};
   fit::CylinderProofOptions options;

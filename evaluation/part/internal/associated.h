@@ -27,6 +27,7 @@ struct Associated {
   std::vector<std::size_t> contacts;  ///< Rows of the points that carry it; empty of LS.
   bool certified = true;              ///< Least squares needs no certificate.
   bool exact_fit = false;             ///< The deviation is 0 by construction.
+  int pivots = 0;                     ///< Of a search without proof: the measure of its time.
   std::optional<fit::DeviationRange> range = {};  ///< Where several circles are equally good.
 };
 
