@@ -78,6 +78,7 @@ core::Result<Chart> chart_of_plane(std::span<const Vector3d> tips) {
   const auto plane = fit::ls_plane(tips);
   if (!plane) return core::fail(plane.error());
   Chart out;
+  out.cloud.kind = FormKind::kFlatness;
   out.cloud.axis = {plane->plane.point_mm, plane->plane.normal};
   const auto across = fit::across(plane->plane.normal);
   double least = 0.0;

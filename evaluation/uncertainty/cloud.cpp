@@ -17,7 +17,7 @@ core::Result<FormCloud> located(FormKind kind, std::span<const Vector3d> points_
                                 const std::optional<Vector3d>& near_direction) {
   FormCloud cloud;
   cloud.kind = kind;
-  if (kind == FormKind::kCylindricity) {
+  if (kind != FormKind::kRoundness) {
     const auto cylinder = fit::ls_cylinder(points_mm, near_direction);
     if (!cylinder) return core::fail(cylinder.error());
     cloud.axis = cylinder->axis;
@@ -50,7 +50,7 @@ core::Result<FormCloud> form_cloud(FormKind kind, std::span<const Vector3d> poin
     const Eigen::Vector2d in_plane = across.transpose() * from_axis;
     FormPoint point;
     point.angle_rad = std::atan2(in_plane.y(), in_plane.x());
-    if (kind == FormKind::kCylindricity) {
+    if (kind != FormKind::kRoundness) {
       point.height_mm = from_axis.dot(cloud->axis.direction);
     }
     point.deviation_mm = in_plane.norm() - cloud->radius_mm;
@@ -70,25 +70,31 @@ Vector3d position_mm(const FormCloud& cloud, const FormPoint& point) {
          (cloud.radius_mm + point.deviation_mm) * outward_normal(cloud, point);
 }
 
-Eigen::MatrixXd rigid_basis(const FormCloud& cloud) {
+Eigen::MatrixXd rigid_motions(const FormCloud& cloud) {
   const Index n = static_cast<Index>(cloud.points.size());
-  const Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
+  const bool tilts = cloud.kind == FormKind::kCylindricity;
+  const bool plane = cloud.kind == FormKind::kFlatness;
   double middle = 0.0;
   for (const FormPoint& p : cloud.points) middle += p.height_mm / static_cast<double>(n);
   double reach = 0.0;
   for (const FormPoint& p : cloud.points) {
     reach = std::max(reach, std::abs(p.height_mm - middle));
   }
-  Eigen::MatrixXd basis(n, unknowns);
+  Eigen::MatrixXd out(n, tilts ? 5 : 3);
   for (Index i = 0; i < n; ++i) {
     const FormPoint& p = cloud.points[static_cast<std::size_t>(i)];
-    const double c = std::cos(p.angle_rad);
-    const double s = std::sin(p.angle_rad);
+    const double arm = plane ? p.height_mm / cloud.radius_mm : 1.0;
+    const double c = arm * std::cos(p.angle_rad);
+    const double s = arm * std::sin(p.angle_rad);
     const double q = reach > 0.0 ? (p.height_mm - middle) / reach : 0.0;
-    basis.row(i).head(3) << 1.0, c, s;
-    if (unknowns == 5) basis.row(i).tail(2) << q * c, q * s;
+    out.row(i).head(3) << 1.0, c, s;
+    if (tilts) out.row(i).tail(2) << q * c, q * s;
   }
-  return core::column_space(basis, 1e-9);
+  return out;
+}
+
+Eigen::MatrixXd rigid_basis(const FormCloud& cloud) {
+  return core::column_space(rigid_motions(cloud), 1e-9);
 }
 
 }  // namespace rondure::evaluation

@@ -16,6 +16,7 @@ namespace rondure::evaluation {
 enum class FormKind {
   kCylindricity,  ///< CYLt of all points.
   kRoundness,     ///< RONt of one section.
+  kFlatness,      ///< Of a plane: heights of the points are distances from its middle.
 };
 
 /// A sampled point in the frame of its cylinder.
@@ -63,8 +64,11 @@ struct FormCloud {
 /// Where the tip centre is, in the frame of the cloud [mm].
 [[nodiscard]] Eigen::Vector3d position_mm(const FormCloud& cloud, const FormPoint& point);
 
-/// Effect of a shift, a tilt (cylinder only) and a change of radius on the deviations, to first
-/// order: n x 5 or n x 3, orthonormal columns (fewer where the points do not determine them).
+/// Effect of a shift, a tilt (cylinder and plane only) and a change of radius on the deviations, to
+/// first order: n x 5, of a section and of a plane n x 3.
+[[nodiscard]] Eigen::MatrixXd rigid_motions(const FormCloud& cloud);
+
+/// The same as orthonormal columns (fewer where the points do not determine them).
 [[nodiscard]] Eigen::MatrixXd rigid_basis(const FormCloud& cloud);
 
 }  // namespace rondure::evaluation

@@ -94,7 +94,7 @@ core::Result<void> check_spectrum(const FormSpectrum& spectrum, FormKind kind) {
   if (!(power > 0.0)) {
     return core::fail(Code::kBadOption, "all amplitudes of the form spectrum are 0 mm");
   }
-  if (kind == FormKind::kCylindricity && !(spectrum.high_mm > spectrum.low_mm)) {
+  if (kind != FormKind::kRoundness && !(spectrum.high_mm > spectrum.low_mm)) {
     return core::fail(Code::kBadOption, fmt::format("the surface ends at {} mm and begins at {} mm",
                                                     spectrum.high_mm, spectrum.low_mm));
   }

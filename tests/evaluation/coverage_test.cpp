@@ -18,7 +18,9 @@
 #include "evaluation/uncertainty/uncertainty.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/zone/fit.h"
+#include "record/tasks/uncertainty.h"
 #include "tests/core/full.h"
+#include "tests/evaluation/points_run.h"
 
 namespace rondure::reports {
 
@@ -398,6 +400,82 @@ TEST(Coverage, FallsShortOfTheWholeSurfaceWhenTheDeclaredSpectrumIsTooShort) {
     }
     if (test::full()) {
       EXPECT_LT(tally.coverage(), 0.93) << now.name;
+    }
+  }
+}
+
+/// A face of three circles of 12 points: bow, saddle and lobes; free of noise and as touched.
+using Circles = std::vector<std::vector<Vector3d>>;
+struct TouchedFace {
+  TouchedFace(double sigma_mm, std::uint64_t number) {
+    core::KeyedNoise noise(kSeed, {5, number});
+    const double bow = noise.normal();
+    std::array<double, 4> size{};
+    std::array<double, 4> phase{};
+    for (std::size_t k = 0; k < size.size(); ++k) {
+      size[k] = noise.normal() / static_cast<double>(k + 1);
+      phase[k] = core::kTwoPi * noise.uniform();
+    }
+    for (int j = 0; j < 3; ++j) {
+      const double q = (1.0 + 2.0 * j) / 5.0;
+      truth.emplace_back();
+      touched.emplace_back();
+      for (int i = 0; i < 12; ++i) {
+        const double angle = core::kTwoPi * i / 12.0;
+        double form = bow * q * q;
+        for (std::size_t k = 0; k < size.size(); ++k) {
+          form += size[k] * q * std::cos(static_cast<double>(k + 2) * angle + phase[k]);
+        }
+        const Vector3d place(25.0 * q * std::cos(angle), 25.0 * q * std::sin(angle), 1e-3 * form);
+        truth.back().push_back(place);
+        touched.back().push_back(place + sigma_mm * noise.normal() * Vector3d::UnitZ());
+      }
+    }
+  }
+  Circles truth;
+  Circles touched;
+};
+
+/// Flatness about both references, with intervals where noise is declared.
+std::vector<CharacteristicResult> flatness(const Circles& circles, double sigma_mm) {
+  record::RunRecord run;
+  run.header.decision_rule = "iso-14253-1";
+  auto& feature = add_to_points_run(run, "f", record::Shape::kPlane, circles);
+  using record::Reference;
+  feature.characteristics = {{"mz", record::Form::kFlatness, Reference::kMinimumZone, 0.02, ""},
+                             {"ls", record::Form::kFlatness, Reference::kLeastSquares, 0.02, ""}};
+  record::UncertaintyTask declared;
+  declared.probe.emplace().repeatability_um = sigma_mm / core::kMicrometre;
+  declared.least_trials = declared.most_trials = 2000;
+  declared.budget_trials = 0;
+  if (sigma_mm > 0.0) run.settings = record::settings_of_uncertainty(declared, std::nullopt);
+  return evaluated(run).features.front().characteristics;
+}
+
+// A plane tilts about two lines, not about four: an interval that forgets it takes noise for form.
+TEST(Coverage, OfFlatnessHoldsTheTruth) {
+  const int count = inspections(40);
+  for (const double sigma_mm : {0.3e-3, 1e-3}) {
+    std::array<int, 2> held{};
+    std::array<double, 2> bias_um{};
+    for (int p = 0; p < count; ++p) {
+      const TouchedFace face(sigma_mm, static_cast<std::uint64_t>(p));
+      const auto truth = flatness(face.truth, 0.0);
+      const auto read = flatness(face.touched, sigma_mm);
+      for (std::size_t r = 0; r < 2; ++r) {
+        const UncertaintyStatement* stated = read[r].value->statement();
+        ASSERT_NE(stated, nullptr) << read[r].reason.english();
+        const double value_mm = *truth[r].value_mm();
+        held[r] += stated->low_mm <= value_mm && value_mm <= stated->high_mm ? 1 : 0;
+        bias_um[r] += (stated->estimate_mm - value_mm) / core::kMicrometre / count;
+      }
+    }
+    for (std::size_t r = 0; r < 2; ++r) {
+      const double share = static_cast<double>(held[r]) / count;
+      std::printf("FLTt %s, noise %.1f um: %.1f %%, bias %+.3f um\n", r == 0 ? "MZ" : "LS",
+                  sigma_mm / core::kMicrometre, 100.0 * share, bias_um[r]);
+      EXPECT_NEAR(share, 0.95, 0.02 + 3.0 * std::sqrt(0.95 * 0.05 / count));
+      EXPECT_LT(bias_um[r], 0.5 * sigma_mm / core::kMicrometre);
     }
   }
 }

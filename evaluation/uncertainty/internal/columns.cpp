@@ -118,6 +118,7 @@ FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
   lay_out(cloud);
   make_rigid(cloud, root_weights);
   const bool section = cloud.kind == FormKind::kRoundness;
+  const bool plane = cloud.kind == FormKind::kFlatness && !layout_.arc_rad;
   const bool open = layout_.arc_rad.has_value();
   const int highest = open ? std::min(kMostHalfWaves, layout_.points_per_layer - 1)
                            : std::min(kMostResolved, (layout_.points_per_layer - 1) / 2);
@@ -127,10 +128,12 @@ FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
     return std::min(layout_.layers - 1, harmonic <= 1 ? kMostAlongLow : kMostAlong);
   };
   make_polynomials(heights_1(height_mm_), degrees_of(0));
+  if (plane) radial_1_ = height_mm_ / height_mm_.maxCoeff();
   std::vector<Column> wanted;
   for (int j = 0; j <= highest; ++j) {
     for (int d = 0; d <= std::min<int>(degrees_of(j), static_cast<int>(along_.cols()) - 1); ++d) {
-      if (!open && (j + d == 0 || (j == 1 && d <= (section ? 0 : 1)))) continue;
+      const bool moves = d <= (section || plane ? 0 : 1);
+      if (!open && (j + d == 0 || (j == 1 && moves))) continue;
       wanted.push_back({j, d, false, 1.0, {}});
       if (!open && j > 0) wanted.push_back({j, d, true, 1.0, {}});
     }
@@ -225,18 +228,7 @@ void FormColumns::make_rigid(const FormCloud& cloud, const VectorXd& root_weight
   for (Index i = 0; i < n; ++i) {
     height_mm_[i] = cloud.points[static_cast<std::size_t>(i)].height_mm;
   }
-  const VectorXd q = heights_1(height_mm_);
-  const Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
-  MatrixXd raw(n, unknowns);
-  for (Index i = 0; i < n; ++i) {
-    const FormPoint& p = cloud.points[static_cast<std::size_t>(i)];
-    const double c = std::cos(p.angle_rad);
-    const double s = std::sin(p.angle_rad);
-    raw.row(i).head(3) << 1.0, c, s;
-    if (unknowns == 5) raw.row(i).tail(2) << q[i] * c, q[i] * s;
-  }
-  raw = root_weights.asDiagonal() * raw;
-  const core::ThinQr qr = core::thin_qr(raw);
+  const core::ThinQr qr = core::thin_qr(root_weights.asDiagonal() * rigid_motions(cloud));
   const double root_n = std::sqrt(static_cast<double>(n));
   rigid_ = qr.q * root_n;
   rigid_map_ = root_n * core::inverse_lu(qr.r);
@@ -270,6 +262,25 @@ void FormColumns::make_polynomials(const VectorXd& q, int degrees) {
   along_ = root_weight_.asDiagonal() * polynomials(q);
 }
 
+/// Of a plane: r^k times polynomials in r^2, as a smooth surface has them about its middle, made
+/// orthonormal over the points. A bow, a saddle is one column then, and a tilt is none.
+/// Source: F. Zernike, Physica 1 (1934) 689-704.
+MatrixXd FormColumns::radial_polynomials(int undulations) const {
+  if (radial_1_.size() == 0) return {};
+  MatrixXd out(radial_1_.size(), along_.cols());
+  VectorXd next = radial_1_.array().pow(undulations);
+  for (Index d = 0; d < out.cols(); ++d) {
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Index b = 0; b < d; ++b)
+        next -= out.col(b).dot(next) / out.col(b).squaredNorm() * out.col(b);
+    }
+    const double size = std::sqrt(next.squaredNorm() / static_cast<double>(next.size()));
+    out.col(d) = size > 1e-12 ? VectorXd(next / size) : VectorXd::Zero(next.size());
+    next = out.col(d).cwiseProduct(radial_1_.cwiseAbs2());
+  }
+  return root_weight_.asDiagonal() * out;
+}
+
 MatrixXd FormColumns::polynomials(const VectorXd& q) const {
   MatrixXd out(q.size(), recurrence_.rows() + 1);
   out.col(0).setOnes();
@@ -297,14 +308,17 @@ void FormColumns::visit(const std::function<void(std::size_t, const VectorXd&)>&
   VectorXd turned(angle_.size());
   VectorXd column(angle_.size());
   int harmonic = 0;
+  MatrixXd radial = radial_polynomials(0);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Column& wanted = columns_[k];
     for (; harmonic < wanted.harmonic; ++harmonic) {
       turned = c.cwiseProduct(step_c) - s.cwiseProduct(step_s);
       s = s.cwiseProduct(step_c) + c.cwiseProduct(step_s);
       c = turned;
+      if (harmonic + 1 == wanted.harmonic) radial = radial_polynomials(wanted.harmonic);
     }
-    column = (wanted.sine ? s : c).cwiseProduct(along_.col(wanted.degree));
+    const MatrixXd& along = radial.size() > 0 ? radial : along_;
+    column = (wanted.sine ? s : c).cwiseProduct(along.col(wanted.degree));
     work(k, column);
   }
 }

@@ -93,12 +93,14 @@ class FormColumns {
   [[nodiscard]] Eigen::VectorXd heights_1(const Eigen::VectorXd& heights_mm) const;
   void make_polynomials(const Eigen::VectorXd& q, int degrees);
   [[nodiscard]] Eigen::MatrixXd polynomials(const Eigen::VectorXd& q) const;
+  [[nodiscard]] Eigen::MatrixXd radial_polynomials(int undulations) const;
   void project(std::vector<Column> wanted);
   void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
 
   PointLayout layout_;
   Eigen::VectorXd angle_;  ///< Angle; on an arc its fraction of the arc, times pi.
   Eigen::VectorXd height_mm_;
+  Eigen::VectorXd radial_1_;  ///< Of a plane: distances from its middle; else empty.
   Eigen::VectorXd root_weight_;
   double middle_mm_ = 0.0;
   double reach_mm_ = 0.0;  ///< Height of q = 1 above the middle.

@@ -92,7 +92,8 @@ core::Result<void> check_cloud(const FormCloud& cloud) {
   if (!(cloud.radius_mm > 0.0 && std::isfinite(cloud.radius_mm))) {
     return core::fail(Code::kBadOption, fmt::format("radius {} mm is not > 0", cloud.radius_mm));
   }
-  const std::size_t least = cloud.kind == FormKind::kCylindricity ? 6 : 4;
+  const Eigen::MatrixXd motions = rigid_motions(cloud);
+  const auto least = static_cast<std::size_t>(motions.cols() + 1);
   if (cloud.points.size() < least) {
     return core::fail(Code::kTooFewPoints, fmt::format("{} points; {} at least have an uncertainty",
                                                        cloud.points.size(), least));
@@ -117,8 +118,7 @@ core::Result<void> check_cloud(const FormCloud& cloud) {
                         fmt::format("time {} of point {} is outside 0..1", p.time_1, i));
     }
   }
-  const Eigen::Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
-  if (rigid_basis(cloud).cols() < unknowns) {
+  if (rigid_basis(cloud).cols() < motions.cols()) {
     return core::fail(Code::kRank, "the points do not determine the axis");
   }
   return {};
