@@ -25,6 +25,7 @@
 #include "fit/least_squares/sections.h"
 #include "fit/least_squares/sphere.h"
 #include "fit/poses/walk.h"
+#include "record/tasks/run.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 
@@ -99,12 +100,6 @@ void place_points(const fit::Axis& axis, double middle_radius_mm, const Eigen::V
   }
 }
 
-void mark_contacts(const std::vector<fit::Contact>& outer, const std::vector<fit::Contact>& inner,
-                   const std::vector<std::size_t>& rows, std::vector<CloudPoint>& cloud) {
-  for (const fit::Contact& c : outer) cloud[rows[c.index]].outer_contact = true;
-  for (const fit::Contact& c : inner) cloud[rows[c.index]].inner_contact = true;
-}
-
 /// Points of a section. Only the first of several passes is used: neighbouring points of two passes
 /// differ by their noise, which a curve through both would amplify.
 std::vector<Eigen::Vector2d> first_pass(const std::vector<CloudPoint>& cloud,
@@ -158,10 +153,28 @@ Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
   return cloud.front().tip_mm + sum / static_cast<double>(cloud.size());
 }
 
+/// The normal of the points of a circle of a file, upward; z where its lean moves no point by
+/// 10 nm, as the noise of the heights of a level one does.
+Eigen::Vector3d normal_of_circle(const std::vector<CloudPoint>& cloud) {
+  constexpr double kSeen_mm = 1e-5;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d normal =
+      fit::layer_normal(tips_of(cloud), std::vector<int>(cloud.size(), 0)).value_or(up);
+  if (normal.z() < 0.0) normal = -normal;
+  const Eigen::Vector3d middle = mean_of(cloud);
+  const bool leans = std::ranges::any_of(cloud, [&](const CloudPoint& point) {
+    const auto off = [&](const Eigen::Vector3d& axis) {
+      return fit::distance_mm({middle, axis}, point.tip_mm);
+    };
+    return std::abs(off(normal) - off(up)) > kSeen_mm;
+  });
+  return leans ? normal : up;
+}
+
 /// Expected direction of the axis of a feature, or of the outward normal of a plane, machine frame.
 /// A touched part stands along the ring's z or as it was located; points of a file may have any
-/// orientation, which their layers show; a circle of a file is normal to z, and a plane as its
-/// feature says.
+/// orientation, which their layers show; a circle of a file lies in the plane of its points, unless
+/// the plan says z, and a plane as its feature says.
 std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record, const FeatureResult& result,
                                              const record::PoseVisit& visit) {
   const record::Feature& feature = result.feature;
@@ -174,7 +187,8 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record, const Feat
   }
   if (feature.strategy == record::Strategy::kPointsFile) {
     if (faces) return faces;
-    if (circle) return Eigen::Vector3d::UnitZ();
+    if (circle && stated_plane(feature) == "nominal") return Eigen::Vector3d::UnitZ();
+    if (circle) return normal_of_circle(result.cloud);
     std::vector<int> layers;
     for (const CloudPoint& point : result.cloud) layers.push_back(point.layer);
     if (std::ranges::adjacent_find(layers, std::not_equal_to()) == layers.end()) return {};
@@ -235,6 +249,14 @@ struct KeptPoints {
   void name_rows(std::vector<fit::Contact>& contacts) const {
     for (fit::Contact& contact : contacts) contact.index = rows[contact.index];
   }
+  /// The same of both sides of a zone, whose contacts the cloud then shows.
+  void take_contacts(std::vector<fit::Contact>& outer, std::vector<fit::Contact>& inner,
+                     std::vector<CloudPoint>& cloud) const {
+    name_rows(outer);
+    name_rows(inner);
+    for (const fit::Contact& c : outer) cloud[c.index].outer_contact = true;
+    for (const fit::Contact& c : inner) cloud[c.index].inner_contact = true;
+  }
 
   std::vector<std::size_t> rows;
   std::vector<Eigen::Vector3d> tips_mm;
@@ -264,19 +286,17 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
   result.mz_cylinder = *mz;
   result.mc_cylinder = fit::min_circumscribed_cylinder(tips, ls->axis.direction, proof);
   result.mi_cylinder = fit::max_inscribed_cylinder(tips, ls->axis.direction, proof);
-  kept.name_rows(result.mz_cylinder->outer);
-  kept.name_rows(result.mz_cylinder->inner);
+  kept.take_contacts(result.mz_cylinder->outer, result.mz_cylinder->inner, result.cloud);
   for (auto* const fit : {&result.mc_cylinder, &result.mi_cylinder}) {
     if (*fit) kept.name_rows((*fit)->contacts);
   }
   place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
                result.cloud);
-  mark_contacts(mz->outer, mz->inner, kept.rows, result.cloud);
   const bool has_layers = result.feature.layers > 1;
   if (has_layers) result.layers = sections(mz->axis, result.cloud);
 }
 
-void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
+void evaluate_section(const Eigen::Vector3d& direction, FeatureResult& result) {
   const fit::Axis up{mean_of(result.cloud), direction};
   result.section_axis = up;
   result.layers = sections(up, result.cloud);
@@ -290,7 +310,22 @@ void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
   const fit::Axis axis{up.point_mm + frame * zone.center_mm, up.direction};
   place_points(axis, 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm), up.point_mm,
                result.cloud);
-  mark_contacts(zone.outer, zone.inner, section.rows, result.cloud);
+  for (const fit::Contact& c : zone.outer) result.cloud[section.rows[c.index]].outer_contact = true;
+  for (const fit::Contact& c : zone.inner) result.cloud[section.rows[c.index]].inner_contact = true;
+}
+
+/// A circle; beside one of a file that leans stands the same about z.
+void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
+  const bool from_file = result.feature.strategy == record::Strategy::kPointsFile;
+  if (from_file && direction != Eigen::Vector3d::UnitZ()) {
+    FeatureResult nominal = result;
+    std::erase_if(nominal.feature.settings,
+                  [](const record::Setting& setting) { return setting.name == kPlaneSetting; });
+    nominal.feature.settings.push_back({kPlaneSetting, {}, "nominal"});
+    evaluate_section(Eigen::Vector3d::UnitZ(), nominal);
+    result.about_nominal = std::make_shared<const FeatureResult>(std::move(nominal));
+  }
+  evaluate_section(direction, result);
 }
 
 /// Sets angle and distance of every point about the mean point of a plane, and its height above the
@@ -318,10 +353,7 @@ void evaluate_plane(const std::optional<Eigen::Vector3d>& outward, FeatureResult
     return;
   }
   place_points(*mz, mean_of(result.cloud), result.cloud);
-  kept.name_rows(mz->top);
-  kept.name_rows(mz->bottom);
-  for (const fit::Contact& c : mz->top) result.cloud[c.index].outer_contact = true;
-  for (const fit::Contact& c : mz->bottom) result.cloud[c.index].inner_contact = true;
+  kept.take_contacts(mz->top, mz->bottom, result.cloud);
   result.ls_plane = *std::move(ls);
   result.mz_plane = *std::move(mz);
 }
@@ -345,10 +377,7 @@ void evaluate_cone(const std::optional<Eigen::Vector3d>& direction, FeatureResul
   place_points(
       mz->cone.axis, [&](const Eigen::Vector3d& tip_mm) { return mz->cone.deviation_mm(tip_mm); },
       result);
-  kept.name_rows(mz->outer);
-  kept.name_rows(mz->inner);
-  for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
-  for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
+  kept.take_contacts(mz->outer, mz->inner, result.cloud);
   result.ls_cone = *std::move(ls);
   result.mz_cone = *std::move(mz);
 }
@@ -367,10 +396,7 @@ void evaluate_sphere(FeatureResult& result) {
       fit::Axis{mz->center_mm, Eigen::Vector3d::UnitZ()},
       [&](const Eigen::Vector3d& tip_mm) { return (tip_mm - mz->center_mm).norm() - middle_mm; },
       result);
-  kept.name_rows(mz->outer);
-  kept.name_rows(mz->inner);
-  for (const fit::Contact& c : mz->outer) result.cloud[c.index].outer_contact = true;
-  for (const fit::Contact& c : mz->inner) result.cloud[c.index].inner_contact = true;
+  kept.take_contacts(mz->outer, mz->inner, result.cloud);
   result.ls_sphere = *std::move(ls);
   result.mz_sphere = *std::move(mz);
 }
@@ -498,8 +524,10 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     const ThermalCorrection& c = *result.thermal;
     *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
   }
-  for (const LeftOut& row : rows_in_windows(result)) result.cloud[row.row].left_out = true;
   const auto direction = expected_axis(record, result, *last);
+  if (!touched && result.feature.shape == record::Shape::kCircle)
+    result.section_axis.direction = *direction;
+  for (const LeftOut& row : rows_in_windows(result)) result.cloud[row.row].left_out = true;
   switch (result.feature.shape) {
     case record::Shape::kCylinder:
       evaluate_cylinder(direction, result);

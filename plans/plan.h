@@ -249,7 +249,8 @@ struct SourcePlan {
   std::string feature;       ///< Only the rows whose column `feature` says this; empty: all rows.
   std::string clamping;      ///< Files of one name were measured in one clamping.
   std::string measured_utc;  ///< When the data were measured; may be empty.
-  std::optional<double> valid_for_days;  ///< How long they stand; needs `measured_utc`.
+  std::optional<double> valid_for_days;       ///< How long they stand; needs `measured_utc`.
+  std::optional<record::SectionPlane> plane;  ///< Of a circle.
 };
 
 struct FeaturePlan {

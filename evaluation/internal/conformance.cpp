@@ -55,8 +55,8 @@ core::Result<void> check_file(const FeatureResult& result) {
       along_mm.push_back((tip - axis.point_mm).dot(axis.direction));
       z_mm.push_back(tip.z());
     }
-    if (along_mm.empty() || check_thickness(layer.layer, z_mm)) continue;
-    if (auto done = check_thickness(layer.layer, along_mm); !done) return done;
+    if (along_mm.empty() || check_thickness(result, layer.layer, z_mm)) continue;
+    if (auto done = check_thickness(result, layer.layer, along_mm); !done) return done;
   }
   return {};
 }
@@ -205,6 +205,37 @@ Quoting quoting_under(const core::Result<DecisionRule>& rule) {
   return {.as_read = rule && !rule->needs_interval()};
 }
 
+/// How far a value is from its nearest limit, below 0 beyond it; without limits infinite.
+double margin_mm(const JudgedValue& value) {
+  double out = HUGE_VAL;
+  if (value.limits.upper_mm) out = std::min(out, *value.limits.upper_mm - value.value_mm);
+  if (value.limits.lower_mm) out = std::min(out, value.value_mm - *value.limits.lower_mm);
+  return out;
+}
+
+/// Why the value of a circle of a file has no verdict: it depends on the plane, which leans, and
+/// the plan does not state which one is meant.
+/// @param nominal_mm  The value about z; NaN where there is none.
+std::optional<core::Phrase> lean_fault(const FeatureResult& result, const StatedValue& value,
+                                       const JudgedValue& judged,
+                                       const record::Characteristic& asked, double nominal_mm) {
+  constexpr double kShare = 0.1;
+  const bool matters = result.about_nominal && stated_plane(result.feature).empty();
+  if (!matters || (!judged.limits.lower_mm && !judged.limits.upper_mm)) return std::nullopt;
+  // Of a size with one limit its distance from it stands for the tolerance.
+  double tolerance_mm = std::abs(margin_mm(judged));
+  if (asked.tolerance_mm && (asked.lower_mm || asked.form != Form::kDiameter))
+    tolerance_mm = *asked.tolerance_mm - asked.lower_mm.value_or(0.0);
+  if (std::abs(judged.value_mm - nominal_mm) <= kShare * tolerance_mm) return std::nullopt;
+  return core::phrase(
+      "the points lie in a plane that leans {:.2f} deg from z: {} is {} {} in it and {} {} about "
+      "z; "
+      "state source.plane, \"points\" or \"nominal\"",
+      core::degrees(std::acos(std::min(result.section_axis.direction.z(), 1.0))), judged.symbol,
+      value.in_digits(judged.value_mm), core::name_of(value.unit()),
+      std::isfinite(nominal_mm) ? value.in_digits(nominal_mm) : "-", core::name_of(value.unit()));
+}
+
 /// Against a mask, the harmonic nearest to its limit decides; that limit is the tolerance.
 /// Certificates play no part.
 void judge_harmonics(const Circumstances& by, const FeatureResult& result,
@@ -229,7 +260,14 @@ void judge_harmonics(const Circumstances& by, const FeatureResult& result,
   out.value.emplace(
       symbol_of(asked), nearest->harmonic.amplitude_mm, std::move(how),
       UncertaintyStatus::none(core::phrase("intervals are computed of form deviations only")));
-  if (const auto missing = reason_for_void(by.record, by.probe, result, {}, asked)) {
+  auto missing = reason_for_void(by.record, by.probe, result, {}, asked);
+  if (!missing && result.about_nominal) {
+    const auto other = nearest_to_mask(*result.about_nominal, asked);
+    missing = lean_fault(result, *out.value,
+                         {symbol_of(asked), nearest->harmonic.amplitude_mm, limits_of(asked)},
+                         asked, other ? other->harmonic.amplitude_mm : std::nan(""));
+  }
+  if (missing) {
     out.reason = *missing;
     return;
   }
@@ -273,14 +311,6 @@ void judge_value(const core::Result<DecisionRule>& rule, const Limits& limits, J
   out.reason = outcome->sentence;
   out.risks = global_risks(*rule, known, *outcome, limits);
   out.outcome = *std::move(outcome);
-}
-
-/// How far a value is from its nearest limit, below 0 beyond it; without limits infinite.
-double margin_mm(const JudgedValue& value) {
-  double out = HUGE_VAL;
-  if (value.limits.upper_mm) out = std::min(out, *value.limits.upper_mm - value.value_mm);
-  if (value.limits.lower_mm) out = std::min(out, value.value_mm - *value.limits.lower_mm);
-  return out;
 }
 
 /// A datum that rocks leaves a verdict only where the one-sided and the equalised one agree.
@@ -335,6 +365,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   out.finding = finding;
   const record::Characteristic& asked = out.characteristic;
   std::optional<Judged> worst;
+  std::optional<core::Phrase> leans;
   double nearest_mm = HUGE_VAL;
   for (std::size_t i = 0; i < finding->judged.size(); ++i) {
     const JudgedValue& value = finding->judged[i];
@@ -354,6 +385,8 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
     }
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
+    if (!leans && !found.about_nominal_mm.empty())
+      leans = lean_fault(result, judged.value, value, asked, found.about_nominal_mm[i]);
     const int more = worst ? severity(judged.verdict) - severity(worst->verdict) : 1;
     if (more < 0 || (more == 0 && margin_mm(value) >= nearest_mm)) continue;
     nearest_mm = margin_mm(value);
@@ -368,6 +401,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
         missing = core::phrase("the run did not finish");
     }
   }
+  if (!missing) missing = leans;
   if (!missing) missing = finding->no_verdict;
   if (!missing && !finding->unique && by.rule && by.rule->needs_interval()) {
     missing = core::phrase(
@@ -433,14 +467,22 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
     return;
   }
   const std::optional<double>& limit_mm = out.characteristic.tolerance_mm;
+  std::optional<core::Phrase> missing;
   out.value.emplace(symbol_of(out.characteristic),
                     value->range ? deciding_mm(*value->range, limit_mm) : value->value_mm,
                     operator_of(result, out.characteristic),
                     uncertainty_of(by.record, result, by.probe, out.characteristic),
                     by.rule ? by.rule->measurand : Measurand::kSampledPoints, core::ValueUnit::kUm,
                     quoting_under(by.rule));
-  if (const auto missing =
-          reason_for_void(by.record, by.probe, result, *value, out.characteristic)) {
+  if (result.about_nominal) {
+    const auto nominal = worst_section(*result.about_nominal, out.characteristic.reference);
+    missing =
+        lean_fault(result, *out.value,
+                   {symbol_of(out.characteristic), value->value_mm, limits_of(out.characteristic)},
+                   out.characteristic, nominal ? nominal->value_mm : std::nan(""));
+  }
+  if (!missing) missing = reason_for_void(by.record, by.probe, result, *value, out.characteristic);
+  if (missing) {
     out.reason = *missing;
     return;
   }
@@ -520,6 +562,12 @@ PartFindings find_all(const record::RunRecord& record, std::span<FeatureResult> 
                               : find(as_read, f, asked)});
       if (!found.finding) continue;
       warn_of_shares(part, f, asked, *found.finding);
+      if (features[f].about_nominal) {
+        std::vector<MeasuredSurface> nominal = part;
+        nominal[f] = surfaces_of({features[f].about_nominal.get(), 1}).front();
+        found.about_nominal_mm =
+            judged_values(find(nominal, f, asked, Proof::kNone), found.finding->judged.size());
+      }
       questions.push_back({f, &asked, &*found.finding});
       answers.push_back(&found.interval);
     }

@@ -15,6 +15,7 @@ namespace rondure::evaluation {
 struct FoundCharacteristic {
   core::Result<Finding> finding;
   PartInterval interval = {};
+  std::vector<double> about_nominal_mm = {};  ///< The judged values about z; see FeatureResult.
 };
 
 /// What find() computes of a part: for each feature one element for each of its characteristics,

@@ -55,6 +55,20 @@ void warn_sampling(FeatureResult& result) {
   }
 }
 
+/// The value of a circle that leans, in its plane and about z.
+void warn_lean(FeatureResult& result) {
+  if (!result.about_nominal || result.layers.empty()) return;
+  const auto& here = result.layers.front().mz;
+  const auto& about_z = result.about_nominal->layers.front().mz;
+  if (!here || !about_z) return;
+  add_warning(
+      result, core::Code::kInconsistent,
+      core::phrase("the points lie in a plane that leans {:.2f} deg from z: the minimum zone is "
+                   "{:.3f} um in it and {:.3f} um about z",
+                   std::acos(std::min(result.section_axis.direction.z(), 1.0)) / core::kDegree,
+                   here->width_mm() / core::kMicrometre, about_z->width_mm() / core::kMicrometre));
+}
+
 void warn_exact_fit(FeatureResult& result) {
   for (const LayerResult& layer : result.layers) {
     if (!layer.mz || !layer.mz->exact_fit) continue;
@@ -178,6 +192,7 @@ void warn_level(FeatureResult& result) {
 
 void warn(FeatureResult& result) {
   warn_sampling(result);
+  warn_lean(result);
   warn_exact_fit(result);
   warn_absent(result);
   warn_several(result);

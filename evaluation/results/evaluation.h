@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -136,7 +137,10 @@ struct FeatureResult {
   std::optional<fit::LsSphere> ls_sphere;  ///< These two only for spheres.
   std::optional<fit::MinZoneSphere> mz_sphere;
   std::vector<LayerResult> layers;
-  fit::Axis section_axis = {};          ///< For a circle: origin and normal of its plane.
+  fit::Axis section_axis = {};  ///< For a circle: origin and normal of its plane.
+  /// A circle of a file whose plane leans, evaluated about z; null where that makes no difference
+  /// or the plan asks for it.
+  std::shared_ptr<const FeatureResult> about_nominal;
   std::vector<PoseValue> poses;         ///< In the order of the visits.
   std::optional<double> tip_radius_mm;  ///< Tip radius used; none for points with an unknown tip.
   std::optional<core::Pose> levelling_pose;   ///< Pose that would turn the found axis to machine z.
@@ -155,6 +159,14 @@ struct FeatureResult {
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.
 };
+
+/// The plane in which a circle of a file is evaluated, as its plan states it: "points", "nominal";
+/// else empty.
+inline constexpr const char* kPlaneSetting = "source/plane";
+[[nodiscard]] inline std::string stated_plane(const record::Feature& feature) {
+  const auto found = std::ranges::find(feature.settings, kPlaneSetting, &record::Setting::name);
+  return found == feature.settings.end() ? std::string() : found->text;
+}
 
 /// Evaluation of a record: a pure function of it.
 struct Evaluation {

@@ -19,10 +19,19 @@ struct EnvironmentSettings {
   double max_drift_K = 0.5;             ///< Of an analysis: greatest change at one place.
 };
 
+/// The plane in which a circle of a file is evaluated: that of its points, or that normal to z.
+enum class SectionPlane { kPoints, kNominal };
+
+constexpr auto words_of(SectionPlane) {
+  return std::to_array<Word<SectionPlane>>(
+      {{SectionPlane::kPoints, "points"}, {SectionPlane::kNominal, "nominal"}});
+}
+
 /// The file that a feature takes its data from, at "source/".
 struct SourceSettings {
   std::optional<std::string> measured_utc;  ///< When they were measured; none: not stated.
   std::optional<double> valid_for_days;     ///< How long they stand for the part.
+  std::optional<SectionPlane> plane;        ///< Of a circle; none: not stated.
 };
 
 /// The fixture that carried the parts, at "fixture/".
@@ -52,6 +61,7 @@ template <class Visitor>
 void describe(Visitor& v, SourceSettings& p) {
   v.text("measured_utc", p.measured_utc, {.meaning = "When the data were measured."});
   v.number("valid_for_days", p.valid_for_days, range(0.0, 36'500.0, "How long they stand."));
+  v.text("plane", p.plane, {.meaning = "In which a circle is evaluated."});
 }
 
 template <class Visitor>

@@ -3,11 +3,15 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/results/evaluation.h"
@@ -71,6 +75,67 @@ TEST(CylindricityOfFewPoints, IsAboutTheAxisThatTheLayersShow) {
   ASSERT_TRUE(unknown.failure);
   EXPECT_EQ(unknown.failure->code, core::Code::kSeveralOptima);
   EXPECT_EQ(unknown.characteristics.front().verdict, Verdict::kVoid);
+}
+
+/// A circle of 15 mm whose plane leans about y, with noise of the heights and a plane of the plan.
+FeatureResult leaning_circle(double lean_deg, double heights_mm, const std::string& plane) {
+  record::RunRecord run;
+  run.header.decision_rule = "simple-acceptance";
+  core::KeyedNoise noise(20261128, {1});
+  const double c = std::cos(lean_deg * core::kDegree);
+  const double s = std::sin(lean_deg * core::kDegree);
+  std::vector<std::vector<Eigen::Vector3d>> ring(1);
+  for (int k = 0; k < 36; ++k) {
+    const double angle = core::kTwoPi * k / 36.0;
+    const Eigen::Vector2d p = 15.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    ring[0].emplace_back(100.0 + c * p.x(), 50.0 + p.y(),
+                         20.0 - s * p.x() + heights_mm * noise.normal());
+  }
+  auto& feature = add_to_points_run(run, "c", record::Shape::kCircle, ring);
+  if (!plane.empty()) feature.settings.push_back({"source/plane", {}, plane});
+  feature.characteristics.push_back(
+      {"r", record::Form::kRoundness, Reference::kMinimumZone, 5e-3, ""});
+  auto& size = feature.characteristics.emplace_back();
+  size = {"d", record::Form::kDiameter, Reference::kMinimumZone, 33.01, "", {}, 32.99};
+  size.indication.size = record::Indication::Size::kGG;
+  feature.tip_radius_mm = 1.5;
+  feature.side = record::Side::kInside;
+  return evaluated(run).features.front();
+}
+
+// An exact circle is round in its own plane. About z it is an ellipse: R (1 - cos) less in one
+// direction, 1.8506 um at 0.9 deg, 904.61 um at 20 deg.
+TEST(LeaningCircle, IsRoundInItsPlaneAndVoidWhereThePlaneMattersAndIsNotStated) {
+  for (const auto& [lean_deg, about_z] : {std::pair(0.9, "1.851"), std::pair(20.0, "904.611")}) {
+    const FeatureResult unsaid = leaning_circle(lean_deg, 0.0, "");
+    ASSERT_TRUE(unsaid.about_nominal);
+    EXPECT_EQ(unsaid.characteristics[0].verdict, Verdict::kVoid);
+    // The size differs by R (1 - cos) as well: 1.85 um are less than a tenth of 20 um.
+    EXPECT_EQ(unsaid.characteristics[1].verdict,
+              lean_deg < 1.0 ? Verdict::kConforms : Verdict::kVoid);
+    EXPECT_THAT(unsaid.characteristics[0].reason.english(),
+                testing::AllOf(HasSubstr(fmt::format("leans {:.2f} deg", lean_deg)),
+                               HasSubstr("0.000 um"), HasSubstr(about_z)));
+    const FeatureResult points = leaning_circle(lean_deg, 0.0, "points");
+    EXPECT_NEAR(*points.characteristics[0].value_mm(), 0.0, 1e-9);
+    EXPECT_NEAR(*points.characteristics[1].value_mm(), 33.0, 1e-9);
+    for (const CharacteristicResult& one : points.characteristics)
+      EXPECT_EQ(one.verdict, Verdict::kConforms) << one.reason.english();
+    const FeatureResult nominal = leaning_circle(lean_deg, 0.0, "nominal");
+    EXPECT_FALSE(nominal.about_nominal);
+    EXPECT_NEAR(*nominal.characteristics[0].value_mm(),
+                15.0 * (1.0 - std::cos(lean_deg * core::kDegree)), 1e-7);
+    EXPECT_THAT(nominal.characteristics[1].reason.english(), Not(HasSubstr("column layer")));
+  }
+}
+
+// Heights matter by the lean alone: 5 um of noise lean the plane by 0.005 deg, which moves no point
+// by 10 nm, and 50 um by 0.05 deg, which is far below a tenth of 5 um.
+TEST(LeaningCircle, IsNoneWhereOnlyTheHeightsAreNoisy) {
+  EXPECT_FALSE(leaning_circle(0.0, 0.005, "").about_nominal);
+  const FeatureResult rough = leaning_circle(0.0, 0.05, "");
+  for (const CharacteristicResult& one : rough.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kConforms) << one.reason.english();
 }
 
 TEST(Symbols, AreThoseOfTheDrawing) {

@@ -54,14 +54,6 @@ std::vector<std::size_t> rows_of_surface(const MeasuredSurface& surface) {
   return all;
 }
 
-/// The judged values of a finding, in the order of one as read; NaN where there is none.
-std::vector<double> judged_values(const core::Result<Finding>& found, std::size_t count) {
-  std::vector<double> out(count, kNoValue);
-  if (!found || found->judged.size() != count) return out;
-  for (std::size_t v = 0; v < count; ++v) out[v] = found->judged[v].value_mm;
-  return out;
-}
-
 std::vector<std::size_t> surfaces_of_question(const PartQuestion& question) {
   std::vector<std::size_t> out = {question.feature};
   for (const DatumResult& datum : question.found->datums) {
@@ -84,6 +76,13 @@ std::optional<double> conformance_of(const PartQuestion& question, const TrialAn
 }
 
 }  // namespace
+
+std::vector<double> judged_values(const core::Result<Finding>& found, std::size_t count) {
+  std::vector<double> out(count, kNoValue);
+  if (!found || found->judged.size() != count) return out;
+  for (std::size_t v = 0; v < count; ++v) out[v] = found->judged[v].value_mm;
+  return out;
+}
 
 std::vector<PartInterval> intervals_of(const record::RunRecord& record,
                                        std::span<const FeatureResult> features,

@@ -30,6 +30,10 @@ struct PartInterval {
   std::optional<double> conformance_1;
 };
 
+/// The judged values of a finding; all NaN where it has not as many as expected.
+[[nodiscard]] std::vector<double> judged_values(const core::Result<Finding>& found,
+                                                std::size_t count);
+
 /// The uncertainties of all characteristics of a part, from trials that move the points of all its
 /// features together. Pure; the record holds the seed.
 /// @param features  All features of the run, in its order.

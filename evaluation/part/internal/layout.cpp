@@ -329,7 +329,7 @@ class LayoutBuilder {
       for (const std::size_t row : section.rows) {
         heights.push_back((tips_[row] - out_.axis.point_mm).dot(out_.axis.direction));
       }
-      auto done = evaluation::check_thickness(section.layer, heights);
+      auto done = evaluation::check_thickness(feature_, section.layer, heights);
       if (!done && !may_lack) return done;
       if (!done && !out_.no_sections) out_.no_sections = done.error();
     }
@@ -591,14 +591,19 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
                                               std::string(name_of(feature.feature.shape)))));
 }
 
-core::Result<void> check_thickness(int layer, std::span<const double> heights_mm) {
+core::Result<void> check_thickness(const FeatureResult& feature, int layer,
+                                   std::span<const double> heights_mm) {
   const auto [low, high] = std::minmax_element(heights_mm.begin(), heights_mm.end());
-  if (*high - *low <= kThickestMm) return {};
+  if (*high - *low <= kThickestMm || stated_plane(feature.feature) == "nominal") return {};
+  const core::Phrase cure =
+      feature.feature.shape == Shape::kCircle ? core::phrase("give the points of one section")
+      : has_layers(feature) ? core::phrase("give each section its own number in the column layer")
+                            : core::phrase("give the file a column layer");
   return core::fail(
       said(core::Code::kSampling,
            core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
-                        "{:g} mm along the axis; give the file a column layer",
-                        layer + 1, *high - *low, kThickestMm)));
+                        "{:g} mm along the axis; {}",
+                        layer + 1, *high - *low, kThickestMm, cure)));
 }
 
 SurfaceLayout layout_of(const FeatureResult& feature) {

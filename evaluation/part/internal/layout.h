@@ -52,8 +52,9 @@ struct SurfaceLayout {
 [[nodiscard]] bool has_layers(const FeatureResult& feature);
 /// Whether the points of a section lie in one plane across the axis to 0.5 mm.
 /// @pre Not empty.
-/// @return kSampling with the layer and its thickness.
-[[nodiscard]] core::Result<void> check_thickness(int layer, std::span<const double> heights_mm);
+/// @return kSampling with the layer and its thickness. A circle that is seen along z has any.
+[[nodiscard]] core::Result<void> check_thickness(const FeatureResult& feature, int layer,
+                                                 std::span<const double> heights_mm);
 
 /// Least-squares feature of some points: of a plane its normal, of a sphere part z through its
 /// centre.

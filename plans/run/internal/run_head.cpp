@@ -96,11 +96,10 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
     append(record::settings_of_task(surface_settings(plan, feature)), out);
     std::erase_if(out, [](const record::Setting& s) { return !s.number && s.text.empty(); });
   }
-  if (feature.source && !feature.source->measured_utc.empty()) {
-    append(record::settings_of_task(
-               record::SourceSettings{feature.source->measured_utc, feature.source->valid_for_days},
-               "source/"),
-           out);
+  if (feature.source) {
+    record::SourceSettings source{{}, feature.source->valid_for_days, feature.source->plane};
+    if (!feature.source->measured_utc.empty()) source.measured_utc = feature.source->measured_utc;
+    append(record::settings_of_task(source, "source/"), out);
   }
   if (!is_touched(feature) || !plan.machine) return out;
   if (feature.sampling.method == record::SamplingMethod::kScan) {

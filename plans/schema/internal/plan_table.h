@@ -453,6 +453,10 @@ void describe(Visitor& v, SourcePlan& p) {
            above(0.0, 36'500.0,
                  "How long the data stand for the part, from measured_utc on: until it is worked, "
                  "the wheel is dressed, the machine is set up anew."));
+  v.text("plane", p.plane,
+         {.meaning = "Of a circle, where the plane of its points leans: points, it is evaluated in "
+                     "that plane; nominal, about z of the file. Left out: in that of the points, "
+                     "and void where the two differ by more than a tenth of the tolerance."});
 }
 
 template <class Visitor>
