@@ -31,18 +31,37 @@ double largest_gap(const std::vector<CloudPoint>& cloud) {
   return gap;
 }
 
+/// Whether further points of the surface can only enlarge the value.
+bool is_of_extremes(const record::Characteristic& asked) {
+  using record::Form;
+  switch (asked.form) {
+    case Form::kCylindricity:
+    case Form::kRoundness:
+    case Form::kFlatness:
+    case Form::kRunOut:
+    case Form::kTotalRunOut:
+      return true;
+    case Form::kStraightness:
+      return asked.indication.of != record::Indication::Of::kMedianLine;
+    default:
+      return false;
+  }
+}
+
 void warn_sampling(FeatureResult& result) {
   const record::Feature& feature = result.feature;
   const bool cylinder = feature.shape == record::Shape::kCylinder;
   const bool sparse = feature.layers > 0
                           ? feature.points_per_layer < 7 || (cylinder && feature.layers < 3)
                           : result.cloud.size() < (cylinder ? kFewPoints : kFewPoints / 3);
-  if (sparse) {
+  for (const record::Characteristic& asked : feature.characteristics) {
+    if (!sparse || !is_of_extremes(asked)) continue;
     add_warning(
         result, core::Code::kSparse,
         core::phrase(
             "{} points see only part of the form; the deviation of the whole surface is larger",
             result.cloud.size()));
+    result.warnings.back().where = asked.id;
   }
   const double gap = largest_gap(result.cloud);
   if (gap > kGapLimit && feature.shape != record::Shape::kPlane) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -489,6 +490,10 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
     std::set<std::string> said;
     for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       add_characteristic(out, result, said);
+      for (core::Error warning : feature.warnings) {
+        if (std::exchange(warning.where, "") != result.characteristic.id) continue;
+        add_wrapped(out, "    " + tr("warning"), line_of(std::move(warning)));
+      }
     }
     if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
     add_sketch(out, feature, sketch);
@@ -499,6 +504,10 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
     add_one_sided(out, feature);
     add_truth(out, evaluation::truth_of(record, i), feature);
     for (const core::Error& warning : feature.warnings) {
+      const auto stands = [&](const evaluation::CharacteristicResult& result) {
+        return result.characteristic.id == warning.where;
+      };
+      if (std::ranges::any_of(feature.characteristics, stands)) continue;
       add_wrapped(out, "  " + tr("warning"), line_of(warning));
     }
   }

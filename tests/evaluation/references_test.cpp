@@ -138,6 +138,20 @@ TEST(LeaningCircle, IsNoneWhereOnlyTheHeightsAreNoisy) {
     EXPECT_EQ(one.verdict, Verdict::kConforms) << one.reason.english();
 }
 
+TEST(SparsePoints, AreWarnedOfAtTheCharacteristicsOfExtremes) {
+  record::RunRecord run = points_run(rough_part(1, 3, 5, core::kTwoPi), 3);
+  auto& asked = run.features[0].characteristics;
+  asked.resize(1);
+  asked.front().id = "cyl";
+  asked.push_back({"gg", record::Form::kDiameter, Reference::kLeastSquares, 60.0, ""});
+  std::vector<std::string> where;
+  const Evaluation found = evaluated(run);
+  for (const core::Error& warning : found.features[0].warnings) {
+    if (warning.code == core::Code::kSparse) where.push_back(warning.where);
+  }
+  EXPECT_EQ(where, std::vector<std::string>{"cyl"});
+}
+
 TEST(Symbols, AreThoseOfTheDrawing) {
   using Indication = record::Indication;
   using record::Form;
