@@ -1,9 +1,18 @@
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 
+#include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/sections.h"
+#include "fit/least_squares/sphere.h"
 #include "plans/analyses/internal/series_file.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/schema/json_text.h"
@@ -43,6 +52,52 @@ void check_without_layers(const FeaturePlan& feature, std::size_t index, Finding
                                  masked ? "harmonics" : "roundness",
                                  masked ? "" : ", ask for \"cylindricity\""));
   }
+}
+
+/// The diameter that the points of a file show, in the unit of the file; none of other shapes, and
+/// where they show none, of which the evaluation tells the reason.
+std::optional<double> shown_diameter(Shape shape, const record::PointTable& table) {
+  constexpr std::size_t kMost = 1000;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<int> layers;
+  const std::size_t count = std::min(table.points_mm.size(), kMost);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t row = fit::spread_row(k, table.points_mm.size());
+    points.push_back(table.points_mm[row]);
+    layers.push_back(table.layers.empty() || shape == Shape::kCircle ? 0 : table.layers[row]);
+  }
+  const auto diameter = [](const auto& fit) {
+    return fit ? std::optional(2.0 * fit->radius_mm) : std::nullopt;
+  };
+  if (shape == Shape::kSphere) return diameter(fit::ls_sphere(points));
+  std::optional<Eigen::Vector3d> normal;
+  if (shape == Shape::kCircle || !table.layers.empty()) normal = fit::layer_normal(points, layers);
+  if (shape == Shape::kCylinder) return diameter(fit::ls_cylinder(points, normal));
+  if (shape != Shape::kCircle) return std::nullopt;
+  const auto across = fit::across(normal.value_or(Eigen::Vector3d::UnitZ()));
+  std::vector<Eigen::Vector2d> flat;
+  for (const Eigen::Vector3d& p : points) flat.emplace_back(across.transpose() * (p - points[0]));
+  return diameter(fit::ls_circle(flat));
+}
+
+/// Without a nominal diameter nothing tells the unit: refuses a size that is more common in another
+/// one. Up to 10 inches are less than 10; parts below 1 mm and above 1 m are none of this program.
+void check_unit(const FeaturePlan& feature, std::size_t index, const record::PointTable& table,
+                Findings& findings) {
+  if (feature.nominal.diameter_mm > 0.0) return;
+  const auto size = shown_diameter(feature.type, table);
+  if (!size || (*size >= 10.0 && *size <= 1000.0)) return;
+  const auto in_mm = [&](const char* unit, double factor) {
+    const double mm = factor * *size;
+    return mm < 1.0 || mm > 1000.0 ? std::string() : fmt::format(", in {} {:.6g} mm", unit, mm);
+  };
+  findings.meaning(
+      Code::kUnits, feature_pointer(index) + "/source/file",
+      fmt::format(
+          "the points of {} show a diameter of {:.6g}: in mm that is {:.6g} mm{}{}{}; state "
+          "nominal.diameter_mm where the file is in mm, else give its points in mm",
+          in_quotes(feature.source->file), *size, *size, in_mm("inches", 25.4),
+          in_mm("metres", 1000.0), in_mm("micrometres", 1e-3)));
 }
 
 /// Refuses rows that no feature of the plan takes: a misspelt name is a defect left out. Said once
@@ -109,6 +164,8 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
         Code::kTooFewPoints, where,
         fmt::format("the file {} has {} points; a {} needs at least {}", in_quotes(file),
                     table->points_mm.size(), name_of(feature.type), needed));
+  } else {
+    check_unit(feature, index, *table, findings);
   }
 }
 

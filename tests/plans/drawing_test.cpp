@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -6,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "evaluation/results/finding.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
@@ -111,6 +113,35 @@ TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
                   "on); correct the names, which count letter by letter, plan a feature for "
                   "them, or take them out [meaning]\n",
                   in_quotes("c"), lines + 1, in_quotes("\"C\""), lines + 2));
+  std::filesystem::remove_all(folder);
+}
+
+// 30 mm in inches, in metres and in micrometres; nothing but the nominal tells the unit.
+TEST(PlanDrawing, ASizeThatLooksLikeAnotherUnitNeedsItsNominal) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "sizes_in_other_units";
+  std::filesystem::create_directories(folder);
+  const auto problems = [&](double factor, const std::string& more) {
+    std::string text = "x,y,z\n";
+    for (int k = 0; k < 8; ++k) {
+      const double angle = core::kTwoPi * k / 8.0;
+      text += fmt::format("{},{},{}\n", factor * (3.0 + 15.0 * std::cos(angle)),
+                          factor * 15.0 * std::sin(angle), factor * 7.0);
+    }
+    EXPECT_TRUE(record::write_file(folder / "c.csv", text));
+    return lines_of(parse_plan(R"({"plan": {"name": "c", "revision": "A"}, "part": {"id": "c"},
+      "features": [{"id": "c", "type": "circle", )" +
+                                   more + R"("source": {"file": "c.csv"}, "characteristics": [
+      {"id": "r", "form": "roundness", "tolerance_um": 5}]}]})",
+                               folder, "plan.json"));
+  };
+  EXPECT_EQ(problems(1.0, ""), "");
+  EXPECT_THAT(problems(1.0 / 25.4, ""),
+              ::testing::HasSubstr("/features/0/source/file: the points of \"c.csv\" show a "
+                                   "diameter of 1.1811: in mm that is 1.1811 mm, in inches 30 mm; "
+                                   "state nominal.diameter_mm"));
+  EXPECT_THAT(problems(1e-3, ""), ::testing::HasSubstr(", in metres 30 mm; state"));
+  EXPECT_THAT(problems(1e3, ""), ::testing::HasSubstr(", in micrometres 30 mm; state"));
+  EXPECT_EQ(problems(0.2, R"("nominal": {"diameter_mm": 6}, )"), "");
   std::filesystem::remove_all(folder);
 }
 
