@@ -1,8 +1,12 @@
 // In place of plans/checks/internal/plan_reach.cpp, plans/analyses/contour_simulation.cpp,
-// fit/profiles/roundness.cpp and web/page.cpp, which need half of the program and read nothing:
-// they work with a plan that was read and checked, and the page goes out.
+// fit/profiles/roundness.cpp, the least-squares fits and web/page.cpp, which need half of the
+// program and read nothing: they work with what was read and checked, and the page goes out.
 
 #include "core/decompositions.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/sections.h"
+#include "fit/least_squares/sphere.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "plans/analyses/internal/contour_kind.h"
 #include "plans/checks/internal/plan_reach.h"
@@ -25,6 +29,28 @@ core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> /*ang
                                                    std::span<const double> /*radii_mm*/,
                                                    const RoundnessOptions& /*options*/) {
   return RoundnessEvaluation();
+}
+
+// The plan reader compares the size of the points with usual ones: 20 mm is refused nowhere.
+template <typename Fit>
+Fit of_20_mm() {
+  Fit out;
+  out.radius_mm = 10.0;
+  return out;
+}
+
+core::Result<LsCircle> ls_circle(PlanePoints /*points_mm*/) { return of_20_mm<LsCircle>(); }
+
+core::Result<LsCylinder> ls_cylinder(SpacePoints /*points_mm*/,
+                                     const std::optional<Eigen::Vector3d>& /*near_direction*/) {
+  return of_20_mm<LsCylinder>();
+}
+
+core::Result<LsSphere> ls_sphere(SpacePoints /*points_mm*/) { return of_20_mm<LsSphere>(); }
+
+std::optional<Eigen::Vector3d> layer_normal(SpacePoints /*points_mm*/,
+                                            std::span<const int> /*layers*/) {
+  return std::nullopt;
 }
 
 }  // namespace fit
