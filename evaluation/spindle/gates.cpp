@@ -219,7 +219,7 @@ Gate weak_gate(const SpindleResult& facts,
   const fit::RecoveredHarmonic* weakest = nullptr;
   double its_limit_mm = 0.0;
   const auto look = [&](const fit::RecoveredHarmonic& h, double limit_mm) {
-    if (!h.recovered || h.sigma_mm / limit_mm <= out.found.value_or(-1.0)) return;
+    if (!h.recovered || !(h.sigma_mm / limit_mm > out.found.value_or(-1.0))) return;  // 0/0 is none
     out.found = h.sigma_mm / limit_mm;
     weakest = &h;
     its_limit_mm = limit_mm;

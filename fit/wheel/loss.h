@@ -32,9 +32,9 @@ namespace rondure::fit {
 
 /// What lobes of orders 2 and 3 add to the standard uncertainty of the radius of an arc, which does
 /// not tell them from it [mm]: a normal error as wide, at 95 %, as the effect of lobes of random
-/// phase. Their size follows from what the circle leaves of the points, and is at least the noise
-/// of a point, or the form that they do not explain: prior density of its square 1/(1 + p)^2 for (1
-/// + p) times the square of that noise.
+/// phase. Their size follows from what the circle leaves of the points. It is at least s, the noise
+/// of a point or the form that they do not explain: its square is (1 + p) s^2, p with the prior
+/// density 1/(1 + p)^2.
 /// @param residuals_mm  Distances less those of a circle, one for each angle; n >= 5.
 /// @param point_mm  Standard uncertainty of a point along the radius.
 [[nodiscard]] double lobes_in_radius_mm(std::span<const double> angles_rad,

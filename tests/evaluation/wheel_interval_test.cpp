@@ -316,8 +316,6 @@ TEST(WheelInterval, ARadiusIsJudgedAt20DegC) {
   EXPECT_THAT(without.characteristics.at(0).reason.english(), HasSubstr("was not recorded"));
 }
 
-// u: R dT u_alpha = 49.983 mm x 10 K x 1e-6/K = 0.50 um, R alpha u_T = 49.983 mm x 8e-6/K x 1 K =
-// 0.40 um, and 0.10 um of the points.
 // 5 K are 2 um of a radius of 50 mm. Without a temperature nothing says that they were not there.
 TEST(WheelInterval, ARadiusWithoutTemperatureIsJudgedOnlyWhereItMattersLittle) {
   const auto wheel = test::specified_wheel(1, kAllRound);
@@ -336,6 +334,8 @@ TEST(WheelInterval, ARadiusWithoutTemperatureIsJudgedOnlyWhereItMattersLittle) {
   }
 }
 
+// u: R dT u_alpha = 49.983 mm x 10 K x 1e-6/K = 0.50 um, R alpha u_T = 49.983 mm x 8e-6/K x 1 K =
+// 0.40 um, and 0.10 um of the points.
 TEST(WheelInterval, TheCorrectionTo20DegCHasAnUncertainty) {
   const auto wheel = test::specified_wheel(1, kAllRound);
   WheelTask task = task_of(wheel);
