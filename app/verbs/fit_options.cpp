@@ -276,8 +276,6 @@ void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
                    "Harmonics with a higher noise gain are not recovered (default: 100)");
   verb->add_option("--probe-noise", a.probe_noise_um,
                    "um, standard deviation of a reading (default: estimated)");
-  verb->add_option("--regularise", a.expected_amplitude_um,
-                   "um, amplitude expected of a harmonic: weak ones are attenuated");
   add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.second_order,
                                               "auto (default), on or off");
   verb->add_option("--cutoff-upr", a.cutoff_upr,

@@ -196,10 +196,6 @@ fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
   out.greatest_gain = a.greatest_gain;
   if (a.probe_noise_um) out.noise_mm = *a.probe_noise_um * kMicrometre;
   out.resample = !a.no_resampling;
-  if (a.expected_amplitude_um) {
-    out.recovery = Options::Recovery::kTikhonov;
-    out.expected_amplitude_mm = *a.expected_amplitude_um * kMicrometre;
-  }
   using SecondOrder = record::SpindleTask::SecondOrder;
   if (a.second_order == SecondOrder::kOn) out.second_order = Options::SecondOrder::kOn;
   if (a.second_order == SecondOrder::kOff) out.second_order = Options::SecondOrder::kOff;

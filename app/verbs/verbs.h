@@ -206,7 +206,6 @@ struct SpindleArguments {
   int highest_order = record::SpindleTask().highest_order;
   double greatest_gain = record::SpindleTask().greatest_gain;
   std::optional<double> probe_noise_um;
-  std::optional<double> expected_amplitude_um;  ///< Given: the regularised form.
   record::SpindleTask::SecondOrder second_order = record::SpindleTask().second_order;
   double cutoff_upr = record::SpindleTask().cutoff_upr;
   bool no_resampling = false;

@@ -61,11 +61,7 @@ fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
     // Declared gains and angles take the place of the bare noise: see gates.cpp.
     out.judge_first_harmonic = !(declared.gain_1 && declared.angle_deg);
   }
-  out.expected_amplitude_mm = task.expected_amplitude_um * kMicrometre;
   out.resample = task.resampling == record::Switch::kOn;
-  if (task.recovery == SpindleTask::Recovery::kRegularised) {
-    out.recovery = Options::Recovery::kTikhonov;
-  }
   out.second_order = second_order_of(task.second_order);
   if (task.motion == SpindleTask::Motion::kAsPublished) out.motion = Options::Motion::kAsPublished;
   return out;
@@ -73,11 +69,6 @@ fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
 
 /// Why the settings allow no interval of part and motion.
 std::optional<core::Phrase> obstacle_of(const SpindleTask& task) {
-  if (task.recovery == SpindleTask::Recovery::kRegularised) {
-    return core::phrase(
-        "a regularised recovery attenuates harmonics by an unknown amount; make "
-        "the recovery \"threshold\"");
-  }
   if (task.motion == SpindleTask::Motion::kAsPublished) {
     return core::phrase(
         "the motion is as published, for comparison only; make it "

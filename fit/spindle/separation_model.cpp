@@ -138,7 +138,7 @@ SpindleCurves SeparationModel::separate(const std::array<std::vector<double>, 3>
       Complex transfer;
       for (std::size_t i = 0; i < 3; ++i)
         transfer += std::polar(1.0, harmonic.order * angles[i]) * weights[i];
-      part[k] = harmonic.attenuation * f[k] / transfer;
+      part[k] = f[k] / transfer;
       const Complex c = 2.0 / static_cast<double>(count) * part[k] *
                         std::polar(1.0, -harmonic.order * result_.profile.start_rad);
       out.profile_mm[row] = c.real();

@@ -24,8 +24,6 @@ struct ProbeReadings {
 
 /// Settings of separate_three_probe().
 struct ThreeProbeOptions {
-  /// kTikhonov attenuates weak harmonics by |G|^2 / (|G|^2 + mu^2) instead of dropping them.
-  enum class Recovery { kThreshold, kTikhonov };
   /// kAuto: for more than 10 um of motion. Needs the radius of the part.
   enum class SecondOrder { kAuto, kOff, kOn };
   /// kAsPublished: RY by the printed formula, which is wrong; for comparison only.
@@ -36,9 +34,7 @@ struct ThreeProbeOptions {
   double greatest_gain = 100.0;    ///< A harmonic with a greater gain is not recovered; >= 1.
   double warn_gain = 25.0;         ///< A harmonic with a greater gain is named in a warning.
   std::optional<double> noise_mm;  ///< Standard deviation of a reading; none: estimated.
-  double expected_amplitude_mm = 1e-4;  ///< Amplitude of a harmonic, for kTikhonov; > 0.
-  bool resample = true;                 ///< false: readings are taken as uniform in theta.
-  Recovery recovery = Recovery::kThreshold;
+  bool resample = true;            ///< false: readings are taken as uniform in theta.
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
   /// false: content at one undulation above its limit is no contradiction, because the caller
@@ -55,7 +51,6 @@ struct RecoveredHarmonic {
   double transfer = 0.0;            ///< |G|.
   double gain = 0.0;                ///< Noise gain g.
   double sigma_mm = 0.0;            ///< Standard uncertainty of the amplitude, g s sqrt(2/n).
-  double attenuation = 1.0;         ///< Factor of kTikhonov; 1 for kThreshold.
 };
 
 /// Motion of the part's centre, X and Y over the samples of one revolution [mm].

@@ -37,10 +37,6 @@ core::Result<void> check_options(const ThreeProbeOptions& options) {
                               options.greatest_gain));
   }
   if (options.noise_mm && !(*options.noise_mm >= 0.0)) return refuse("probe noise is negative");
-  if (options.recovery == ThreeProbeOptions::Recovery::kTikhonov &&
-      !(options.expected_amplitude_mm > 0.0)) {
-    return refuse("the regularised form needs an expected amplitude above 0");
-  }
   if (options.samples < 0) return refuse("the number of samples is negative");
   return {};
 }
@@ -87,14 +83,6 @@ struct Guard {
     out.gain = layout.gain(order);
     out.sigma_mm = out.gain * noise_mm * std::sqrt(2.0 / values);
     out.recovered = out.gain <= options.greatest_gain;
-    if (options.recovery == ThreeProbeOptions::Recovery::kTikhonov) {
-      const double mu = 2.0 * noise_mm * layout.weight_norm() /
-                        (options.expected_amplitude_mm * std::sqrt(values));
-      const double power = out.transfer * out.transfer;
-      out.attenuation = power / (power + mu * mu);
-      out.recovered = out.gain < 1e12;
-      out.sigma_mm *= out.attenuation;
-    }
     return out;
   }
 };
@@ -125,7 +113,7 @@ Spectrum recover(const Spectrum& sum, const Guard& guard, std::size_t count, dou
     RecoveredHarmonic harmonic = guard.look_at(order);
     const auto k = static_cast<std::size_t>(order);
     if (harmonic.recovered) {
-      part[k] = harmonic.attenuation * sum[k] / guard.layout.transfer(order);
+      part[k] = sum[k] / guard.layout.transfer(order);
       harmonic.amplitude_mm = 2.0 * std::abs(part[k]) / static_cast<double>(count);
       if (harmonic.amplitude_mm > kPhaseFrom * harmonic.sigma_mm) {
         harmonic.phase_rad = std::remainder(-std::arg(part[k]) + order * start_rad, core::kTwoPi);

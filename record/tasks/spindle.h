@@ -15,7 +15,6 @@ namespace rondure::record {
 /// part and motion of its axis, from three probes. A member initialiser is the default of its key.
 struct SpindleTask {
   enum class Layout { kAngles, kPublishedA, kPublishedB, kReference };
-  enum class Recovery { kThreshold, kRegularised };
   enum class SecondOrder { kAuto, kOn, kOff };
   enum class Motion { kLeastSquares, kAsPublished };
   enum class Filter { kGaussian, kNone };
@@ -31,8 +30,6 @@ struct SpindleTask {
   int samples = 1024;
   int highest_order = 50;
   double greatest_gain = 100.0;
-  Recovery recovery = Recovery::kThreshold;
-  double expected_amplitude_um = 0.1;    ///< Amplitude of a harmonic, for kRegularised.
   std::optional<double> probe_noise_um;  ///< None: estimated from the readings.
   Switch resampling = Switch::kOn;
   SecondOrder second_order = SecondOrder::kAuto;
@@ -49,11 +46,6 @@ constexpr auto words_of(SpindleTask::Layout) {
                                       {Layout::kPublishedA, "published-a"},
                                       {Layout::kPublishedB, "published-b"},
                                       {Layout::kReference, "reference"}});
-}
-constexpr auto words_of(SpindleTask::Recovery) {
-  using Recovery = SpindleTask::Recovery;
-  return std::to_array<Word<Recovery>>(
-      {{Recovery::kThreshold, "threshold"}, {Recovery::kRegularised, "regularised"}});
 }
 constexpr auto words_of(SpindleTask::SecondOrder) {
   using SecondOrder = SpindleTask::SecondOrder;
@@ -120,12 +112,6 @@ void describe_recovery(Visitor& v, SpindleTask& p) {
           range(2, 10'000, "Highest undulation number that is recovered; below half the samples."));
   v.number("greatest_gain", p.greatest_gain,
            range(1.0, 1e9, "A harmonic with a higher noise gain is not recovered but listed."));
-  v.text(
-      "recovery", p.recovery,
-      {.meaning = "threshold: harmonics are recovered whole or not at all. regularised: weak ones "
-                  "are attenuated, and the report states by how much."});
-  v.number("expected_amplitude_um", p.expected_amplitude_um,
-           above(0.0, 1000.0, "Amplitude expected of a harmonic (recovery regularised)."));
   v.number("probe_noise_um", p.probe_noise_um,
            range(0.0, 1000.0,
                  "Standard deviation of one reading; left out: estimated from the scatter "

@@ -18,8 +18,7 @@ Json harmonic_json(const fit::RecoveredHarmonic& h) {
           {"phase_deg", h.phase_rad ? Json(in_deg(*h.phase_rad)) : Json(nullptr)},
           {"transfer", h.transfer},
           {"gain", h.gain < 1e300 ? Json(h.gain) : Json(nullptr)},
-          {"u_um", h.recovered ? Json(in_um(h.sigma_mm)) : Json(nullptr)},
-          {"attenuation", h.attenuation}};
+          {"u_um", h.recovered ? Json(in_um(h.sigma_mm)) : Json(nullptr)}};
 }
 
 Json motion_json(const fit::AxisMotion& motion) {

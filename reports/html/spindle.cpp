@@ -158,13 +158,10 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
         {std::to_string(h.order),
          h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
          h.phase_rad ? deg(*h.phase_rad, 2) : "–",
-         h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
-         h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–"});
+         h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2)});
   }
-  return scrolling(table(
-             "short", "rrrrrr", spoken_caption(tr("Harmonics of the part")),
-             {"UPR", tr("Amplitude µm"), tr("Phase °"), "u µm", tr("Gain"), tr("Attenuation")},
-             rows)) +
+  return scrolling(table("short", "rrrrr", spoken_caption(tr("Harmonics of the part")),
+                         {"UPR", tr("Amplitude µm"), tr("Phase °"), "u µm", tr("Gain")}, rows)) +
          note(tr("The ten largest, and those not recovered; all are in report.json."));
 }
 

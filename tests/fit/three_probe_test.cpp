@@ -409,26 +409,6 @@ TEST(ThreeProbe, SeparatesRevolutionsThatDiffer) {
   EXPECT_LT(worst, 2e-6);
 }
 
-TEST(ThreeProbe, RegularisedFormStatesItsBias) {
-  const SpindleCase c;
-  const ProbeLayout layout = published_layout_b();
-  ThreeProbeOptions options = exact_options(1024);
-  options.noise_mm = 0.05 * kMicrometre;
-  options.expected_amplitude_mm = 0.1 * kMicrometre;
-  options.recovery = ThreeProbeOptions::Recovery::kTikhonov;
-  const auto r = separate_three_probe(readings_at(c, layout, uniform_theta(c.arm, 1024)), c.arm,
-                                      layout, options);
-  ASSERT_TRUE(r);
-  EXPECT_THAT(r->unrecovered, IsEmpty());
-  for (const RecoveredHarmonic& h : r->harmonics) {
-    const double mu = 2.0 * 0.05 * layout.weight_norm() / (0.1 * 32.0);
-    EXPECT_NEAR(h.attenuation, 1.0 / (1.0 + std::pow(mu / h.transfer, 2)), 1e-12);
-  }
-  const RecoveredHarmonic& fifth = r->harmonics[3];
-  EXPECT_NEAR(fifth.amplitude_mm / kMicrometre, 0.8 * fifth.attenuation, 1e-9);
-  EXPECT_LT(fifth.attenuation, 0.99);
-}
-
 TEST(ThreeProbe, AWrongAngleShowsAtOneUndulation) {
   const SpindleCase c;
   const ProbeLayout layout = published_layout_b();

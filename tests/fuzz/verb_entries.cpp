@@ -89,7 +89,6 @@ std::string try_spindle(std::string_view bytes) {
   arguments.samples = choices.yes() ? 128 : 0;
   arguments.highest_order = 20;
   arguments.cutoff_upr = choices.yes() ? 15.0 : 0.0;
-  if (choices.yes()) arguments.expected_amplitude_um = 1.0;
   arguments.no_resampling = choices.yes();
   arguments.json = choices.yes();
   arguments.file = file_of(bytes);

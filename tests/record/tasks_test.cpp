@@ -82,7 +82,6 @@ SpindleTask full_spindle() {
   out.p1_to_p3_deg = -0.0;
   out.crank_radius_mm = std::numeric_limits<double>::denorm_min();
   out.samples = 720;
-  out.recovery = SpindleTask::Recovery::kRegularised;
   out.probe_noise_um = kOdd / 3.0;
   out.probe_range_um = kOdd / 5.0;
   out.resampling = Switch::kOff;
