@@ -155,12 +155,13 @@ std::string residual_table(const plans::Plan& plan,
   if (first == nullptr) return {};
   const evaluation::ResidualPrediction& p = *first->residual;
   return "\nPredicted uncertainty of a calibration, before the first touch, 95 %\n" + rows +
-         wrapped(fmt::format("Linear propagation to {} ball centres of {:.2g} um each: touches "
-                             "(repeatability {}), ball_um, machine_uncertainty_um. U is {} u. The "
-                             "value itself cannot be foretold: {}.",
-                             p.centers, core::micrometres(p.center_u_mm), p.repeatability,
-                             kNormal95, first->prediction.why),
-                 "  ", "    ");
+         wrapped(
+             fmt::format("Linear propagation to {} ball centres of {:.2g} um each: touches "
+                         "(repeatability {}) and ball_um. U is {} u. The value itself cannot be "
+                         "foretold: {}.",
+                         p.centers, core::micrometres(p.center_u_mm), p.repeatability, kNormal95,
+                         first->prediction.why),
+             "  ", "    ");
 }
 
 bool states_any(const std::vector<PredictedCharacteristic>& predicted) {

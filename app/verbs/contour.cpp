@@ -123,9 +123,7 @@ fit::ContourStudyOptions options_of(const ContourArguments& arguments) {
                    : fit::ContourMethod::kCorrected;
   out.axes.error_sign = arguments.error_sign;
   out.axes.c_direction = arguments.c_direction;
-  out.axes.samples = arguments.path_samples;
   out.samples = arguments.samples;
-  out.pre_filter_upr = arguments.pre_filter_upr;
   out.error.filter.cutoff_upr = arguments.cutoff_upr;
   out.error.base = arguments.base == record::ContourTask::BaseCircle::kGeometric
                        ? fit::BaseCircle::kGeometric
@@ -135,7 +133,6 @@ fit::ContourStudyOptions options_of(const ContourArguments& arguments) {
   out.main_phase_offset_rad =
       arguments.main_phase_offset_deg.value_or(arguments.phase_offset_deg) * core::kDegree;
   out.gauge_direction = arguments.gauge_direction;
-  out.map_main = arguments.map_main;
   return out;
 }
 

@@ -49,11 +49,7 @@ void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
   verb.add_option("--pin-radius-mm", arguments.pin_radius_mm, "r (default: 24.56)");
   verb.add_option("--main-radius-mm", arguments.main_radius_mm, "Main journal (default: 30)");
   verb.add_option("--cutoff-upr", arguments.cutoff_upr, "Gaussian low pass (default: 50)");
-  verb.add_option("--pre-filter-upr", arguments.pre_filter_upr,
-                  "Gaussian low pass of the axis errors first (default: none)");
   verb.add_option("--samples", arguments.samples, "Points of a contour (default: 1440)");
-  verb.add_option("--path-samples", arguments.path_samples,
-                  "C positions the traces are brought to (default: 1440)");
   verb.add_option("--phase-offset-deg", arguments.phase_offset_deg,
                   "Gauge angle of the direction from the crankshaft's to the pin's axis");
   verb.add_option("--main-phase-offset-deg", arguments.main_phase_offset_deg,
@@ -74,8 +70,6 @@ void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
       verb, "--method", arguments.method,
       "corrected (default), or as-published: each f is turned onto its t");
   verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
-  verb.add_flag("--map-main", arguments.map_main,
-                "Carry a main journal to the pin as n(alpha(beta)) cos(eta)");
 }
 
 void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {

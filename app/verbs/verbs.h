@@ -131,9 +131,7 @@ struct ContourArguments {
   double pin_radius_mm = record::ContourTask().pin_radius_mm;
   double main_radius_mm = record::ContourTask().main_radius_mm;
   double cutoff_upr = record::ContourTask().cutoff_upr;
-  double pre_filter_upr = record::ContourTask().pre_filter_upr;
   std::size_t samples = static_cast<std::size_t>(record::ContourTask().samples);
-  std::size_t path_samples = static_cast<std::size_t>(record::ContourTask().path_samples);
   double phase_offset_deg = record::ContourTask().phase_offset_deg;
   std::optional<double> main_phase_offset_deg;  ///< Absent: as of the pins.
   int gauge_direction = 1;
@@ -142,7 +140,6 @@ struct ContourArguments {
   record::ContourTask::BaseCircle base = record::ContourTask().base_circle;
   record::ContourTask::Method method = record::ContourTask().method;
   bool prefiltered = false;
-  bool map_main = false;
   std::string curves;  ///< File for the curves; empty: none.
   bool json = false;
 };

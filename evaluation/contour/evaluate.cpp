@@ -34,11 +34,9 @@ fit::ContourStudyOptions contour_options(const ContourTask& task) {
   out.axes.error_sign = task.error == ContourTask::Error::kCommandMinusActual ? -1 : 1;
   out.axes.c_direction = task.c_axis == ContourTask::CAxis::kAgainstWheel ? -1 : 1;
   out.gauge_direction = task.gauge == ContourTask::Gauge::kClockwise ? -1 : 1;
-  out.axes.samples = static_cast<std::size_t>(task.path_samples);
   out.samples = static_cast<std::size_t>(task.samples);
   out.phase_offset_rad = task.phase_offset_deg * kDegree;
   out.main_phase_offset_rad = task.main_phase_offset_deg * kDegree;
-  out.pre_filter_upr = task.pre_filter_upr;
   out.error.filter.cutoff_upr = task.cutoff_upr;
   if (task.filter == ContourTask::Filter::kNone) {
     out.error.filter.filter = fit::ProfileFilter::kNone;
@@ -47,8 +45,6 @@ fit::ContourStudyOptions contour_options(const ContourTask& task) {
   out.error.base = task.base_circle == ContourTask::BaseCircle::kGeometric
                        ? fit::BaseCircle::kGeometric
                        : fit::BaseCircle::kLimacon;
-  out.map_main = task.main_journal == ContourTask::MainJournal::kMapped;
-  out.limits = {task.stable_from, task.partly_from};
   return out;
 }
 

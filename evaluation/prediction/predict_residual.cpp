@@ -65,10 +65,8 @@ core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expec
   ResidualPrediction out;
   out.centers = combined.size();
   const auto count = static_cast<double>(combined.size());
-  const double beside_um =
-      std::hypot(task->machine_uncertainty_um, record::u_of(task->uncertainty->ball_um));
-  out.center_u_mm =
-      std::hypot(sigma_mm * std::sqrt(cofactors / count), beside_um * core::kMicrometre);
+  out.center_u_mm = std::hypot(sigma_mm * std::sqrt(cofactors / count),
+                               record::u_of(task->uncertainty->ball_um) * core::kMicrometre);
   out.rms_u_mm = out.center_u_mm / std::sqrt(count);
   out.largest_u_mm = out.center_u_mm;
   out.repeatability = words;

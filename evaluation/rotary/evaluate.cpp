@@ -91,8 +91,7 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
   for (const record::BallTask& ball : task.balls) out.names.push_back(ball.id);
   const record::RotaryInfluencesTask said =
       task.uncertainty.value_or(record::RotaryInfluencesTask());
-  out.machine_u_mm =
-      std::hypot(task.machine_uncertainty_um, record::u_of(said.ball_um)) * kMicrometre;
+  out.machine_u_mm = record::u_of(said.ball_um) * kMicrometre;
   out.repeat_u_rad = record::u_of(said.repeat_urad) * kMicroradian;
   out.placing_u_rad = std::hypot(record::u_of(said.reading_urad) * kMicroradian, out.repeat_u_rad);
   const double radius_mm = 0.5 * task.ball_diameter_mm + tip_mm;

@@ -13,7 +13,6 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
-#include "fit/profiles/profile_filter.h"
 
 namespace rondure::fit {
 namespace {
@@ -80,17 +79,6 @@ std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samp
     r.push_back(radius);
   }
   return even_samples(std::move(beta), std::move(r), samples);
-}
-
-core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
-  FilterOptions options;
-  options.cutoff_upr = cutoff_upr;
-  options.override_sampling = true;  // requested by the caller; the sampling is checked with kc
-  auto c = filter_closed(errors.c_rad, options);
-  if (!c) return core::fail(c.error());
-  auto x = filter_closed(errors.x_mm, options);
-  if (!x) return core::fail(x.error());
-  return AxisErrors{std::move(c->r_mm), std::move(x->r_mm)};
 }
 
 /// Positions farther apart than the wheel is wide leave angles that no position reaches.
@@ -185,26 +173,14 @@ core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const 
   const double wheel = geometry.wheel_radius_mm;
   const std::size_t times =
       options.refine ? (options.samples + path->x_mm.size() - 1) / path->x_mm.size() : 1;
-  const auto curve_of = [&](const GrindingPath& one) {
-    return parallel_curve(times > 1 ? refined(one, times) : one, wheel, options.form);
-  };
-  ParallelCurve curve = curve_of(*path);
+  const ParallelCurve curve =
+      parallel_curve(times > 1 ? refined(*path, times) : *path, wheel, options.form);
   GroundContour out;
   out.regularity = curve.regularity;
   out.least_regular_rad = curve.least_regular_rad;
-  out.undercut = out.from_envelope = curve.undercut;
-  std::optional<GrindingPath> smooth;
-  if (options.pre_filter_upr != 0.0) {
-    const auto smoothed = filtered(errors, options.pre_filter_upr);
-    if (!smoothed) return core::fail(smoothed.error());
-    auto smooth_path = wheel_path(geometry, *smoothed);
-    if (!smooth_path) return core::fail(smooth_path.error());
-    smooth = *std::move(smooth_path);
-    curve = curve_of(*smooth);
-    out.from_envelope = curve.undercut;
-  }
-  out.r_mm = out.from_envelope ? envelope_radii_mm(smooth ? *smooth : *path, wheel, options.samples)
-                               : resampled_radii(curve, options.samples);
+  out.undercut = curve.undercut;
+  out.r_mm = out.undercut ? envelope_radii_mm(*path, wheel, options.samples)
+                          : resampled_radii(curve, options.samples);
   if (auto checked = check_radii(out.r_mm, errors, wheel); !checked) {
     return core::fail(checked.error());
   }

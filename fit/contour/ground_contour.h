@@ -59,8 +59,7 @@ struct ParallelCurve {
 
 /// Settings of ground_contour().
 struct GroundContourOptions {
-  std::size_t samples = 1440;   ///< M, points of the contour.
-  double pre_filter_upr = 0.0;  ///< Gaussian low pass applied to the axis errors; 0: none.
+  std::size_t samples = 1440;  ///< M, points of the contour.
   ParallelForm form = ParallelForm::kFourier;
   /// Refine a path of fewer samples than the contour by its Fourier series; otherwise a spline over
   /// beta interpolates (300 samples: 1e-4 um off before the filter, 2e-5 um after it).
@@ -70,15 +69,13 @@ struct GroundContourOptions {
 /// A ground pin at the angles 2 pi m / M.
 struct GroundContour {
   std::vector<double> r_mm;
-  double regularity = 0.0;         ///< Regularity of the unfiltered path, see ParallelCurve.
+  double regularity = 0.0;         ///< Regularity of the path, see ParallelCurve.
   double least_regular_rad = 0.0;  ///< Command angle of the least regular place.
-  bool undercut = false;           ///< The unfiltered path has loops.
-  bool from_envelope = false;      ///< The radii are those of envelope_radii_mm().
+  bool undercut = false;           ///< The path has loops: r_mm is the envelope_radii_mm().
 };
 
 /// Computes the contour that given axis errors grind. If the parallel curve has loops, the envelope
-/// is used instead. With a pre-filter, loops of the filtered path decide this, and loops of the
-/// unfiltered path are still flagged.
+/// is used instead.
 ///
 /// @return the errors of wheel_path(); kBadOption for fewer than 16 samples.
 ///         O(N log N + M); some ms more for the envelope.

@@ -10,7 +10,6 @@
 #include "core/units.h"
 #include "fit/contour/error.h"
 #include "fit/profiles/internal/dft.h"
-#include "fit/profiles/periodic_spline.h"
 
 namespace rondure::fit {
 namespace {
@@ -148,24 +147,6 @@ ContourSeparation separate_contour(std::span<const double> total_mm,
   out.rest_mm2 = mean_product(out.rest_mm, out.rest_mm);
   out.cross_mm2 = 2.0 * mean_product(following_mm, out.rest_mm);
   out.correlation = correlation_of(following_mm, out.rest_mm);
-  return out;
-}
-
-std::vector<double> rest_from_main(std::span<const double> main_mm, const CrankGeometry& geometry,
-                                   bool map) {
-  if (!map) return {main_mm.begin(), main_mm.end()};
-  const std::size_t n = main_mm.size();
-  std::vector<double> angles(n);
-  for (std::size_t m = 0; m < n; ++m) {
-    angles[m] = core::kTwoPi * static_cast<double>(m) / static_cast<double>(n);
-  }
-  const PeriodicSpline main(angles, {main_mm.begin(), main_mm.end()});
-  std::vector<double> out(n);
-  for (std::size_t m = 0; m < n; ++m) {
-    const double alpha = command_angle_rad(geometry, angles[m]);
-    out[m] = main(std::clamp(alpha, 0.0, core::kTwoPi)) *
-             std::cos(pressure_angle_rad(geometry, angles[m]));
-  }
   return out;
 }
 

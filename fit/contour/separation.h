@@ -32,12 +32,6 @@ struct ContourSeparation {
 /// Correlation of two curves, in [-1, 1]; 0 where one of them is zero.
 [[nodiscard]] double correlation_of(std::span<const double> a, std::span<const double> b);
 
-/// Estimates the rest of a pin from the neighbouring main journal.
-/// @param map  Map the curve to the pin as n(alpha(beta)) cos(eta), as run-out of wheel and
-///             workhead would act; otherwise it is used unchanged.
-[[nodiscard]] std::vector<double> rest_from_main(std::span<const double> main_mm,
-                                                 const CrankGeometry& geometry, bool map);
-
 /// Angle by which a curve must be turned onto another for the greatest circular cross-correlation.
 /// For diagnosis only: turning f absorbs part of the rest, which amounts to some degrees even for a
 /// correct alignment.

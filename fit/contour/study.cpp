@@ -53,10 +53,8 @@ void warn_of_undercut(ContourPartResult& part) {
   part.axes.warnings.push_back(
       {core::Code::kUndercut,
        fmt::format("the wheel path cuts under the contour near C = {:.2f} deg (1 - Rgw kappa = "
-                   "{:.3g}, regular above 0): the contour is {}",
-                   part.ground.least_regular_rad / core::kDegree, part.ground.regularity,
-                   part.ground.from_envelope ? "the envelope of all wheel positions"
-                                             : "that of the pre-filtered path, which hides it")});
+                   "{:.3g}, regular above 0): the contour is the envelope of all wheel positions",
+                   part.ground.least_regular_rad / core::kDegree, part.ground.regularity)});
 }
 
 /// Computes f from the axes alone.
@@ -80,11 +78,10 @@ core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& op
   return {};
 }
 
-IndirectSeparation indirect(const ContourPartResult& part, const ContourStudyOptions& options) {
+IndirectSeparation indirect(const ContourPartResult& part) {
   IndirectSeparation out;
   const auto& total = part.pin.contour.error_mm;
-  out.following_mm =
-      rest_from_main(part.main->contour.error_mm, options.geometry, options.map_main);
+  out.following_mm = part.main->contour.error_mm;
   for (std::size_t m = 0; m < total.size(); ++m) {
     out.following_mm[m] = total[m] - out.following_mm[m];
   }
@@ -240,7 +237,6 @@ core::Result<FollowingContour> following_contour(const AxisErrors& errors,
                                                  const ContourStudyOptions& options) {
   GroundContourOptions how;
   how.samples = options.samples;
-  how.pre_filter_upr = options.pre_filter_upr;
   how.refine = options.refine_path;
   if (options.method == ContourMethod::kAsPublished) how.form = ParallelForm::kDifferences;
   auto ground = ground_contour(options.geometry, errors, how);
@@ -273,7 +269,7 @@ core::Result<ContourPartResult> contour_part(const ContourPart& part,
       measured_contour(part.main->angle_rad, part.main->deviation_mm, gauge_options(options, true));
   if (!main) return core::fail(placed(main.error(), "main"));
   out.main = *std::move(main);
-  out.indirect = indirect(out, options);
+  out.indirect = indirect(out);
   return out;
 }
 

@@ -35,15 +35,13 @@ struct ContourStudyOptions {
   CrankGeometry geometry;
   double main_radius_mm = 30.0;  ///< Radius of the main journals.
   AxisTraceOptions axes;
-  bool refine_path = true;        ///< See GroundContourOptions::refine.
-  double pre_filter_upr = 0.0;    ///< Low pass of the axis errors before the envelope; 0: none.
-  std::size_t samples = 1440;     ///< Samples M of every contour.
-  ContourErrorOptions error;      ///< Base circle and filter of every contour.
-  bool prefiltered = false;       ///< The gauge has filtered pins and mains.
-  double phase_offset_rad = 0.0;  ///< Gauge angle of the direction O to pin centre, pins.
+  bool refine_path = true;             ///< See GroundContourOptions::refine.
+  std::size_t samples = 1440;          ///< Samples M of every contour.
+  ContourErrorOptions error;           ///< Base circle and filter of every contour.
+  bool prefiltered = false;            ///< The gauge has filtered pins and mains.
+  double phase_offset_rad = 0.0;       ///< Gauge angle of the direction O to pin centre, pins.
   double main_phase_offset_rad = 0.0;  ///< The same for the main journals.
   int gauge_direction = 1;             ///< -1: the gauge turns against beta.
-  bool map_main = false;               ///< See rest_from_main().
   StabilityLimits limits;
 };
 

@@ -29,7 +29,6 @@ struct ContourTask {
   enum class Gauge { kCounterClockwise, kClockwise };
   enum class Filter { kGaussian, kNone, kDoneByGauge };
   enum class BaseCircle { kLimacon, kGeometric };
-  enum class MainJournal { kAsIs, kMapped };
 
   double crank_radius_mm = 49.0;
   double wheel_radius_mm = 299.88;
@@ -43,17 +42,12 @@ struct ContourTask {
   double phase_offset_deg = 0.0;
   double main_phase_offset_deg = 0.0;
   int samples = 1440;
-  int path_samples = 1440;
   Filter filter = Filter::kGaussian;
   double cutoff_upr = 50.0;
-  double pre_filter_upr = 0.0;
   BaseCircle base_circle = BaseCircle::kLimacon;
-  MainJournal main_journal = MainJournal::kAsIs;
   /// From sample to sample of the control; left out or 0: not known. Without a default: a journal
   /// of this version that was written before the key must still be read.
   std::optional<double> sampling_ms;
-  double stable_from = 0.9;
-  double partly_from = 0.5;
   std::optional<ContourInfluencesTask> uncertainty;
   std::vector<ContourPartTask> parts;  ///< Empty: simulated.
 };
@@ -89,12 +83,6 @@ constexpr auto words_of(ContourTask::BaseCircle) {
   return std::to_array<Word<BaseCircle>>(
       {{BaseCircle::kLimacon, "limacon"}, {BaseCircle::kGeometric, "geometric"}});
 }
-constexpr auto words_of(ContourTask::MainJournal) {
-  using MainJournal = ContourTask::MainJournal;
-  return std::to_array<Word<MainJournal>>(
-      {{MainJournal::kAsIs, "as-is"}, {MainJournal::kMapped, "mapped"}});
-}
-
 template <class Visitor>
 void describe(Visitor& v, ContourPartTask& p) {
   v.text("name", p.name, {.meaning = "What the part is called in the report."});
@@ -154,26 +142,16 @@ void describe(Visitor& v, ContourTask& p) {
                      "for comparison only."});
   describe_senses(v, p);
   v.whole("samples", p.samples, range(16, 100'000, "Points of a contour."));
-  v.whole("path_samples", p.path_samples,
-          range(16, 100'000, "C positions the traces are brought to."));
   v.text(
       "filter", p.filter,
       {.meaning = "Low pass of all contours; done-by-gauge: pins and mains are filtered already, "
                   "the following part is filtered alike."});
   v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
-  v.number("pre_filter_upr", p.pre_filter_upr,
-           range(0.0, 10'000.0, "Gaussian low pass of the axis errors first; 0: none."));
   v.text("base_circle", p.base_circle, {.meaning = "How the base circle is taken away."});
-  v.text("main_journal", p.main_journal,
-         {.meaning = "mapped: carried to the pin as n(alpha(beta)) cos(eta)."});
   v.number("sampling_ms", p.sampling_ms,
            range(0.0, 1000.0,
                  "From sample to sample of the control, which uncertainty/skew_ms needs; 0: not "
                  "known."));
-  v.number("stable_from", p.stable_from,
-           range(0.0, 1.0, "Stability index from which on it is stable."));
-  v.number("partly_from", p.partly_from,
-           range(0.0, 1.0, "Stability index from which on it is partly."));
   v.object(
       "uncertainty", p.uncertainty,
       {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "

@@ -33,7 +33,6 @@ struct RotaryTask {
   std::vector<double> alpha_stations_deg;
   std::vector<double> beta_stations_deg;
   std::vector<CombinedPoseTask> verification;  ///< Poses that the fit does not use.
-  double machine_uncertainty_um = 0.0;  ///< Standard, of a centre, in addition to the touches.
   double valid_for_days = 365.0;
   std::optional<RotaryInfluencesTask> uncertainty;
 };
@@ -91,10 +90,6 @@ void describe(Visitor& v, RotaryTask& p) {
           .empty_allowed = false,
           .meaning = "At least 5 poses of both axes that are measured but not used to find the "
                      "errors: what is left there is the figure of the calibration."});
-  v.number("machine_uncertainty_um", p.machine_uncertainty_um,
-           range(0.0, 1000.0,
-                 "Standard uncertainty of a ball centre from the machine, beside the scatter "
-                 "of the touches."));
   v.number("valid_for_days", p.valid_for_days,
            above(0.0, 36'500.0, "How long other runs may use the calibration."));
   v.object(

@@ -118,7 +118,6 @@ Json settings_json(const fit::ContourStudyOptions& options) {
       {"error_sign", options.axes.error_sign},
       {"c_direction", options.axes.c_direction},
       {"path_samples", options.axes.samples},
-      {"pre_filter_upr", options.pre_filter_upr},
       {"samples", options.samples},
       {"filter", fit::name_of(options.error.filter.filter)},
       {"cutoff_upr", options.error.filter.cutoff_upr},
@@ -127,7 +126,6 @@ Json settings_json(const fit::ContourStudyOptions& options) {
       {"phase_offset_deg", in_deg(options.phase_offset_rad)},
       {"main_phase_offset_deg", in_deg(options.main_phase_offset_rad)},
       {"gauge_direction", options.gauge_direction},
-      {"map_main", options.map_main},
       {"stable_from", options.limits.stable},
       {"partly_from", options.limits.partly}};
 }

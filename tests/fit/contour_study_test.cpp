@@ -467,9 +467,6 @@ TEST(ContourStudy, AMainJournalStandsForTheRest) {
     EXPECT_GT(part.indirect->correlation, 0.999999);
     EXPECT_LT(part.indirect->rms_difference_mm, 1e-3 * kMicrometre);
   }
-  auto mapped = spec_options();
-  mapped.map_main = true;
-  EXPECT_LT(contour_study(parts, mapped).value().parts[0].indirect->correlation, 0.9999);
 }
 
 TEST(ContourStudy, AsPublishedTurnsTheFollowingPartAndExplainsTheRestAway) {

@@ -176,32 +176,13 @@ TEST(GroundContour, ShowsUndercutWhereTheRippleIsTooSteep) {
   };
   EXPECT_FALSE(ground_contour(geometry, ripple(10.0)).value().undercut);
   const auto cut = ground_contour(geometry, ripple(30.0)).value();
-  EXPECT_TRUE(cut.undercut && cut.from_envelope);
+  EXPECT_TRUE(cut.undercut);
   EXPECT_LT(cut.regularity, 0.0);
   const auto fine = wheel_path(geometry, ripple(30.0, 28'800)).value();
   for (std::size_t m = 0; m < 1440; m += 55) {
     EXPECT_NEAR(
         envelope_by_hand(fine.x_mm, fine.y_mm, geometry.wheel_radius_mm, test::turn_angle(m, 1440)),
         cut.r_mm[m], 1e-3 * kMicrometre);
-  }
-}
-
-TEST(GroundContour, APreFilterDoesNotHideUndercut) {
-  const CrankGeometry geometry;
-  AxisErrors errors = {std::vector<double>(1440, 0.0), std::vector<double>(1440, 0.0)};
-  errors.x_mm[400] = 0.01;  // a peak of one sample
-  const auto out = ground_contour(geometry, errors, {.pre_filter_upr = 50.0}).value();
-  EXPECT_TRUE(out.undercut);
-  EXPECT_FALSE(out.from_envelope);
-  EXPECT_TRUE(ground_contour(geometry, errors).value().from_envelope);
-}
-
-TEST(GroundContour, PreFilterChangesFAsMuchAsTheSpecificationSays) {
-  const auto plain = test::spec_following();
-  for (const auto& [upr, um] : {std::pair{100.0, 0.0097}, std::pair{50.0, 0.037}}) {
-    SCOPED_TRACE(upr);
-    const auto smooth = test::spec_following(1.0, 300, {.pre_filter_upr = upr});
-    EXPECT_NEAR(largest_difference(plain.error_mm, smooth.error_mm) / kMicrometre, um, 0.03 * um);
   }
 }
 

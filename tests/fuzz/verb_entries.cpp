@@ -148,14 +148,12 @@ std::string try_contour(std::string_view bytes) {
   Choices choices(bytes);
   app::ContourArguments arguments;
   arguments.samples = 360;
-  arguments.path_samples = 360;
   arguments.cutoff_upr = 15.0;
   using Method = record::ContourTask::Method;
   using BaseCircle = record::ContourTask::BaseCircle;
   arguments.method = choices.yes() ? Method::kAsPublished : Method::kCorrected;
   arguments.base = choices.yes() ? BaseCircle::kGeometric : BaseCircle::kLimacon;
   arguments.prefiltered = choices.yes();
-  arguments.map_main = choices.yes();
   arguments.json = choices.yes();
   const std::string axes = whole("axes.csv", contour_tables()[0]);
   const std::string pin = whole("pin.csv", contour_tables()[1]);

@@ -134,7 +134,6 @@ ContourTask full_contour() {
   out.samples = 16;
   out.filter = ContourTask::Filter::kDoneByGauge;
   out.base_circle = ContourTask::BaseCircle::kGeometric;
-  out.main_journal = ContourTask::MainJournal::kMapped;
   out.wheel_radius_from.emplace().feature = "ground with";
   out.parts = {{"", "a1.csv", "p1.csv", ""}, {"second", "a2.csv", "p2.csv", "m2.csv"}};
   ContourInfluencesTask& declared = out.uncertainty.emplace();
@@ -150,7 +149,6 @@ RotaryTask full_rotary_axes() {
   out.alpha_stations_deg = {-10.0, kOdd};
   out.beta_stations_deg = {5.0};
   out.verification = {{kOdd, -kOdd}, {1.0, 2.0}};
-  out.machine_uncertainty_um = kOdd;
   RotaryInfluencesTask& declared = out.uncertainty.emplace();
   declared.ball_um = DeclaredInfluence{kOdd};
   declared.expansion_per_K = DeclaredInfluence{23e-6};

@@ -279,8 +279,7 @@ Gate indirect(ContourResult& facts) {
   std::vector<double> mains;
   for (const fit::ContourPartResult& part : facts.study.parts) {
     if (!part.main) continue;
-    const auto main = fit::rest_from_main(part.main->contour.error_mm, facts.options.geometry,
-                                          facts.options.map_main);
+    const auto& main = part.main->contour.error_mm;
     rest.insert(rest.end(), part.direct.rest_mm.begin(), part.direct.rest_mm.end());
     mains.insert(mains.end(), main.begin(), main.end());
   }

@@ -70,11 +70,6 @@ void check_contour(const FeaturePlan& feature, const std::string& where, Finding
       findings.meaning(sampling.error().code, where + "/cutoff_upr", sampling.error().what);
     }
   }
-  if (plan.partly_from > plan.stable_from) {
-    findings.meaning(Code::kMeaning, where + "/partly_from",
-                     fmt::format("{} is above stable_from, {}; exchange them", plan.partly_from,
-                                 plan.stable_from));
-  }
 }
 
 }  // namespace
