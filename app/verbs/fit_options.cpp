@@ -100,15 +100,9 @@ void add_measuring(CLI::App& verb, WheelArguments& arguments) {
                   "R must be within 5 % of it; also the path without compensation");
   add_words<WheelTask::Center>(
       verb, "--center", arguments.center,
-      "least-squares (default), or a mean of four-point centres: as-published, the\n"
-      "plain one, or weighted by the conditioning");
-  add_words<WheelTask::Quadruples>(
-      verb, "--quadruples", arguments.quadruples,
-      "Of those means: all (default), best, or random: as published, without a kappa\n"
-      "limit");
-  verb.add_option("--count", arguments.count,
-                  "Quadruples of best and random (default: 6, at least)");
-  verb.add_option("--seed", arguments.seed, "Of random quadruples (default: 1)");
+      "least-squares (default), or as-published: the mean of four-point centres");
+  verb.add_option("--seed", arguments.seed,
+                  "Of quadruples drawn of more than 20 points (default: 1)");
   verb.add_option("--kappa-limit", arguments.kappa_limit,
                   "Worst conditioning accepted (default: 5, or twice the best)");
   verb.add_flag("--robust", arguments.robust, "Drop isolated points beyond 5 scales first");

@@ -151,8 +151,6 @@ struct WheelArguments {
   std::vector<double> axis_mm;                              ///< x, z; empty: not known.
   std::optional<double> nominal_radius_mm;
   record::WheelTask::Center center = record::WheelTask().center;
-  record::WheelTask::Quadruples quadruples = record::WheelTask().quadruples;
-  std::size_t count = static_cast<std::size_t>(record::WheelTask().count);
   std::uint64_t seed = 1;
   std::optional<double> kappa_limit;
   bool robust = false;

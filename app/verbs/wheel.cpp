@@ -27,9 +27,7 @@ namespace {
 
 std::string center_words(const fit::WheelMeasurement& m) {
   if (m.mean == fit::WheelMean::kLeastSquares) return "least squares";
-  return fmt::format("{} of {} quadruples",
-                     m.mean == fit::WheelMean::kWeighted ? "weighted mean" : "mean",
-                     m.centers.accepted.size());
+  return fmt::format("mean of {} quadruples", m.centers.accepted.size());
 }
 
 /// The other centre: of the quadruples or of least squares.
@@ -294,17 +292,12 @@ core::Result<Points> load_wheel(const std::string& file) {
 }
 
 using Center = record::WheelTask::Center;
-using Quadruples = record::WheelTask::Quadruples;
 
 fit::WheelOptions measuring_options(const WheelArguments& a) {
   fit::WheelOptions out;
   out.mode = a.mode == record::WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
                                                           : fit::WheelMode::kIndexed;
   if (a.center == Center::kAsPublished) out.mean = fit::WheelMean::kAsPublished;
-  if (a.center == Center::kWeighted) out.mean = fit::WheelMean::kWeighted;
-  if (a.quadruples == Quadruples::kBest) out.quadruples.choice = fit::QuadrupleChoice::kBest;
-  if (a.quadruples == Quadruples::kRandom) out.quadruples.choice = fit::QuadrupleChoice::kRandom;
-  out.quadruples.count = a.count;
   out.quadruples.seed = a.seed;
   out.quadruples.kappa_limit = a.kappa_limit;
   out.robust = a.robust;
@@ -343,12 +336,6 @@ core::Result<fit::WheelPathOptions> path_options(const WheelArguments& a,
 
 core::Result<fit::WheelTask> task_of(const WheelArguments& a) {
   fit::WheelTask out{measuring_options(a), {}};
-  if (a.center == Center::kLeastSquares && a.quadruples != Quadruples::kAll) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("--quadruples {} has no effect on a least-squares centre; add "
-                                  "--center as-published or weighted",
-                                  name_of(a.quadruples)));
-  }
   if (a.surface.empty()) {
     if (a.path.empty() && a.gcode.empty() && a.removal.empty()) return out;
     return core::fail(core::Code::kBadOption,

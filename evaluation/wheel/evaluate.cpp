@@ -22,30 +22,6 @@ using core::um;
 using record::GroundSurfaceTask;
 using record::WheelTask;
 
-fit::WheelMean wheel_mean(WheelTask::Center center) {
-  switch (center) {
-    case WheelTask::Center::kLeastSquares:
-      break;
-    case WheelTask::Center::kAsPublished:
-      return fit::WheelMean::kAsPublished;
-    case WheelTask::Center::kWeighted:
-      return fit::WheelMean::kWeighted;
-  }
-  return fit::WheelMean::kLeastSquares;
-}
-
-fit::QuadrupleChoice quadruple_choice(WheelTask::Quadruples quadruples) {
-  switch (quadruples) {
-    case WheelTask::Quadruples::kAll:
-      break;
-    case WheelTask::Quadruples::kBest:
-      return fit::QuadrupleChoice::kBest;
-    case WheelTask::Quadruples::kRandom:
-      return fit::QuadrupleChoice::kRandom;
-  }
-  return fit::QuadrupleChoice::kAll;
-}
-
 fit::WheelPointErrors point_errors(const record::WheelInfluencesTask& said) {
   return {record::u_of(said.point_um) * kMicrometre, record::u_of(said.scale_ppm) * 1e-6,
           record::u_of(said.threshold_um) * kMicrometre, record::u_of(said.wear_um) * kMicrometre};
@@ -55,9 +31,8 @@ fit::WheelOptions wheel_options(const WheelTask& task, std::uint64_t seed) {
   fit::WheelOptions out;
   out.mode = task.mode == WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
                                                      : fit::WheelMode::kIndexed;
-  out.mean = wheel_mean(task.center);
-  out.quadruples.choice = quadruple_choice(task.quadruples);
-  out.quadruples.count = static_cast<std::size_t>(task.count);
+  out.mean = task.center == WheelTask::Center::kAsPublished ? fit::WheelMean::kAsPublished
+                                                            : fit::WheelMean::kLeastSquares;
   out.quadruples.seed = seed;
   out.quadruples.kappa_limit = task.kappa_limit;
   out.robust = task.robust == record::Switch::kOn;
@@ -253,8 +228,8 @@ ValueOperator operator_of(const WheelResult& facts, const record::Characteristic
   } else if (characteristic.form != record::Form::kRoundness) {
     reference = m.mean == fit::WheelMean::kLeastSquares
                     ? core::phrase("mean distance from the least-squares centre")
-                    : core::phrase("mean distance from the centre ({} mean of {} quadruples)",
-                                   core::Phrase(fit::name_of(m.mean)), m.centers.accepted.size());
+                    : core::phrase("mean distance from the mean centre of {} quadruples of points",
+                                   m.centers.accepted.size());
   }
   return {ReferenceTerm(reference),
           FilterTerm(dropped ? filter_text(facts) : core::phrase("unfiltered")),

@@ -74,17 +74,8 @@ std::vector<Gate> quadruple_gates(const WheelResult& facts) {
            fit::kWorstBestKappa),
       gate("centers-agree", core::phrase("distance of the centre of quadruples from least squares"),
            core::micrometres(m.center_apart_mm), core::micrometres(m.center_apart_limit_mm), "um")};
-  if (m.mean != fit::WheelMean::kLeastSquares &&
-      facts.task.wheel.quadruples.choice == fit::QuadrupleChoice::kRandom &&
-      m.centers.accepted.size() <= fit::kLeastCenters) {
-    out.push_back(gate("random-quadruples",
-                       core::phrase("part of the circle for a few random quadruples, at least"),
-                       m.order.coverage_rad() / kDegree, fit::kLeastArcOfRandom / kDegree, "deg"));
-  }
   if (m.radius_void_because.empty()) return out;
-  Gate& failed = best > fit::kWorstBestKappa                   ? out[1]
-                 : m.center_apart_mm > m.center_apart_limit_mm ? out[2]
-                                                               : out.back();
+  Gate& failed = best > fit::kWorstBestKappa ? out[1] : out[2];
   failed.outcome = Outcome::kVoids;
   failed.reason = m.radius_void_because;
   return out;

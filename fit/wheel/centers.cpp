@@ -15,10 +15,6 @@ namespace {
 
 using FourRows = std::array<std::size_t, 4>;
 
-/// Most draws per quadruple to be accepted. Points of which 999 of 1000 quadruples are refused do
-/// not form a measurable circle.
-constexpr std::size_t kDrawsPerCenter = 1000;
-
 enum class Refusal { kNone, kShortChord, kParallel, kIllConditioned };
 
 FourRows paired(const FourRows& r, int pairing) {
@@ -27,17 +23,13 @@ FourRows paired(const FourRows& r, int pairing) {
   return r;
 }
 
-/// Draws an integer below `end`; the bias of the remainder is below 1e-15 for any set of points.
-std::size_t draw(std::uint64_t& state, std::size_t end) {
-  return static_cast<std::size_t>(core::splitmix64(state) % end);
-}
-
-/// Four different rows in ascending order.
+/// Four different rows in ascending order. The bias of the remainder is below 1e-15 for any set of
+/// points.
 FourRows draw_rows(std::uint64_t& state, std::size_t n) {
   FourRows rows{};
   for (std::size_t k = 0; k < rows.size();) {
     const auto end = rows.begin() + static_cast<std::ptrdiff_t>(k);
-    rows[k] = draw(state, n);
+    rows[k] = static_cast<std::size_t>(core::splitmix64(state) % n);
     if (std::find(rows.begin(), end, rows[k]) == end) ++k;
   }
   std::ranges::sort(rows);
@@ -110,42 +102,10 @@ WheelCenters select_systematic(PlanePoints points_mm, double radius_mm,
   for (const FourPointCenter& center : found) {
     sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
   }
-  if (options.choice == QuadrupleChoice::kBest && out.accepted.size() > options.count) {
-    std::ranges::stable_sort(out.accepted, {}, &FourPointCenter::kappa);
-    out.accepted.resize(options.count);
-  }
-  return out;
-}
-
-WheelCenters select_random(PlanePoints points_mm, double radius_mm,
-                           const QuadrupleOptions& options) {
-  WheelCenters out;
-  out.kappa_limit = options.kappa_limit.value_or(std::numeric_limits<double>::infinity());
-  std::uint64_t state = options.seed;
-  std::set<FourRows> seen;
-  for (std::size_t k = 0; k < kDrawsPerCenter * options.count; ++k) {
-    if (out.accepted.size() == options.count) break;
-    const FourRows subset = draw_rows(state, points_mm.size());
-    const FourRows rows = paired(subset, static_cast<int>(draw(state, 3)));
-    if (!seen.insert(rows).second) continue;
-    const FourPointCenter center = four_point_center(points_mm, rows, radius_mm);
-    sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
-  }
   return out;
 }
 
 core::Result<void> check(const QuadrupleOptions& options) {
-  if (options.count > kMostQuadruples) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("{} centres are asked for; the limit is {}", options.count, kMostQuadruples));
-  }
-  if (options.count < kLeastCenters) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{} centres are asked for; a wheel centre is combined from at "
-                                  "least {}",
-                                  options.count, kLeastCenters));
-  }
   const bool lengths = options.least_chord_mm > 0.0 && options.least_chord_per_radius >= 0.0 &&
                        options.least_chord_per_radius <= 1.0;
   const bool angle = options.least_angle_rad > 0.0 && options.least_angle_rad < core::kTwoPi / 4.0;
@@ -159,11 +119,6 @@ core::Result<void> check(const QuadrupleOptions& options) {
 }
 
 }  // namespace
-
-std::string_view name_of(QuadrupleChoice choice) {
-  constexpr std::array<std::string_view, 3> kNames = {"all", "best", "random"};
-  return kNames[static_cast<std::size_t>(choice)];
-}
 
 FourPointCenter four_point_center(PlanePoints points_mm, const FourRows& rows, double radius_mm) {
   FourPointCenter out;
@@ -209,9 +164,7 @@ double WheelCenters::rms_kappa() const {
 core::Result<WheelCenters> select_centers(PlanePoints points_mm, double radius_mm,
                                           const QuadrupleOptions& options) {
   if (auto checked = check(options); !checked) return core::fail(checked.error());
-  const bool random = options.choice == QuadrupleChoice::kRandom;
-  WheelCenters out = random ? select_random(points_mm, radius_mm, options)
-                            : select_systematic(points_mm, radius_mm, options);
+  WheelCenters out = select_systematic(points_mm, radius_mm, options);
   if (out.accepted.size() >= kLeastCenters) return out;
   return core::fail(
       core::Code::kTooFewCenters,

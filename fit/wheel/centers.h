@@ -39,24 +39,13 @@ struct FourPointCenter {
                                                 const std::array<std::size_t, 4>& rows,
                                                 double radius_mm);
 
-/// Choice of the quadruples of points to use.
-enum class QuadrupleChoice {
-  kAll,     ///< Every subset in its best pairing; 5000 random ones when there are more.
-  kBest,    ///< The `count` best conditioned of kAll.
-  kRandom,  ///< As published: `count` random subsets in a random pairing, without a kappa limit.
-};
-/// "all", "best", "random".
-[[nodiscard]] std::string_view name_of(QuadrupleChoice choice);
-
-/// Limits and choice of select_centers().
+/// Limits of select_centers().
 struct QuadrupleOptions {
-  QuadrupleChoice choice = QuadrupleChoice::kAll;
-  std::size_t count = 6;                         ///< Number for kBest and kRandom, 6 to 5000.
-  std::uint64_t seed = 1;                        ///< Seed of the random subsets.
+  std::uint64_t seed = 1;                        ///< Of the subsets drawn of more than 20 points.
   double least_chord_mm = 1e-3;                  ///< A shorter chord has no direction, > 0.
   double least_chord_per_radius = 0.05;          ///< The same as a fraction of the radius, 0 to 1.
   double least_angle_rad = 5.0 * core::kDegree;  ///< Chords closer to parallel are refused.
-  /// Largest kappa accepted; none: max(5, twice the best), and no limit for kRandom.
+  /// Largest kappa accepted; none: max(5, twice the best).
   std::optional<double> kappa_limit;
 };
 
@@ -66,7 +55,7 @@ struct WheelCenters {
   std::size_t short_chord = 0;      ///< Refused: a chord below its least length.
   std::size_t parallel_chords = 0;  ///< Refused: the chords are too close to parallel.
   std::size_t ill_conditioned = 0;  ///< Refused: kappa above its limit.
-  double kappa_limit = 0.0;         ///< The limit applied; infinite for none.
+  double kappa_limit = 0.0;         ///< The limit applied.
 
   [[nodiscard]] double best_kappa() const;
   [[nodiscard]] double worst_kappa() const;
@@ -78,7 +67,8 @@ inline constexpr std::size_t kLeastCenters = 6;
 /// The greatest number of subsets used.
 inline constexpr std::size_t kMostQuadruples = 5000;
 
-/// Selects well conditioned quadruples and computes their centres.
+/// Selects well conditioned quadruples and computes their centres: every subset in its best
+/// pairing, of more than 20 points 5000 drawn ones.
 ///
 /// @param points_mm  n >= 4 points [mm].
 /// @param radius_mm  Radius of the least-squares circle, for kappa and chord lengths.

@@ -132,17 +132,15 @@ Eigen::Vector2d combined(const WheelCenters& centers, WheelMean mean) {
 }
 
 /// Effect of unit noise along the radius of every point on the mean of the centres of quadruples
-/// and on the mean distance from it, with fixed weights. A point B of the chord AB moves its
+/// and on the mean distance from it. A point B of the chord AB moves its
 /// bisector by the radius, A by the same amount in the opposite direction: a . dS = +-R.
 CircleFactors quadruple_factors(const Points& used, const WheelMeasurement& m) {
   std::vector<Eigen::Vector2d> moves(used.size(), Eigen::Vector2d::Zero());
-  double weights = 0.0;
+  const auto weights = static_cast<double>(m.centers.accepted.size());
   for (const FourPointCenter& c : m.centers.accepted) {
-    const double weight = m.mean == WheelMean::kWeighted ? 1.0 / (c.kappa * c.kappa) : 1.0;
-    weights += weight;
     const Eigen::Vector2d ab = used[c.rows[1]] - used[c.rows[0]];
     const Eigen::Vector2d cd = used[c.rows[3]] - used[c.rows[2]];
-    const double scale = weight * m.radius_mm / (ab.x() * cd.y() - ab.y() * cd.x());
+    const double scale = m.radius_mm / (ab.x() * cd.y() - ab.y() * cd.x());
     const Eigen::Vector2d by_ab(scale * cd.y(), -scale * cd.x());
     const Eigen::Vector2d by_cd(-scale * ab.y(), scale * ab.x());
     moves[c.rows[0]] -= by_ab;
@@ -215,7 +213,7 @@ void fill_scatter(WheelMeasurement& out) {
 }
 
 /// Compares both centres, and says why S and R prove nothing.
-void check_center(const WheelOptions& options, WheelMeasurement& out) {
+void check_center(WheelMeasurement& out) {
   constexpr double kSolved = 1e-4;  // mm; without noise the two agree within some 0.1 um
   constexpr double kCoverage = 3.0;
   const auto k = static_cast<double>(out.centers.accepted.size());
@@ -224,7 +222,6 @@ void check_center(const WheelOptions& options, WheelMeasurement& out) {
   out.center_apart_limit_mm =
       kCoverage * std::hypot(out.center_uncertainty_mm, of_quadruples) + kSolved;
   const double best = out.centers.best_kappa();
-  const double coverage = out.order.coverage_rad();
   if (best > kWorstBestKappa) {
     out.radius_void_because = core::phrase(
         "the best four points amplify the error of a point {:.1f} times in the centre, the limit "
@@ -236,13 +233,6 @@ void check_center(const WheelOptions& options, WheelMeasurement& out) {
         "the centre of the quadruples is {:.3f} um from that of least squares, more than three "
         "standard uncertainties, {:.3f} um: take more or better spread points",
         out.center_apart_mm / core::kMicrometre, out.center_apart_limit_mm / core::kMicrometre);
-  } else if (out.mean != WheelMean::kLeastSquares &&
-             options.quadruples.choice == QuadrupleChoice::kRandom &&
-             out.centers.accepted.size() <= kLeastCenters && coverage < kLeastArcOfRandom) {
-    out.radius_void_because = core::phrase(
-        "{} random quadruples on {:.0f} deg of the circle are reported, not judged: take the "
-        "centre of least squares, or measure {:.0f} deg",
-        out.centers.accepted.size(), coverage / core::kDegree, kLeastArcOfRandom / core::kDegree);
   }
 }
 
@@ -315,10 +305,7 @@ void warn(WheelMeasurement& out) {
 core::Result<Outliers> outliers_of(const OutlierOptions& options,
                                    const QuadrupleOptions& quadruples, const Points& used,
                                    const WheelMeasurement& out) {
-  // A chip spoils two or three of six centres, and so their median; all quadruples are used.
-  QuadrupleOptions every = quadruples;
-  every.choice = QuadrupleChoice::kAll;
-  const auto all = select_centers(used, out.check.radius_mm, every);
+  const auto all = select_centers(used, out.check.radius_mm, quadruples);
   if (!all) return core::fail(all.error());
   return find_outliers(used, all->accepted, options);
 }
@@ -381,8 +368,7 @@ std::string_view name_of(WheelMode mode) {
 }
 
 std::string_view name_of(WheelMean mean) {
-  constexpr std::array<std::string_view, 3> kNames = {"least-squares", "as-published", "weighted"};
-  return kNames[static_cast<std::size_t>(mean)];
+  return mean == WheelMean::kLeastSquares ? "least-squares" : "as-published";
 }
 
 bool WheelMeasurement::sees_whole_turn() const {
@@ -424,7 +410,7 @@ core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm, const WheelO
     out.deviations_mm.push_back((p - out.center_mm).norm() - out.radius_mm);
   }
   fill_scatter(out);
-  check_center(options, out);
+  check_center(out);
   fill_runout(points_mm, options, out);
   if (options.minimum_zone) {
     if (auto zone = min_zone_circle(points_mm)) out.zone = *std::move(zone);

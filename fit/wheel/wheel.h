@@ -31,9 +31,8 @@ enum class WheelMode {
 enum class WheelMean {
   kLeastSquares,  ///< Geometric least squares of all points.
   kAsPublished,   ///< Mean of the centres of quadruples: the "direct least squares" of the patent.
-  kWeighted,      ///< The same, weighted by 1/kappa^2.
 };
-/// "least-squares", "as-published", "weighted".
+/// "least-squares", "as-published".
 [[nodiscard]] std::string_view name_of(WheelMean mean);
 
 /// Declared standard uncertainties of the points of a wheel, >= 0.
@@ -74,8 +73,6 @@ struct WheelRunout {
 inline constexpr double kWidestGap = 90.0 * core::kDegree;
 /// Conditioning of the best quadruple above which the radius proves nothing.
 inline constexpr double kWorstBestKappa = 20.0;
-/// Coverage below which a few random quadruples prove no radius.
-inline constexpr double kLeastArcOfRandom = 180.0 * core::kDegree;
 /// Correlation of neighbouring residuals above which they are form, not noise.
 inline constexpr double kCorrelationLimit = 2.0;
 
@@ -105,7 +102,7 @@ struct WheelMeasurement {
   CircleFactors factors;     ///< Factors of the reported centre and radius.
   double correlation = 1.0;  ///< tau
   WheelCenters centers;      ///< With rows of the given points.
-  /// Mean of the quadruple centres: plain with kAsPublished, otherwise weighted.
+  /// Mean of the quadruple centres: plain with kAsPublished, otherwise weighted by 1/kappa^2.
   Eigen::Vector2d quadruple_center_mm = Eigen::Vector2d::Zero();
   double center_scatter_mm = 0.0;      ///< s_c about that mean; an indicator only.
   double expected_scatter_mm = 0.0;    ///< s_r rms(kappa): expected from noise alone.

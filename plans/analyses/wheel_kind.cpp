@@ -134,12 +134,6 @@ void check_surface(const GroundSurfaceTask& s, const Checker& checker) {
 void check_wheel(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const Checker checker{where, findings};
   check_axis(feature, checker);
-  if (feature.wheel->quadruples != WheelTask::Quadruples::kAll &&
-      feature.wheel->center == WheelTask::Center::kLeastSquares) {
-    checker.contradiction("quadruples",
-                          "has no effect: the centre is that of least squares; remove it, or say "
-                          "center as-published or weighted");
-  }
   if (feature.wheel->surface) check_surface(*feature.wheel->surface, checker);
 }
 

@@ -52,8 +52,7 @@ constexpr auto words_of(GroundSurfaceTask::Radius) {
 /// wheel, from points of its edge. A member initialiser is the default of its key.
 struct WheelTask {
   enum class Mode { kIndexed, kEnvelope };
-  enum class Center { kLeastSquares, kAsPublished, kWeighted };
-  enum class Quadruples { kAll, kBest, kRandom };
+  enum class Center { kLeastSquares, kAsPublished };
   enum class ShortArc { kRefused, kAllowed };
 
   Mode mode = Mode::kIndexed;  ///< Required in a plan.
@@ -62,8 +61,6 @@ struct WheelTask {
   std::optional<double> axis_z_mm;
   std::optional<FeatureReference> axis_from;  ///< In place of the coordinates.
   Center center = Center::kLeastSquares;
-  Quadruples quadruples = Quadruples::kAll;
-  int count = 6;
   std::optional<double> kappa_limit;
   Switch robust = Switch::kOff;
   ShortArc short_arc = ShortArc::kRefused;
@@ -78,14 +75,8 @@ constexpr auto words_of(WheelTask::Mode) {
 }
 constexpr auto words_of(WheelTask::Center) {
   using Center = WheelTask::Center;
-  return std::to_array<Word<Center>>({{Center::kLeastSquares, "least-squares"},
-                                      {Center::kAsPublished, "as-published"},
-                                      {Center::kWeighted, "weighted"}});
-}
-constexpr auto words_of(WheelTask::Quadruples) {
-  using Quadruples = WheelTask::Quadruples;
-  return std::to_array<Word<Quadruples>>(
-      {{Quadruples::kAll, "all"}, {Quadruples::kBest, "best"}, {Quadruples::kRandom, "random"}});
+  return std::to_array<Word<Center>>(
+      {{Center::kLeastSquares, "least-squares"}, {Center::kAsPublished, "as-published"}});
 }
 constexpr auto words_of(WheelTask::ShortArc) {
   using ShortArc = WheelTask::ShortArc;
@@ -172,10 +163,7 @@ void describe(Visitor& v, WheelTask& p) {
                   "envelope, measured on the same stage, with its uncertainty."});
   v.text("center", p.center,
          {.meaning = "least-squares: of all points. as-published: plain mean of the centres of "
-                     "quadruples; weighted: the same, by conditioning."});
-  v.text("quadruples", p.quadruples,
-         {.meaning = "all; best: the `count` best conditioned; random: as published."});
-  v.whole("count", p.count, range(6, 5000, "Quadruples of best and random."));
+                     "quadruples of points."});
   v.number("kappa_limit", p.kappa_limit,
            range(1.0, 1e9, "Worst conditioning accepted; left out: 5, or twice the best."));
   v.number("expansion_per_K", p.expansion_per_K,

@@ -20,8 +20,7 @@ Json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
 Json quadruples(const fit::WheelMeasurement& m, const fit::QuadrupleOptions& options) {
   const fit::WheelCenters& c = m.centers;
-  return {{"choice", fit::name_of(options.choice)},
-          {"seed", options.seed},
+  return {{"seed", options.seed},
           {"accepted", c.accepted.size()},
           {"refused",
            {{"short_chord", c.short_chord},

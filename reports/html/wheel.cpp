@@ -275,8 +275,7 @@ std::string radius_entries(const evaluation::WheelResult& facts) {
                 fmt::format("{}, u {} µm",
                             m.mean == fit::WheelMean::kLeastSquares
                                 ? tr("least squares")
-                                : trf("{} mean of {} quadruples", tr(fit::name_of(m.mean)),
-                                      m.centers.accepted.size()),
+                                : trf("mean of {} quadruples", m.centers.accepted.size()),
                             um(m.center_uncertainty_mm))));
   html += entry(
       tr("Distances"),

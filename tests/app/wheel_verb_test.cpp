@@ -132,7 +132,6 @@ TEST(WheelVerb, NamesWhatIsWrongWithTheInput) {
   const std::string good = read(kExample1);
   EXPECT_THAT(said(good, {"--nominal-radius-mm", "60"}), HasSubstr("[out-of-range]"));
   EXPECT_THAT(said(good, {"--path", "p.csv"}), HasSubstr("need --surface"));
-  EXPECT_THAT(said(good, {"--quadruples", "best"}), HasSubstr("add --center as-published"));
   EXPECT_THAT(said(good, {"--surface", "asphere:R=abc"}), HasSubstr("R is \"abc\""));
   EXPECT_THAT(said(good, {"--surface", "asphere:Q=3"}), HasSubstr("there is \"Q=3\""));
   EXPECT_THAT(said(good, {"--surface", "sphere:3"}), HasSubstr("are known"));

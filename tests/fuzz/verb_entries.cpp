@@ -120,8 +120,7 @@ std::string try_wheel(std::string_view bytes) {
   using Center = record::WheelTask::Center;
   arguments.mode = choices.yes() ? Mode::kEnvelope : Mode::kIndexed;
   if (arguments.mode == Mode::kIndexed && choices.yes()) arguments.axis_mm = {12.02, -7.0};
-  const std::array<Center, 3> centers = {Center::kLeastSquares, Center::kAsPublished,
-                                         Center::kWeighted};
+  const std::array<Center, 2> centers = {Center::kLeastSquares, Center::kAsPublished};
   arguments.center = centers[choices.below(centers.size())];
   arguments.robust = choices.yes();
   arguments.override_arc = choices.yes();

@@ -177,7 +177,8 @@ TEST(FeatureReferences, AFeatureThatGivesNoAxisIsRefused) {
       HasSubstr("/features/2/wheel/axis_from/feature: feature \"first\" is measured indexed"));
   std::string of_quadruples = kSwept;
   const std::string mode = "\"mode\": \"envelope\"";
-  of_quadruples.replace(of_quadruples.find(mode), mode.size(), mode + ", \"center\": \"weighted\"");
+  of_quadruples.replace(of_quadruples.find(mode), mode.size(),
+                        mode + ", \"center\": \"as-published\"");
   EXPECT_THAT(problems_of(of_quadruples + "," + wheel_at_rest("wheel", "axis")),
               HasSubstr("is a mean of quadruples, which has no covariance"));
 }

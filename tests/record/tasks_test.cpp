@@ -102,9 +102,7 @@ WheelTask full_wheel() {
   out.nominal_radius_mm = kOdd;
   out.axis_x_mm = -kOdd;
   out.axis_z_mm = -0.0;
-  out.center = WheelTask::Center::kWeighted;
-  out.quadruples = WheelTask::Quadruples::kRandom;
-  out.count = 5000;
+  out.center = WheelTask::Center::kAsPublished;
   out.kappa_limit = kOdd / 7.0;
   out.expansion_per_K = kOdd * 1e-7;
   out.robust = Switch::kOn;
