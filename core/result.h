@@ -36,3 +36,19 @@ using Result = tl::expected<T, Error>;
 }
 
 }  // namespace rondure::core
+
+#define RONDURE_JOIN_(a, b) a##b
+#define RONDURE_JOIN(a, b) RONDURE_JOIN_(a, b)
+#define RONDURE_TRY(result, declaration, ...)                    \
+  auto result = (__VA_ARGS__);                                   \
+  if (!result) return tl::unexpected(std::move(result).error()); \
+  declaration = *std::move(result)
+
+/// TRY(const auto table, read(file)); declares or assigns the value of a Result, or returns its
+/// error from the function in which it stands.
+#define TRY(declaration, ...) \
+  RONDURE_TRY(RONDURE_JOIN(tried_, __COUNTER__), declaration, __VA_ARGS__)
+
+/// TRY_DO(check(table)); passes over a value, or returns the error likewise.
+#define TRY_DO(...) \
+  if (auto tried = (__VA_ARGS__); !tried) return tl::unexpected(std::move(tried).error())

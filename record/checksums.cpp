@@ -39,10 +39,9 @@ bool read_line(std::string_view line, Checksum& out) {
 }  // namespace
 
 core::Result<std::vector<Checksum>> read_checksums(const fs::path& directory) {
-  const auto bytes = read_file(directory / kChecksumsName);
-  if (!bytes) return core::fail(bytes.error());
+  TRY(const auto bytes, read_file(directory / kChecksumsName));
   std::vector<Checksum> list;
-  std::string_view rest = *bytes;
+  std::string_view rest = bytes;
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
     Checksum line;
@@ -64,9 +63,7 @@ core::Result<void> update_checksums(const fs::path& directory, const std::vector
   std::vector<Checksum> list;
   std::error_code unknown;  // a list that cannot be examined cannot be written either
   if (fs::exists(directory / kChecksumsName, unknown)) {
-    auto present = read_checksums(directory);
-    if (!present) return core::fail(present.error());
-    list = *std::move(present);
+    TRY(list, read_checksums(directory));
   }
   std::erase_if(list, [&](const Checksum& c) {
     return std::find(gone.begin(), gone.end(), c.file) != gone.end();

@@ -131,11 +131,10 @@ core::Result<void> read_pieces(const OpenFile& file, const fs::path& path,
 core::Result<std::string> read_open(const OpenFile& file, const fs::path& path,
                                     std::uintmax_t most_bytes) {
   std::string bytes;
-  const auto read = read_pieces(file, path, most_bytes, [&](std::string_view piece, auto length) {
+  TRY_DO(read_pieces(file, path, most_bytes, [&](std::string_view piece, auto length) {
     if (bytes.empty()) bytes.reserve(static_cast<std::size_t>(length) + 1);
     bytes += piece;
-  });
-  if (!read) return core::fail(read.error());
+  }));
   return bytes;
 }
 
@@ -202,20 +201,16 @@ core::Result<std::string> read_file(const fs::path& path, std::uintmax_t most_by
 
 core::Result<std::string> read_inside(const fs::path& directory, const fs::path& name,
                                       std::uintmax_t most_bytes) {
-  const auto folder = open_folder("read", directory, name.parent_path());
-  if (!folder) return core::fail(folder.error());
-  return read_open(OpenFile(name.filename(), kReadFlags, folder->fd()), directory / name,
+  TRY(const auto folder, open_folder("read", directory, name.parent_path()));
+  return read_open(OpenFile(name.filename(), kReadFlags, folder.fd()), directory / name,
                    most_bytes);
 }
 
 core::Result<std::string> sha256_inside(const fs::path& directory, const fs::path& name) {
-  const auto folder = open_folder("read", directory, name.parent_path());
-  if (!folder) return core::fail(folder.error());
+  TRY(const auto folder, open_folder("read", directory, name.parent_path()));
   Sha256 hash;
-  const auto read =
-      read_pieces(OpenFile(name.filename(), kReadFlags, folder->fd()), directory / name,
-                  kMostJournalBytes, [&](std::string_view piece, auto) { hash.add(piece); });
-  if (!read) return core::fail(read.error());
+  TRY_DO(read_pieces(OpenFile(name.filename(), kReadFlags, folder.fd()), directory / name,
+                     kMostJournalBytes, [&](std::string_view piece, auto) { hash.add(piece); }));
   return hash.hex();
 }
 
@@ -251,15 +246,13 @@ core::Result<void> write_file(const fs::path& path, std::string_view bytes) {
 
 core::Result<void> write_inside(const fs::path& directory, const fs::path& name,
                                 std::string_view bytes) {
-  const auto folder = open_folder("write", directory, name.parent_path(), true);
-  if (!folder) return core::fail(folder.error());
-  return write_at(*folder, directory / name, bytes);
+  TRY(const auto folder, open_folder("write", directory, name.parent_path(), true));
+  return write_at(folder, directory / name, bytes);
 }
 
 core::Result<void> remove_inside(const fs::path& directory, const fs::path& name) {
-  const auto folder = open_folder("remove", directory, name.parent_path());
-  if (!folder) return core::fail(folder.error());
-  if (::unlinkat(folder->fd(), name.filename().c_str(), 0) == 0) return {};
+  TRY(const auto folder, open_folder("remove", directory, name.parent_path()));
+  if (::unlinkat(folder.fd(), name.filename().c_str(), 0) == 0) return {};
   return cannot("remove", directory / name, errno);
 }
 

@@ -47,14 +47,13 @@ class LiveView::Impl {
     if (session_.empty() || (control && gate.token.empty()))
       return core::fail(core::Code::kFile, "the system gives no random numbers for the live page");
     const reports::LanguageScope scope(language_);
-    auto server = LiveServer::start(
-        port, std::move(gate), live_page(control),
-        {[this](std::uint64_t since, const std::string& client) { return state(since, client); },
-         [this] {
-           if (stop_) stop_();
-         }});
-    if (!server) return core::fail(server.error());
-    server_ = std::move(*server);
+    TRY(server_, LiveServer::start(port, std::move(gate), live_page(control),
+                                   {[this](std::uint64_t since, const std::string& client) {
+                                      return state(since, client);
+                                    },
+                                    [this] {
+                                      if (stop_) stop_();
+                                    }}));
     thread_ = std::thread([this] { paint(); });
     return {};
   }
@@ -163,7 +162,7 @@ core::Result<std::unique_ptr<LiveView>> LiveView::start(
   const std::uint16_t port = options.port;
   const bool control = options.control;
   auto impl = std::make_unique<Impl>(std::move(options), std::move(source));
-  if (auto started = impl->start(port, control); !started) return core::fail(started.error());
+  TRY_DO(impl->start(port, control));
   return std::unique_ptr<LiveView>(new LiveView(std::move(impl)));
 }
 

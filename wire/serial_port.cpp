@@ -119,9 +119,8 @@ class SerialPort final : public ByteStream {
 
   [[nodiscard]] core::Result<std::string> read_some(milliseconds time_limit) override {
     if (!open_) return core::fail(failure_);
-    const auto ready = wait(POLLIN, time_limit);
-    if (!ready) return core::fail(ready.error());
-    if (!*ready) return std::string{};
+    TRY(const auto ready, wait(POLLIN, time_limit));
+    if (!ready) return std::string{};
     std::string bytes(kSerialChunk_bytes, '\0');
     const auto count = ::read(file_.number(), bytes.data(), bytes.size());
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::string{};

@@ -243,18 +243,16 @@ class OpenDevice final : public UsbDevice {
   [[nodiscard]] UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes,
                                             Limit limit) override {
     std::string copy(bytes);  // libusb takes no const data
-    const auto count = control(setup, copy, limit);
-    if (!count) return tl::unexpected(count.error());
-    if (*count == bytes.size()) return {};
+    TRY(const auto count, control(setup, copy, limit));
+    if (count == bytes.size()) return {};
     return tl::unexpected(fault_of(LIBUSB_ERROR_TIMEOUT, info_, request_name(setup)));
   }
 
   [[nodiscard]] UsbResult<std::string> control_in(const UsbSetup& setup, std::size_t most,
                                                   Limit limit) override {
     std::string bytes(most, '\0');
-    const auto count = control(setup, bytes, limit);
-    if (!count) return tl::unexpected(count.error());
-    bytes.resize(*count);
+    TRY(const auto count, control(setup, bytes, limit));
+    bytes.resize(count);
     return bytes;
   }
 
@@ -312,7 +310,7 @@ class OpenDevice final : public UsbDevice {
   }
 
   UsbResult<std::size_t> control(const UsbSetup& setup, std::string& bytes, Limit limit) {
-    if (auto open = check_open(); !open) return tl::unexpected(open.error());
+    TRY_DO(check_open());
     const int count = libusb_control_transfer(
         handle_.get(), setup.request_type, setup.request, setup.value, setup.index, data(bytes),
         static_cast<std::uint16_t>(bytes.size()), milliseconds_of(limit));
@@ -323,7 +321,7 @@ class OpenDevice final : public UsbDevice {
   template <class Transfer>
   UsbResult<std::string> in_transfer(Transfer transfer, std::uint8_t endpoint, std::size_t most,
                                      Limit limit) {
-    if (auto open = check_open(); !open) return tl::unexpected(open.error());
+    TRY_DO(check_open());
     std::string bytes(most, '\0');
     int count = 0;
     const int code = transfer(handle_.get(), endpoint, data(bytes), static_cast<int>(most), &count,
@@ -387,13 +385,11 @@ std::string serials_of(const std::vector<Candidate>& candidates) {
 }  // namespace
 
 UsbResult<std::unique_ptr<UsbDevice>> open_usb(const UsbSelector& selector) {
-  auto context = new_context();
-  if (!context) return tl::unexpected(context.error());
-  auto list = all_devices(**context);
-  if (!list) return tl::unexpected(list.error());
+  TRY(auto context, new_context());
+  TRY(auto list, all_devices(*context));
   std::vector<Candidate> fitting;
   std::optional<UsbFault> refused;
-  for (libusb_device** device = list->get(); *device != nullptr; ++device) {
+  for (libusb_device** device = list.get(); *device != nullptr; ++device) {
     auto info = identity(**device);
     if (!info || !is_meant(selector, *info)) continue;
     auto handle = open_device(**device, *info);
@@ -411,7 +407,7 @@ UsbResult<std::unique_ptr<UsbDevice>> open_usb(const UsbSelector& selector) {
   if (fitting.size() > 1) return tl::unexpected(ambiguous(selector, serials));
   if (fitting.empty() && refused) return tl::unexpected(*refused);
   if (fitting.empty()) return tl::unexpected(not_found(selector, serials));
-  return std::make_unique<OpenDevice>(*std::move(context), std::move(fitting.front().handle),
+  return std::make_unique<OpenDevice>(std::move(context), std::move(fitting.front().handle),
                                       std::move(fitting.front().info));
 }
 
@@ -420,12 +416,10 @@ std::string UsbDeviceInfo::place() const {
 }
 
 UsbResult<std::vector<UsbDeviceInfo>> list_usb_devices() {
-  auto context = new_context();
-  if (!context) return tl::unexpected(context.error());
-  auto list = all_devices(**context);
-  if (!list) return tl::unexpected(list.error());
+  TRY(auto context, new_context());
+  TRY(auto list, all_devices(*context));
   std::vector<UsbDeviceInfo> out;
-  for (libusb_device** device = list->get(); *device != nullptr; ++device) {
+  for (libusb_device** device = list.get(); *device != nullptr; ++device) {
     auto info = identity(**device);
     if (!info) continue;  // unplugged in the meantime
     info->kernel_driver = kernel_driver_of(**device, 0);

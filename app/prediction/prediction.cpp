@@ -37,12 +37,11 @@ core::Result<Predictions> predict_series(const plans::Plan& plan,
     }
     return out;
   }
-  auto found = evaluation::predict_analysis(simulated, static_cast<int>(feature));
-  if (!found) return core::fail(found.error());
+  TRY(auto found, evaluation::predict_analysis(simulated, static_cast<int>(feature)));
   for (std::size_t c = 0; c < asked.size(); ++c) {
-    PredictedCharacteristic one = not_predicted(feature, asked[c], (*found)[c].why);
+    PredictedCharacteristic one = not_predicted(feature, asked[c], found[c].why);
     if (one.prediction.why.empty()) {
-      one.analysis = std::move((*found)[c]);
+      one.analysis = std::move(found[c]);
       one.simulated_seed = plans::forecast_seed(plan);
     }
     out.push_back(std::move(one));
@@ -80,14 +79,13 @@ core::Result<Predictions> predict_calibration(const plans::Plan& plan,
                                               std::size_t feature) {
   const auto touches =
       combined_touches(forecast, feature, plan.features[feature].rotary_axes->points);
-  const auto found = evaluation::predict_residual(expected, static_cast<int>(feature), touches);
-  if (!found) return core::fail(found.error());
+  TRY(const auto found, evaluation::predict_residual(expected, static_cast<int>(feature), touches));
   Predictions out;
   for (const record::Characteristic& asked : expected.features[feature].characteristics) {
     std::string why = evaluation::why_not_foretold(asked.form).value_or("");
-    if (!found->why.empty()) why = found->why;
+    if (!found.why.empty()) why = found.why;
     PredictedCharacteristic& one = out.emplace_back(not_predicted(feature, asked, std::move(why)));
-    if (found->why.empty() && is_residual(asked.form)) one.residual = *found;
+    if (found.why.empty() && is_residual(asked.form)) one.residual = found;
   }
   return out;
 }
@@ -96,26 +94,23 @@ core::Result<Predictions> predict_calibration(const plans::Plan& plan,
 
 core::Result<std::vector<PredictedCharacteristic>> predict_plan(const plans::Plan& plan,
                                                                 const plans::Forecast& forecast) {
-  const auto simulated =
-      plans::with_series(plans::expected_record(plan, forecast), plan, plans::forecast_seed(plan));
-  if (!simulated) return core::fail(simulated.error());
-  const record::RunRecord& expected = *simulated;
+  TRY(const auto simulated,
+      plans::with_series(plans::expected_record(plan, forecast), plan, plans::forecast_seed(plan)));
+  const record::RunRecord& expected = simulated;
   evaluation::PredictionOptions options;
   options.budget_trials = 20;
   std::vector<PredictedCharacteristic> out;
   for (std::size_t i = 0; i < expected.features.size(); ++i) {
     if (record::is_analysis(expected.features[i].shape)) {
-      auto analysis = plans::measures_by_touch(plan.features[i])
-                          ? predict_calibration(plan, forecast, expected, i)
-                          : predict_series(plan, expected, i);
-      if (!analysis) return core::fail(analysis.error());
-      std::move(analysis->begin(), analysis->end(), std::back_inserter(out));
+      TRY(auto analysis, plans::measures_by_touch(plan.features[i])
+                             ? predict_calibration(plan, forecast, expected, i)
+                             : predict_series(plan, expected, i));
+      std::move(analysis.begin(), analysis.end(), std::back_inserter(out));
       continue;
     }
     for (const record::Characteristic& asked : expected.features[i].characteristics) {
-      auto found = evaluation::predict(expected, static_cast<int>(i), asked, options);
-      if (!found) return core::fail(found.error());
-      out.push_back({i, asked, *std::move(found)});
+      TRY(auto found, evaluation::predict(expected, static_cast<int>(i), asked, options));
+      out.push_back({i, asked, std::move(found)});
     }
   }
   return out;

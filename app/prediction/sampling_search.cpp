@@ -177,13 +177,13 @@ class Search {
   core::Result<SamplingSearch> run() {
     const SamplingLayout planned(plan_, out_.feature, out_.planned);
     if (!planned.forecast()) return core::fail(planned.forecast().error());
-    if (auto there = look_at_plan(planned); !there) return core::fail(there.error());
+    TRY_DO(look_at_plan(planned));
     if (!out_.why.empty()) return out_;
     for (const Sampling& sampling : layouts_of(plan_.features[out_.feature], out_.measurand)) {
       const SamplingLayout layout(plan_, out_.feature, sampling);
-      if (auto tried = try_layout(layout); !tried) return core::fail(tried.error());
+      TRY_DO(try_layout(layout));
     }
-    if (auto confirmed = confirm_cheapest(); !confirmed) return core::fail(confirmed.error());
+    TRY_DO(confirm_cheapest());
     finish();
     return out_;
   }
@@ -192,18 +192,17 @@ class Search {
   /// Evaluates the unchanged plan: the first candidate, or why there is none.
   core::Result<void> look_at_plan(const SamplingLayout& planned) {
     SamplingCandidate as_planned = planned.candidate(out_.planned.repeats);
-    const auto found = planned.predict(out_.measurand, all_parts(), as_planned);
-    if (!found) return core::fail(found.error());
-    if (!found->about(out_.measurand)) {
-      out_.why = !found->why.empty()
-                     ? found->why
+    TRY(const auto found, planned.predict(out_.measurand, all_parts(), as_planned));
+    if (!found.about(out_.measurand)) {
+      out_.why = !found.why.empty()
+                     ? found.why
                      : fmt::format("nothing is stated {}", evaluation::name_of(out_.measurand));
       return {};
     }
     stated_ = as_planned.stated;
     // With one touch per point and no declared repeatability, U would be too small: noise is
     // missing.
-    if (out_.planned.repeats >= least_repeats(plan_)) keep(as_planned, *found, true);
+    if (out_.planned.repeats >= least_repeats(plan_)) keep(as_planned, found, true);
     return {};
   }
 
@@ -237,9 +236,8 @@ class Search {
 
   core::Result<bool> meets(const SamplingLayout& layout, int repeats) {
     SamplingCandidate candidate = layout.candidate(repeats);
-    const auto found = layout.predict(out_.measurand, few_parts(out_.measurand), candidate);
-    if (!found) return core::fail(found.error());
-    return keep(std::move(candidate), *found, false);
+    TRY(const auto found, layout.predict(out_.measurand, few_parts(out_.measurand), candidate));
+    return keep(std::move(candidate), found, false);
   }
 
   /// Finds the fewest repeats of a layout that meet the target, among those worth trying.
@@ -261,9 +259,8 @@ class Search {
     }
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      const auto enough = meets(layout, repeats[middle]);
-      if (!enough) return core::fail(enough.error());
-      (*enough ? high : low) = *enough ? middle : middle + 1;
+      TRY(const auto enough, meets(layout, repeats[middle]));
+      (enough ? high : low) = enough ? middle : middle + 1;
     }
     return {};
   }
@@ -275,13 +272,12 @@ class Search {
       if (cheapest == nullptr || cheapest->confirmed) break;
       SamplingCandidate candidate = *cheapest;
       const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
-      const auto found = layout.predict(out_.measurand, all_parts(), candidate);
-      if (!found) return core::fail(found.error());
-      if (keep(candidate, *found, true)) break;
+      TRY(const auto found, layout.predict(out_.measurand, all_parts(), candidate));
+      if (keep(candidate, found, true)) break;
       const auto* more =
           std::upper_bound(kRepeats.begin(), kRepeats.end(), candidate.sampling.repeats);
       if (more == kRepeats.end()) continue;
-      if (const auto next = meets(layout, *more); !next) return core::fail(next.error());
+      TRY_DO(meets(layout, *more));
     }
     return confirm_smallest();
   }
@@ -297,10 +293,9 @@ class Search {
     if (smallest == nullptr || smallest->confirmed) return {};
     SamplingCandidate candidate = *smallest;
     const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
-    const auto found = layout.predict(out_.measurand, all_parts(), candidate);
-    if (!found) return core::fail(found.error());
+    TRY(const auto found, layout.predict(out_.measurand, all_parts(), candidate));
     smallest_mm_ = -1.0;  // its influences are stated
-    keep(candidate, *found, true);
+    keep(candidate, found, true);
     return {};
   }
 
@@ -351,9 +346,8 @@ core::Result<std::vector<SamplingSearch>> search_samplings(const plans::Plan& pl
   std::vector<SamplingSearch> out;
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (!plans::is_touched(plan.features[i])) continue;
-    auto found = Search(plan, i, target_mm).run();
-    if (!found) return core::fail(found.error());
-    out.push_back(*std::move(found));
+    TRY(auto found, Search(plan, i, target_mm).run());
+    out.push_back(std::move(found));
   }
   return out;
 }

@@ -49,9 +49,8 @@ core::Result<record::ArchivePlace> archive_of(const std::string& argument, const
 core::Result<record::ArchiveRun> entry_of(const fs::path& directory,
                                           const record::RunRecord& record,
                                           const evaluation::Evaluation& evaluation) {
-  auto sha256 = record::sha256_inside(directory, record::kJournalName);
-  if (!sha256) return core::fail(sha256.error());
-  return reports::archive_entry(record, evaluation, *std::move(sha256));
+  TRY(auto sha256, record::sha256_inside(directory, record::kJournalName));
+  return reports::archive_entry(record, evaluation, std::move(sha256));
 }
 
 void keep_earlier_results(const record::ArchivePlace& place, const fs::path& directory,

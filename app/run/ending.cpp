@@ -64,16 +64,14 @@ core::Result<void> require_sound(const record::ReadJournal& read, const fs::path
 }
 
 core::Result<EvaluatedRun> evaluate(record::RunRecord record, const fs::path& directory) {
-  auto evaluation = evaluation::evaluate_run(record, directory, processor());
-  if (!evaluation) return core::fail(evaluation.error());
-  return EvaluatedRun{std::move(record), std::move(*evaluation)};
+  TRY(auto evaluation, evaluation::evaluate_run(record, directory, processor()));
+  return EvaluatedRun{std::move(record), std::move(evaluation)};
 }
 
 core::Result<EvaluatedRun> read_and_evaluate(const fs::path& directory) {
-  auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  if (auto sound = require_sound(*read, directory); !sound) return core::fail(sound.error());
-  return evaluate(std::move(read->record), directory);
+  TRY(auto read, record::read_journal(directory));
+  TRY_DO(require_sound(read, directory));
+  return evaluate(std::move(read.record), directory);
 }
 
 /// Finishes the journal of a run that died right after it was sealed. A damaged journal is left

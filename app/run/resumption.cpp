@@ -59,13 +59,11 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
                                   arguments.plan, arguments.out));
   }
   if (!by_directory) {
-    const auto unstarted = record::clear_unstarted_run(out.directory);
-    if (!unstarted) return core::fail(unstarted.error());
-    if (*unstarted) return out;
+    TRY(const auto unstarted, record::clear_unstarted_run(out.directory));
+    if (unstarted) return out;
   }
-  auto held = record::hold_journal(out.directory);
-  if (!held) return core::fail(held.error());
-  out.held.emplace(std::move(*held));
+  TRY(auto held, record::hold_journal(out.directory));
+  out.held.emplace(std::move(held));
   return out;
 }
 

@@ -144,9 +144,8 @@ core::Result<std::vector<ContourColumn>> mapping_of(const ContourArguments& argu
     out = *std::move(read);
   }
   for (const std::string& text : arguments.columns) {  // follow the files: the last one counts
-    auto column = parse_contour_column(text);
-    if (!column) return core::fail(column.error());
-    out.push_back(*std::move(column));
+    TRY(auto column, parse_contour_column(text));
+    out.push_back(std::move(column));
   }
   return out;
 }
@@ -171,17 +170,15 @@ struct Parts {
 };
 
 core::Result<Parts> read_parts(const ContourArguments& arguments) {
-  if (auto checked = check_counts(arguments); !checked) return core::fail(checked.error());
-  const auto mapping = mapping_of(arguments);
-  if (!mapping) return core::fail(mapping.error());
+  TRY_DO(check_counts(arguments));
+  TRY(const auto mapping, mapping_of(arguments));
   Parts out;
   for (std::size_t i = 0; i < arguments.axes.size(); ++i) {
     const ContourFiles files = {arguments.axes[i], arguments.pin[i],
                                 arguments.main.empty() ? std::string() : arguments.main[i]};
-    auto part = read_contour_part(files, *mapping);
-    if (!part) return core::fail(part.error());
-    out.positions = out.positions || part->positions;
-    out.parts.push_back(std::move(part->part));
+    TRY(auto part, read_contour_part(files, mapping));
+    out.positions = out.positions || part.positions;
+    out.parts.push_back(std::move(part.part));
     out.names.push_back(std::filesystem::path(files.pin).stem().string());
   }
   return out;

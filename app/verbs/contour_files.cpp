@@ -99,8 +99,7 @@ using Columns = std::vector<std::optional<std::vector<double>>>;
 core::Result<Columns> read_columns(const std::string& file,
                                    const std::vector<ContourQuantity>& quantities,
                                    const std::vector<ContourColumn>& mapping, bool required) {
-  const auto bytes = record::read_file(file, record::kMostPointsBytes);
-  if (!bytes) return core::fail(bytes.error());
+  TRY(const auto bytes, record::read_file(file, record::kMostPointsBytes));
   std::vector<record::WantedColumn> wanted;
   std::vector<record::ColumnName> names;
   for (const ContourQuantity& quantity : quantities) {
@@ -108,11 +107,10 @@ core::Result<Columns> read_columns(const std::string& file,
     names.push_back({std::string(quantity.column), reading_of(quantity, mapping).column});
   }
   const std::string name = std::filesystem::path(file).filename().string();
-  const auto series = record::parse_series_csv(*bytes, name, wanted, names);
-  if (!series) return core::fail(series.error());
+  TRY(const auto series, record::parse_series_csv(bytes, name, wanted, names));
   Columns out;
   for (const ContourQuantity& quantity : quantities) {
-    auto values = series->column(quantity.column);
+    auto values = series.column(quantity.column);
     if (values) {
       const double factor = reading_of(quantity, mapping).factor;
       for (double& v : *values) v *= factor;
@@ -143,9 +141,8 @@ core::Result<void> read_axes(const std::string& file, const std::vector<ContourC
   const auto places = quantities({"alpha_cmd", "d_cmd", "alpha_act", "d_act"});
   std::vector<ContourQuantity> all = errors;
   all.insert(all.end(), places.begin(), places.end());
-  auto columns = read_columns(file, all, mapping, false);
-  if (!columns) return core::fail(columns.error());
-  Columns& c = *columns;
+  TRY(auto columns, read_columns(file, all, mapping, false));
+  Columns& c = columns;
   fit::AxisTrace& trace = out.part.trace;
   if (c[0] && c[1] && c[2]) {
     trace = {*std::move(c[0]), *std::move(c[1]), *std::move(c[2]), {}};
@@ -180,9 +177,8 @@ core::Result<fit::GaugeRows> read_gauge(const std::string& file, bool main,
     });
     if (main && named) wanted[i] = of_main[i];
   }
-  auto columns = read_columns(file, wanted, mapping, true);
-  if (!columns) return core::fail(columns.error());
-  return fit::GaugeRows{*std::move((*columns)[0]), *std::move((*columns)[1])};
+  TRY(auto columns, read_columns(file, wanted, mapping, true));
+  return fit::GaugeRows{*std::move(columns[0]), *std::move(columns[1])};
 }
 
 template <class List>
@@ -255,14 +251,10 @@ core::Result<ContourColumn> column_of(const plans::JsonMember& member, const std
 core::Result<ContourImport> read_contour_part(const ContourFiles& files,
                                               const std::vector<ContourColumn>& mapping) {
   ContourImport out;
-  if (auto read = read_axes(files.axes, mapping, out); !read) return core::fail(read.error());
-  auto pin = read_gauge(files.pin, false, mapping);
-  if (!pin) return core::fail(pin.error());
-  out.part.pin = *std::move(pin);
+  TRY_DO(read_axes(files.axes, mapping, out));
+  TRY(out.part.pin, read_gauge(files.pin, false, mapping));
   if (files.main.empty()) return out;
-  auto main = read_gauge(files.main, true, mapping);
-  if (!main) return core::fail(main.error());
-  out.part.main = *std::move(main);
+  TRY(out.part.main, read_gauge(files.main, true, mapping));
   return out;
 }
 
@@ -293,22 +285,19 @@ core::Result<ContourColumn> parse_contour_column(std::string_view text) {
 }
 
 core::Result<std::vector<ContourColumn>> read_contour_mapping(const std::string& file) {
-  const auto bytes = record::read_file(file);
-  if (!bytes) return core::fail(bytes.error());
+  TRY(const auto bytes, record::read_file(file));
   const std::string name = std::filesystem::path(file).filename().string();
-  const auto json = plans::parse_json(*bytes, name);
-  if (!json) return core::fail(json.error());
-  const plans::JsonValue* const columns = json->find("columns");
+  TRY(const auto json, plans::parse_json(bytes, name));
+  const plans::JsonValue* const columns = json.find("columns");
   if (columns == nullptr || columns->kind != plans::JsonValue::Kind::kObject ||
-      json->members.size() != 1) {
+      json.members.size() != 1) {
     return core::fail(Code::kMissingKey,
                       "one key \"columns\" is expected, an object with an entry a quantity", name);
   }
   std::vector<ContourColumn> out;
   for (const plans::JsonMember& member : columns->members) {
-    auto column = column_of(member, name);
-    if (!column) return core::fail(column.error());
-    out.push_back(*std::move(column));
+    TRY(auto column, column_of(member, name));
+    out.push_back(std::move(column));
   }
   return out;
 }

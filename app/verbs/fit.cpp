@@ -369,9 +369,8 @@ core::Result<FitOutcome> fit_plane(const FitArguments& arguments, Space points,
                                    Collector collector) {
   std::optional<Eigen::Vector3d> outward;
   if (!arguments.outward.empty()) outward = Eigen::Vector3d(arguments.outward.data());
-  const auto ls = fit::ls_plane(points, outward);
-  if (!ls) return core::fail(ls.error());
-  const Eigen::Vector3d& normal = ls->plane.normal;
+  TRY(const auto ls, fit::ls_plane(points, outward));
+  const Eigen::Vector3d& normal = ls.plane.normal;
   constexpr double kLeastRise = 0.1;  // 6 deg out of the plane
   if (outward && !(outward->normalized().dot(normal) > kLeastRise)) {
     return core::fail(
@@ -389,11 +388,10 @@ core::Result<FitOutcome> fit_plane(const FitArguments& arguments, Space points,
                                normal.x(), normal.y(), normal.z()));
   }
   collector.add("ls", "LSPL", [&]() -> core::Result<FitReference> {
-    const auto form = fit::flatness_parameters(points, ls->plane);
-    if (!form) return core::fail(form.error());
-    FitReference out = kLeastSquares(*ls);
-    out.peak_mm = form->peak_mm;
-    out.valley_mm = std::max(0.0, form->valley_mm);  // of a perfect plane it is -0
+    TRY(const auto form, fit::flatness_parameters(points, ls.plane));
+    FitReference out = kLeastSquares(ls);
+    out.peak_mm = form.peak_mm;
+    out.valley_mm = std::max(0.0, form.valley_mm);  // of a perfect plane it is -0
     return out;
   });
   collector.add("mz", "MZPL", [&] {
@@ -413,9 +411,8 @@ core::Result<FitOutcome> fit_plane(const FitArguments& arguments, Space points,
 
 core::Result<FitOutcome> fit_cone(const FitArguments& arguments, Space points,
                                   Collector collector) {
-  const auto ls = fit::ls_cone(points);
-  if (!ls) return core::fail(ls.error());
-  warn_of_arc(points, ls->cone.axis, collector);
+  TRY(const auto ls, fit::ls_cone(points));
+  warn_of_arc(points, ls.cone.axis, collector);
   const fit::Material material = material_of(arguments);
   const auto with_cone = [&](FitReference out, fit::Cone cone) {
     out.place = place_of(cone.axis);
@@ -427,9 +424,9 @@ core::Result<FitOutcome> fit_cone(const FitArguments& arguments, Space points,
   };
   collector.add("ls", "LSCO", [&]() -> core::Result<FitReference> {
     FitReference out;
-    out.deviation_mm = ls->deviation_mm;
-    out.rms_mm = ls->rms_mm;
-    return with_cone(std::move(out), ls->cone);
+    out.deviation_mm = ls.deviation_mm;
+    out.rms_mm = ls.rms_mm;
+    return with_cone(std::move(out), ls.cone);
   });
   collector.add("mz", "MZCO", [&] {
     return fit::min_zone_cone(points).map([&](const auto& zone) {
@@ -544,10 +541,9 @@ void warn_of_gross_points(const FitArguments& arguments, const record::PointTabl
 }
 
 core::Result<record::PointTable> load_points(const FitArguments& arguments) {
-  const auto bytes = record::read_file(arguments.file, record::kMostPointsBytes);
-  if (!bytes) return core::fail(bytes.error());
+  TRY(const auto bytes, record::read_file(arguments.file, record::kMostPointsBytes));
   const std::string name = std::filesystem::path(arguments.file).filename().string();
-  auto table = record::parse_feature_csv(*bytes, name, arguments.feature);
+  auto table = record::parse_feature_csv(bytes, name, arguments.feature);
   if (!table) return table;
   const int needed = arguments.shape == "circle" ? 2 : 3;
   if (table->dimensions != needed) {

@@ -48,12 +48,10 @@ core::Result<std::optional<std::int64_t>> time_of(const std::string& text, const
 
 core::Result<record::ArchiveFilter> filter_of(const HistoryArguments& arguments) {
   record::ArchiveFilter filter = arguments.filter;
-  const auto since = time_of(arguments.since, "--since", false);
-  if (!since) return core::fail(since.error());
-  const auto until = time_of(arguments.until, "--until", true);
-  if (!until) return core::fail(until.error());
-  filter.since_s = *since;
-  filter.until_s = *until;
+  TRY(const auto since, time_of(arguments.since, "--since", false));
+  TRY(const auto until, time_of(arguments.until, "--until", true));
+  filter.since_s = since;
+  filter.until_s = until;
   if (arguments.verdict.empty()) return filter;
   std::string verdict = arguments.verdict;
   std::replace(verdict.begin(), verdict.end(), '-', ' ');
@@ -77,12 +75,11 @@ core::Result<void> read_pages(record::Archive& archive, const record::ArchiveFil
   std::optional<ArchivedResult> last;
   while (count > 0) {
     const std::size_t page = std::min(count, kPage);
-    auto results = archive.newest(filter, page, last ? &*last : nullptr);
-    if (!results) return core::fail(results.error());
-    if (results->empty()) return {};
-    last = results->back();
-    count -= results->size();
-    take(std::move(*results));
+    TRY(auto results, archive.newest(filter, page, last ? &*last : nullptr));
+    if (results.empty()) return {};
+    last = results.back();
+    count -= results.size();
+    take(std::move(results));
   }
   return {};
 }
@@ -91,10 +88,9 @@ core::Result<std::vector<ArchivedResult>> read_newest(record::Archive& archive,
                                                       const record::ArchiveFilter& filter,
                                                       std::size_t count) {
   std::vector<ArchivedResult> all;
-  auto read = read_pages(archive, filter, count, [&](std::vector<ArchivedResult> page) {
+  TRY_DO(read_pages(archive, filter, count, [&](std::vector<ArchivedResult> page) {
     all.insert(all.end(), page.begin(), page.end());
-  });
-  if (!read) return core::fail(read.error());
+  }));
   return all;
 }
 
@@ -130,28 +126,26 @@ bool is_coloured() { return isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR"
 
 core::Result<void> show(record::Archive& archive, const std::string& place,
                         const HistoryArguments& arguments) {
-  const auto filter = filter_of(arguments);
-  if (!filter) return core::fail(filter.error());
-  if (!arguments.csv.empty()) return write_csv(archive, *filter, arguments);
+  TRY(const auto filter, filter_of(arguments));
+  if (!arguments.csv.empty()) return write_csv(archive, filter, arguments);
   const bool charted = arguments.chart || arguments.json || !arguments.svg.empty();
   const std::size_t count = arguments.last.value_or(charted ? kCharted : kListed);
   // one more shows whether there are older ones
-  auto results = read_newest(archive, *filter, count + 1);
-  if (!results) return core::fail(results.error());
-  const bool more = results->size() > count;
-  if (more) results->resize(count);
+  TRY(auto results, read_newest(archive, filter, count + 1));
+  const bool more = results.size() > count;
+  if (more) results.resize(count);
   if (charted) {
-    const reports::RunChart chart = reports::run_chart_of(*results);
-    if (arguments.json) say(reports::history_json(place, *results, more, chart));
+    const reports::RunChart chart = reports::run_chart_of(results);
+    if (arguments.json) say(reports::history_json(place, results, more, chart));
     if (arguments.chart) say(reports::history_chart(chart, is_coloured()));
     if (!arguments.svg.empty()) return write_svg(chart, arguments.svg);
     return {};
   }
-  if (results->empty()) {
+  if (results.empty()) {
     say("no results\n");
     return {};
   }
-  say(reports::history_table(*results));
+  say(reports::history_table(results));
   if (more)
     say(fmt::format("the newest {}; older ones with --last N, all with --csv FILE\n", count));
   return {};
@@ -197,21 +191,19 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
 }
 
 core::Result<record::ArchiveRun> finished_run(const fs::path& directory) {
-  const auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  const std::vector<std::string> faults = record::faults_of(*read);
-  if (!read->record.sealed || !faults.empty()) {
+  TRY(const auto read, record::read_journal(directory));
+  const std::vector<std::string> faults = record::faults_of(read);
+  if (!read.record.sealed || !faults.empty()) {
     return core::fail(core::Code::kJournal,
                       fmt::format("{}: {}; only finished runs are archived", directory.string(),
                                   faults.empty() ? "the run did not finish" : faults.front()),
                       directory.string());
   }
-  if (auto checked = plans::check_record(*read); !checked) {
+  if (auto checked = plans::check_record(read); !checked) {
     return core::fail(checked.error().at(directory.string()));
   }
-  const auto evaluation = evaluation::evaluate(read->record);
-  if (!evaluation) return core::fail(evaluation.error());
-  return entry_of(directory, read->record, *evaluation);
+  TRY(const auto evaluation, evaluation::evaluate(read.record));
+  return entry_of(directory, read.record, evaluation);
 }
 
 int add(record::Archive& archive, const std::vector<std::string>& directories) {

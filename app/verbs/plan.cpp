@@ -83,9 +83,8 @@ core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast
     return core::fail(core::Code::kBadOption,
                       fmt::format("--svg {} is the plan itself; name another file", arguments.svg));
   }
-  const auto stage = drawn_stage(plan, forecast, arguments.feature);
-  if (!stage) return core::fail(stage.error());
-  return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));
+  TRY(const auto stage, drawn_stage(plan, forecast, arguments.feature));
+  return record::write_file(arguments.svg, plans::forecast_picture(plan, *stage));
 }
 
 /// Results in addition to the forecast.
@@ -99,13 +98,9 @@ core::Result<Outlook> look_ahead(const plans::Plan& plan, const plans::Forecast&
                                  std::optional<double> target_mm) {
   Outlook out;
   out.target_mm = target_mm;
-  auto predicted = predict_plan(plan, forecast);
-  if (!predicted) return core::fail(predicted.error());
-  out.predicted = *std::move(predicted);
+  TRY(out.predicted, predict_plan(plan, forecast));
   if (!target_mm) return out;
-  auto searches = search_samplings(plan, *target_mm);
-  if (!searches) return core::fail(searches.error());
-  out.searches = *std::move(searches);
+  TRY(out.searches, search_samplings(plan, *target_mm));
   return out;
 }
 

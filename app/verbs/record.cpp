@@ -93,17 +93,15 @@ OpenProbe open_indicator(const std::string& word, bool inches) {
                       fmt::format("\"{}\" is no indicator; give {}", word, indicator_words()));
   }
   if (inches) settings->unit_mm = cmm::kInch_mm;
-  auto line = wire::open_serial(rest, settings->line);
-  if (!line) return core::fail(line.error());
-  return cmm::open_ascii_probe(std::move(*line), *settings);
+  TRY(auto line, wire::open_serial(rest, settings->line));
+  return cmm::open_ascii_probe(std::move(line), *settings);
 }
 
 core::Result<Probes> open_all(const RecordArguments& arguments) {
   Probes out;
   for (const std::string& word : arguments.probes) {
-    auto probe = open_indicator(word, arguments.inches);
-    if (!probe) return core::fail(probe.error());
-    out.push_back(std::move(*probe));
+    TRY(auto probe, open_indicator(word, arguments.inches));
+    out.push_back(std::move(probe));
   }
   return out;
 }
@@ -112,9 +110,8 @@ core::Result<Probes> open_all(const RecordArguments& arguments) {
 core::Result<std::string> read_row(const std::string& angle, const Probes& probes) {
   std::string row = angle;
   for (const auto& probe : probes) {
-    const auto reading_mm = probe->read_mm();
-    if (!reading_mm) return core::fail(reading_mm.error());
-    row += fmt::format(",{}", core::shortest(core::on_grid(*reading_mm / core::kMicrometre, 1e6)));
+    TRY(const auto reading_mm, probe->read_mm());
+    row += fmt::format(",{}", core::shortest(core::on_grid(reading_mm / core::kMicrometre, 1e6)));
   }
   row += '\n';
   return row;
@@ -139,11 +136,10 @@ core::Result<void> record_rows(const RecordArguments& arguments, const Probes& p
         !ready) {
       return ready;
     }
-    const auto row = read_row(angle, probes);
-    if (!row) return core::fail(row.error());
-    text += *row;
+    TRY(const auto row, read_row(angle, probes));
+    text += row;
     if (auto kept = record::write_file(arguments.out, text); !kept) return kept;
-    tell(fmt::format("  {}", *row));
+    tell(fmt::format("  {}", row));
   }
   return {};
 }
@@ -160,17 +156,14 @@ core::Result<void> record_all(const RecordArguments& arguments) {
   std::string text;
   int rows = 0;
   if (std::filesystem::exists(arguments.out)) {
-    const auto old = record::read_file(arguments.out, record::kMostPointsBytes);
-    if (!old) return core::fail(old.error());
-    const auto known = rows_in(*old, arguments);
-    if (!known) return core::fail(known.error());
-    text = *old;
-    rows = *known;
+    TRY(const auto old, record::read_file(arguments.out, record::kMostPointsBytes));
+    TRY(const auto known, rows_in(old, arguments));
+    text = old;
+    rows = known;
   }
-  const auto probes = open_all(arguments);
-  if (!probes) return core::fail(probes.error());
-  if (text.empty()) text = head_of(*probes);
-  return record_rows(arguments, *probes, std::move(text), rows);
+  TRY(const auto probes, open_all(arguments));
+  if (text.empty()) text = head_of(probes);
+  return record_rows(arguments, probes, std::move(text), rows);
 }
 
 }  // namespace

@@ -300,9 +300,7 @@ core::Result<fit::RotaryMeasurement> empty_axis(const std::string& name,
                                                 const RotaryAxesArguments& a) {
   fit::RotaryMeasurement out;
   if (!a.axis.empty()) {
-    const auto direction = direction_of(a.axis);
-    if (!direction) return core::fail(direction.error());
-    out.axis.direction = *direction;
+    TRY(out.axis.direction, direction_of(a.axis));
   } else if (const auto known = direction_by_name(name)) {
     out.axis.direction = *known;
   } else {
@@ -361,9 +359,8 @@ core::Result<void> add_row(const record::BallRow& row, const RotaryAxesArguments
                         fmt::format("--axis is for one axis, the files hold {} and {}",
                                     axes.front().name, row.axis));
     }
-    auto measurement = empty_axis(row.axis, arguments);
-    if (!measurement) return core::fail(measurement.error());
-    axes.push_back({row.axis, *std::move(measurement)});
+    TRY(auto measurement, empty_axis(row.axis, arguments));
+    axes.push_back({row.axis, std::move(measurement)});
     at = axes.end() - 1;
   }
   place_of(row, at->measurement).push_back({row.ball, row.centre_mm, row.u_um * core::kMicrometre});
@@ -377,12 +374,10 @@ core::Result<void> add_row(const record::BallRow& row, const RotaryAxesArguments
 core::Result<std::vector<NamedAxis>> read_rotary_axes(const RotaryAxesArguments& arguments) {
   std::vector<NamedAxis> out;
   for (const std::string& file : arguments.files) {
-    const auto bytes = record::read_file(file, record::kMostPointsBytes);
-    if (!bytes) return core::fail(bytes.error());
+    TRY(const auto bytes, record::read_file(file, record::kMostPointsBytes));
     const std::string name = std::filesystem::path(file).filename().string();
-    const auto rows = record::parse_ball_csv(*bytes, name);
-    if (!rows) return core::fail(rows.error());
-    for (const record::BallRow& row : *rows) {
+    TRY(const auto rows, record::parse_ball_csv(bytes, name));
+    for (const record::BallRow& row : rows) {
       if (auto added = add_row(row, arguments, out); !added) {
         return core::fail(added.error().at(fmt::format("{}:{}", name, row.line)));
       }
@@ -405,10 +400,9 @@ core::Result<std::vector<RotaryAxisResult>> identify(const RotaryAxesArguments& 
   if (!arguments.place_mm.empty() && arguments.place_mm.size() != 3) {
     return core::fail(Code::kBadOption, "--at needs three numbers: X,Y,Z");
   }
-  const auto axes = read_rotary_axes(arguments);
-  if (!axes) return core::fail(axes.error());
+  TRY(const auto axes, read_rotary_axes(arguments));
   std::vector<RotaryAxisResult> out;
-  for (const NamedAxis& axis : *axes) {
+  for (const NamedAxis& axis : axes) {
     auto study = fit::identify_rotary_axis(axis.measurement, options_of(arguments));
     if (!study) return core::fail(study.error().at(fmt::format("axis {}", axis.name)));
     RotaryAxisResult result;

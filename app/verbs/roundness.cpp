@@ -224,9 +224,8 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
 }
 
 core::Result<record::ProfileTable> load_profile(const std::string& file) {
-  const auto bytes = record::read_file(file, record::kMostPointsBytes);
-  if (!bytes) return core::fail(bytes.error());
-  return record::parse_profile_csv(*bytes, std::filesystem::path(file).filename().string());
+  TRY(const auto bytes, record::read_file(file, record::kMostPointsBytes));
+  return record::parse_profile_csv(bytes, std::filesystem::path(file).filename().string());
 }
 
 /// Refuses angles that fill one turn in radians and nothing in degrees.
@@ -250,7 +249,7 @@ core::Result<fit::RoundnessEvaluation> evaluate_polar(const record::ProfileTable
     theta.push_back(row.x() * core::kDegree);
     r.push_back(row.y() * core::kMicrometre);
   }
-  if (auto checked = check_angle_unit(theta_deg); !checked) return core::fail(checked.error());
+  TRY_DO(check_angle_unit(theta_deg));
   auto out = fit::evaluate_profile(theta, r, options);
   if (!out) return out;
   const auto [low, high] =

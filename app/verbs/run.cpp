@@ -56,13 +56,12 @@ core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& argum
   live.stop = request_stop;
   live.language = reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
   auto record = std::make_shared<record::GrowingRecord>();
-  auto view = web::LiveView::start(std::move(live), record);
-  if (!view) return core::fail(view.error());
+  TRY(auto view, web::LiveView::start(std::move(live), record));
   options.followed_by = std::move(record);
-  tell(fmt::format("rondure: live page at {} ({})\n", (*view)->url(),
+  tell(fmt::format("rondure: live page at {} ({})\n", view->url(),
                    arguments.control ? "with a stop button; keep the address to yourself"
                                      : "read-only; --control adds a stop button"));
-  return std::move(*view);
+  return view;
 }
 
 /// kBadOption for --speed with a machine that is not simulated here, because it has its own speed.

@@ -35,26 +35,23 @@ bool verifies(const fs::path& directory) {
 /// Says when other users of the computer could sign in the signer's name.
 void tell_readable_key(const fs::path& key) {
   std::error_code unknown;
-  const fs::perms others = fs::status(key, unknown).permissions() &
-                           (fs::perms::group_read | fs::perms::others_read);
+  const fs::perms others =
+      fs::status(key, unknown).permissions() & (fs::perms::group_read | fs::perms::others_read);
   if (unknown || others == fs::perms::none) return;
-  tell(fmt::format("rondure: note: other users of this computer can read the private key {}; "
-                   "chmod 600 keeps it to yourself\n",
-                   key.string()));
+  tell(
+      fmt::format("rondure: note: other users of this computer can read the private key {}; "
+                  "chmod 600 keeps it to yourself\n",
+                  key.string()));
 }
 
 core::Result<fs::path> write_signature(const SignArguments& arguments) {
   const fs::path directory = arguments.directory;
-  const auto key = record::read_file(arguments.key);
-  if (!key) return core::fail(key.error());
-  const auto sums = record::read_file(directory / record::kChecksumsName);
-  if (!sums) return core::fail(sums.error());
-  const auto signature = record::sign(*sums, *key);
+  TRY(const auto key, record::read_file(arguments.key));
+  TRY(const auto sums, record::read_file(directory / record::kChecksumsName));
+  const auto signature = record::sign(sums, key);
   if (!signature) return core::fail(signature.error().at(arguments.key));
   const fs::path file = directory / record::kSignatureName;
-  if (auto written = record::write_file(file, *signature); !written) {
-    return core::fail(written.error());
-  }
+  TRY_DO(record::write_file(file, *signature));
   return file;
 }
 

@@ -204,16 +204,13 @@ fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
 }
 
 core::Result<evaluation::SpindleResult> separate(const SpindleArguments& a) {
-  const auto layout = layout_of(a);
-  if (!layout) return core::fail(layout.error());
-  const auto bytes = record::read_file(a.file, record::kMostPointsBytes);
-  if (!bytes) return core::fail(bytes.error());
+  TRY(const auto layout, layout_of(a));
+  TRY(const auto bytes, record::read_file(a.file, record::kMostPointsBytes));
   const std::string name = std::filesystem::path(a.file).filename().string();
-  const auto series = record::parse_series_csv(*bytes, name, kColumns);
-  if (!series) return core::fail(series.error());
-  auto result = evaluation::spindle_facts(evaluation::probe_readings(*series),
+  TRY(const auto series, record::parse_series_csv(bytes, name, kColumns));
+  auto result = evaluation::spindle_facts(evaluation::probe_readings(series),
                                           {a.crank_radius_mm, a.wheel_radius_mm, a.pin_radius_mm},
-                                          *layout, options_of(a), a.cutoff_upr, a.inside);
+                                          layout, options_of(a), a.cutoff_upr, a.inside);
   if (!result && result.error().where.empty()) return core::fail(result.error().at(name));
   return result;
 }

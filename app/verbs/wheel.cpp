@@ -170,9 +170,8 @@ core::Result<double> number(std::string_view text, std::string_view of) {
 core::Result<fit::WheelSurface> read_polynomial(std::string_view words) {
   fit::Polynomial out;
   for (const std::string_view word : split(words)) {
-    const auto value = number(word, fmt::format("a{}", out.coefficients.size()));
-    if (!value) return core::fail(value.error());
-    out.coefficients.push_back(*value);
+    TRY(const auto value, number(word, fmt::format("a{}", out.coefficients.size())));
+    out.coefficients.push_back(value);
   }
   return fit::WheelSurface::polynomial(std::move(out));
 }
@@ -213,20 +212,16 @@ core::Result<fit::WheelSurface> read_asphere(std::string_view words) {
           core::Code::kBadOption,
           fmt::format("--surface: \"{}\" has no =; write asphere:R=120,K=-1,A4=2e-8", word));
     }
-    const auto value = number(word.substr(equals + 1), word.substr(0, equals));
-    if (!value) return core::fail(value.error());
-    if (auto set = set_term(word.substr(0, equals), *value, out); !set) {
-      return core::fail(set.error());
-    }
+    TRY(const auto value, number(word.substr(equals + 1), word.substr(0, equals)));
+    TRY_DO(set_term(word.substr(0, equals), value, out));
   }
   return fit::WheelSurface::asphere(std::move(out));
 }
 
 core::Result<record::Series> read_table(const std::string& file,
                                         std::span<const record::WantedColumn> columns) {
-  const auto bytes = record::read_file(file, record::kMostPointsBytes);
-  if (!bytes) return core::fail(bytes.error());
-  return record::parse_series_csv(*bytes, std::filesystem::path(file).filename().string(), columns);
+  TRY(const auto bytes, record::read_file(file, record::kMostPointsBytes));
+  return record::parse_series_csv(bytes, std::filesystem::path(file).filename().string(), columns);
 }
 
 core::Error in_file(const core::Error& error, const std::string& file) {
@@ -252,9 +247,8 @@ core::Result<fit::WheelSurface> read_surface(const std::string& word) {
                                   word));
   }
   const std::string file(rest);
-  const auto table = read_table(file, std::array<record::WantedColumn, 2>{{{"x"}, {"z"}}});
-  if (!table) return core::fail(table.error());
-  auto surface = fit::WheelSurface::table(*table->column("x"), *table->column("z"));
+  TRY(const auto table, read_table(file, std::array<record::WantedColumn, 2>{{{"x"}, {"z"}}}));
+  auto surface = fit::WheelSurface::table(*table.column("x"), *table.column("z"));
   if (!surface) return core::fail(in_file(surface.error(), file));
   return surface;
 }
@@ -262,11 +256,11 @@ core::Result<fit::WheelSurface> read_surface(const std::string& word) {
 /// The surface minus the removal in a file with the columns x,depth_um (mm, um).
 core::Result<fit::WheelSurface> take_removal(const fit::WheelSurface& surface,
                                              const std::string& file) {
-  const auto table = read_table(file, std::array<record::WantedColumn, 2>{{{"x"}, {"depth_um"}}});
-  if (!table) return core::fail(table.error());
-  std::vector<double> depth = *table->column("depth_um");
+  TRY(const auto table,
+      read_table(file, std::array<record::WantedColumn, 2>{{{"x"}, {"depth_um"}}}));
+  std::vector<double> depth = *table.column("depth_um");
   for (double& d : depth) d *= core::kMicrometre;
-  auto out = surface.less(*table->column("x"), std::move(depth));
+  auto out = surface.less(*table.column("x"), std::move(depth));
   if (!out) return core::fail(in_file(out.error(), file));
   return out;
 }
@@ -276,16 +270,15 @@ using Points = std::vector<Eigen::Vector2d>;
 core::Result<Points> load_wheel(const std::string& file) {
   constexpr std::array<record::WantedColumn, 3> kWheelColumns = {
       {{"x"}, {"z", false}, {"y", false}}};
-  const auto table = read_table(file, kWheelColumns);
-  if (!table) return core::fail(table.error());
-  const auto z = table->column("z");
-  const auto y = table->column("y");
+  TRY(const auto table, read_table(file, kWheelColumns));
+  const auto z = table.column("z");
+  const auto y = table.column("y");
   if (z.has_value() == y.has_value()) {
     return core::fail(in_file(
         {core::Code::kSyntax, "a wheel needs the columns x,z or x,y (mm): one of z and y", {}},
         file));
   }
-  const auto x = table->column("x");
+  const auto x = table.column("x");
   Points out;
   for (std::size_t i = 0; i < x->size(); ++i) out.emplace_back((*x)[i], (z ? *z : *y)[i]);
   return out;
@@ -344,9 +337,8 @@ core::Result<fit::WheelTask> task_of(const WheelArguments& a) {
   auto surface = read_surface(a.surface);
   if (surface && !a.removal.empty()) surface = take_removal(*surface, a.removal);
   if (!surface) return core::fail(surface.error());
-  const auto options = path_options(a, *surface);
-  if (!options) return core::fail(options.error());
-  fit::WheelPathTask path{*std::move(surface), *options, fit::RadiusChoice::kMean,
+  TRY(const auto options, path_options(a, *surface));
+  fit::WheelPathTask path{*std::move(surface), options, fit::RadiusChoice::kMean,
                           a.repeatability_um * core::kMicrometre, a.touch_off_mm};
   if (a.radius == record::GroundSurfaceTask::Radius::kEffective)
     path.radius = fit::RadiusChoice::kEffective;

@@ -105,8 +105,8 @@ class AsciiProbe final : public DisplacementProbe {
   [[nodiscard]] IndicatorTraits traits() const override { return {settings_.resolution_mm, 0.05}; }
 
   [[nodiscard]] core::Result<double> read_mm() override {
-    if (auto quiet = drain(); !quiet) return core::fail(quiet.error());
-    if (auto sent = stream_->write(settings_.request); !sent) return core::fail(sent.error());
+    TRY_DO(drain());
+    TRY_DO(stream_->write(settings_.request));
     const auto reply = receive();
     if (!reply) {
       late_ = true;
@@ -129,9 +129,8 @@ class AsciiProbe final : public DisplacementProbe {
   [[nodiscard]] core::Result<void> drain() {
     const wire::Clock::Time end = clock_.now() + 5 * settings_.answer_limit;
     for (;;) {
-      const auto old = stream_->read_some(late_ ? settings_.answer_limit : milliseconds(0));
-      if (!old) return core::fail(old.error());
-      if (old->empty()) break;
+      TRY(const auto old, stream_->read_some(late_ ? settings_.answer_limit : milliseconds(0)));
+      if (old.empty()) break;
       if (clock_.now() < end) continue;
       return core::machine_fault(
           fmt::format("{} does not stop sending; end its continuous output", description()));
@@ -154,9 +153,8 @@ class AsciiProbe final : public DisplacementProbe {
       }
       const auto left = duration_cast<milliseconds>(end - clock_.now());
       if (left <= milliseconds(0) || buffer_.size() > kLongestReply) break;
-      const auto part = stream_->read_some(left);
-      if (!part) return core::fail(part.error());
-      buffer_ += printable(*part);
+      TRY(const auto part, stream_->read_some(left));
+      buffer_ += printable(part);
     }
     return core::machine_fault(
         fmt::format("{}: no reading within {} ms; check that it is on, its cable, "

@@ -52,8 +52,7 @@ class MitutoyoItn final : public DisplacementProbe {
         !left) {
       return left;
     }
-    const auto greeting = device_->control_in({kVendorIn, kGreeting, 0, 0}, 1, kControlLimit);
-    if (!greeting) return tl::unexpected(greeting.error());
+    TRY_DO(device_->control_in({kVendorIn, kGreeting, 0, 0}, 1, kControlLimit));
     return {};
   }
 
@@ -84,10 +83,9 @@ class MitutoyoItn final : public DisplacementProbe {
   /// Discards data without a request: from a press of the button, or a late answer.
   [[nodiscard]] wire::UsbResult<void> drain() {
     for (;;) {
-      const auto old = device_->interrupt_in(in_.address, in_.packet_bytes,
-                                             late_ ? kAnswerLimit : milliseconds(1));
-      if (!old) return tl::unexpected(old.error());
-      if (old->empty()) break;
+      TRY(const auto old, device_->interrupt_in(in_.address, in_.packet_bytes,
+                                                late_ ? kAnswerLimit : milliseconds(1)));
+      if (old.empty()) break;
     }
     late_ = false;
     return {};

@@ -105,26 +105,25 @@ tl::expected<Tag, Refusal> read_head(std::string_view line) {
 }  // namespace
 
 tl::expected<Command, Refusal> parse_command(std::string_view line) {
-  const auto tag = read_head(line);
-  if (!tag) return tl::unexpected(tag.error());
+  TRY(const auto tag, read_head(line));
   ItemReader reader(line.substr(kTagLength + 1), ItemReader::Manner::kStrict);
   Command out;
-  out.tag = *tag;
+  out.tag = tag;
   out.method = reader.read_name(false);
-  if (out.method.empty()) return refuse(kIncorrectArguments, *tag, "no method behind the tag");
-  if (tag->event && !out.method.ends_with('E')) {
+  if (out.method.empty()) return refuse(kIncorrectArguments, tag, "no method behind the tag");
+  if (tag.event && !out.method.ends_with('E')) {
     return refuse(kIllegalTag, {}, fmt::format("{} is no event command", out.method));
   }
   if (std::find(kMethods.begin(), kMethods.end(), out.method) == kMethods.end()) {
-    return refuse(kIllegalCommand, *tag, fmt::format("there is no method {}", out.method));
+    return refuse(kIllegalCommand, tag, fmt::format("there is no method {}", out.method));
   }
-  if (!tag->event && out.method.ends_with('E')) {
-    return refuse(kIllegalTag, *tag, fmt::format("{} needs an event tag", out.method));
+  if (!tag.event && out.method.ends_with('E')) {
+    return refuse(kIllegalTag, tag, fmt::format("{} needs an event tag", out.method));
   }
   auto arguments = reader.read_arguments(1);
-  if (!arguments) return refuse(arguments.error().number, *tag, std::move(arguments.error().what));
+  if (!arguments) return refuse(arguments.error().number, tag, std::move(arguments.error().what));
   if (!reader.at_end()) {
-    return refuse(kIncorrectArguments, *tag, "text behind the last parenthesis");
+    return refuse(kIncorrectArguments, tag, "text behind the last parenthesis");
   }
   out.arguments = std::move(*arguments);
   return out;

@@ -49,31 +49,24 @@ core::Result<std::unique_ptr<IppMachine>> IppMachine::open(Connect connect,
 }
 
 core::Result<void> IppMachine::connect() {
-  auto line = connect_();
-  if (!line) return core::fail(line.error());
+  TRY(auto line, connect_());
   dialogue_ = std::make_unique<ipp::client::Dialogue>(
-      std::move(*line),
+      std::move(line),
       ipp::client::SessionOptions{options_.answer_limit, options_.abort_works, options_.numbers},
       options_.answer_limit);
   dialogue_->session().ask_for_stop([this] { return is_stop_wanted(); });
-  auto identity = dialogue_->start();
-  if (!identity) return core::fail(identity.error());
-  identity_ = std::move(*identity);
-  const auto tool = dialogue_->active_tool();
-  if (!tool) return core::fail(tool.error());
-  tool_ = *tool;
+  TRY(identity_, dialogue_->start());
+  TRY(const auto tool, dialogue_->active_tool());
+  tool_ = tool;
   if (auto named = check_named(options_.tool); !named) return named;  // before any motion
   if (auto read = read_tool_radius(); !read) return read;
-  const auto homed = dialogue_->is_homed();
-  if (!homed) return core::fail(homed.error());
-  homed_ = *homed;
+  TRY(homed_, dialogue_->is_homed());
   next_touch_ = -1;
   last_touch_.reset();
   effective_radius_mm_.reset();
   point_known_ = false;
-  const auto stands = dialogue_->position_W_mm();
-  if (!stands) return core::fail(stands.error());
-  position_W_mm_ = on_grid_mm(*stands);
+  TRY(const auto stands, dialogue_->position_W_mm());
+  position_W_mm_ = on_grid_mm(stands);
   temperature_degC_.reset();
   if (auto read = read_part_temperature(); !read) return read;
   return read_speed_limits();
@@ -81,11 +74,10 @@ core::Result<void> IppMachine::connect() {
 
 core::Result<void> IppMachine::read_part_temperature() {
   if (!identity_.has_temperatures) return {};
-  const auto temperature = dialogue_->property("Part.Temperature");
-  if (!temperature) return core::fail(temperature.error());
-  if (*temperature) {
-    if (auto sane = check_temperature("Part.Temperature", **temperature); !sane) return sane;
-    temperature_degC_ = *temperature;
+  TRY(const auto temperature, dialogue_->property("Part.Temperature"));
+  if (temperature) {
+    if (auto sane = check_temperature("Part.Temperature", *temperature); !sane) return sane;
+    temperature_degC_ = temperature;
   }
   return {};
 }
@@ -129,9 +121,8 @@ core::Result<MachineStatus> IppMachine::status() {
   out.homed = homed_;
   if (!dialogue_->session().usable()) out.fault = "the connection is lost";
   if (!out.fault.empty()) return out;  // a server in its error state answers no other request
-  const auto homed = dialogue_->is_homed();
-  if (!homed) return core::fail(homed.error());
-  out.homed = homed_ = *homed;
+  TRY(const auto homed, dialogue_->is_homed());
+  out.homed = homed_ = homed;
   return out;
 }
 
@@ -184,9 +175,8 @@ core::Result<Reply> IppMachine::run(std::string_view method, std::vector<Item> i
 
 core::Result<void> IppMachine::go_to(const Vector3d& tip_W_mm) {
   if (tip_W_mm == position_W_mm_) return {};
-  const auto moved = run("GoTo", coordinates(tip_W_mm), (tip_W_mm - position_W_mm_).norm(),
-                         fmt::format("the move to {}", in_words(tip_W_mm)));
-  if (!moved) return core::fail(moved.error());
+  TRY_DO(run("GoTo", coordinates(tip_W_mm), (tip_W_mm - position_W_mm_).norm(),
+             fmt::format("the move to {}", in_words(tip_W_mm))));
   last_move_W_mm_ = {position_W_mm_, tip_W_mm};
   position_W_mm_ = tip_W_mm;
   return {};
@@ -202,12 +192,11 @@ core::Result<void> IppMachine::home() {
   homed_ = homed && *homed;
   if (!homed) return core::fail(homed.error());
   if (!homed_) {
-    if (auto done = run("Home", {}, 0.0, "homing"); !done) return core::fail(done.error());
+    TRY_DO(run("Home", {}, 0.0, "homing"));
     homed_ = true;
   }
-  const auto stands = dialogue_->position_W_mm();
-  if (!stands) return core::fail(stands.error());
-  position_W_mm_ = on_grid_mm(*stands);
+  TRY(const auto stands, dialogue_->position_W_mm());
+  position_W_mm_ = on_grid_mm(stands);
   Vector3d above = position_W_mm_;
   above.z() = std::max(above.z(), options_.park_W_mm.z());
   if (!options_.tool.empty() && options_.tool != tool_) {
@@ -220,9 +209,8 @@ core::Result<void> IppMachine::home() {
   if (auto up = go_to(above); !up) return up;
   const Vector3d park = on_grid_mm(options_.park_W_mm);
   if (auto parked = go_to(park); !parked) return parked;
-  const auto parks = dialogue_->position_W_mm();
-  if (!parks) return core::fail(parks.error());
-  if (auto there = check_stands("the move", park, *parks, kAfterMove_mm); !there) {
+  TRY(const auto parks, dialogue_->position_W_mm());
+  if (auto there = check_stands("the move", park, parks, kAfterMove_mm); !there) {
     return core::fail(distrust(there.error()));
   }
   return {};
@@ -251,16 +239,14 @@ core::Result<void> IppMachine::set_touch_distances(const TouchCommand& command) 
 }
 
 core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
-  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
-  if (auto checked = check_touch(given, position_W_mm_); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_ready());
+  TRY_DO(check_touch(given, position_W_mm_));
   const TouchCommand command = on_grid(given);
   const TouchCommand sent = point_known_ ? command : for_either_reading(command);
   const bool slow = is_cautious() && sent.approach_mm == command.approach_mm;
-  if (auto set = slow_down(slow); !set) return core::fail(set.error());
-  if (auto set = set_touch_distances(sent); !set) return core::fail(set.error());
-  if (auto numbered = number_touch(command.id); !numbered) return core::fail(numbered.error());
+  TRY_DO(slow_down(slow));
+  TRY_DO(set_touch_distances(sent));
+  TRY_DO(number_touch(command.id));
   const Vector3d start = position_W_mm_;
   std::vector<Item> items =
       coordinates(named_point(command.expected_tip_W_mm, command.direction_W));
@@ -271,22 +257,21 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
     // The return path is free along the line that was just searched.
     const bool goes_back = reply.error().code == core::Code::kNoTouch;
     if (goes_back) {
-      if (auto back = go_to(start); !back) return core::fail(back.error());
-      if (auto set = slow_down(false); !set) return core::fail(set.error());
+      TRY_DO(go_to(start));
+      TRY_DO(slow_down(false));
     }
     return core::fail(with_point_advice(reply.error()));
   }
   next_touch_ = command.id < 0 ? -1 : command.id + 1;
-  if (auto set = slow_down(false); !set) return core::fail(set.error());
-  const auto reading = reading_of(*reply, command);
-  if (!reading) return core::fail(reading.error());
+  TRY_DO(slow_down(false));
+  TRY(const auto reading, reading_of(*reply, command));
   if (!options_.returns_to_approach) {
-    position_W_mm_ = reading->tip_W_mm - command.approach_mm * command.direction_W;
-    if (auto back = go_to(start); !back) return core::fail(back.error());
+    position_W_mm_ = reading.tip_W_mm - command.approach_mm * command.direction_W;
+    TRY_DO(go_to(start));
   } else if (!point_known_) {
-    if (auto same = check_point(command, sent); !same) return core::fail(same.error());
+    TRY_DO(check_point(command, sent));
   }
-  return *reading;
+  return reading;
 }
 
 core::Result<void> IppMachine::check_point_of(const ipp::client::PointReport& point,
@@ -304,25 +289,24 @@ core::Result<void> IppMachine::check_point_of(const ipp::client::PointReport& po
 }
 
 core::Result<TouchReading> IppMachine::reading_of(const Reply& reply, const TouchCommand& command) {
-  const auto point = dialogue_->point_of(reply);
-  if (!point) return core::fail(point.error());
-  if (auto sane = check_point_of(*point, command); !sane) return core::fail(distrust(sane.error()));
-  for (const auto& [name, degC] : {std::pair("Part.Temperature", point->temperature_degC),
-                                   std::pair("Scale.Temperature", point->scale_temperature_degC)}) {
+  TRY(const auto point, dialogue_->point_of(reply));
+  if (auto sane = check_point_of(point, command); !sane) return core::fail(distrust(sane.error()));
+  for (const auto& [name, degC] : {std::pair("Part.Temperature", point.temperature_degC),
+                                   std::pair("Scale.Temperature", point.scale_temperature_degC)}) {
     if (!degC) continue;
-    if (auto sane = check_temperature(name, *degC); !sane) return core::fail(sane.error());
+    TRY_DO(check_temperature(name, *degC));
   }
-  last_touch_ = {command, point->tip_W_mm};
-  if (!effective_radius_mm_) effective_radius_mm_ = point->tip_radius_mm;
-  if (point->temperature_degC) temperature_degC_ = point->temperature_degC;
-  if (point->time_s) server_time_s_ = *point->time_s;
+  last_touch_ = {command, point.tip_W_mm};
+  if (!effective_radius_mm_) effective_radius_mm_ = point.tip_radius_mm;
+  if (point.temperature_degC) temperature_degC_ = point.temperature_degC;
+  if (point.time_s) server_time_s_ = *point.time_s;
   TouchReading out;
-  out.tip_W_mm = point->tip_W_mm;
+  out.tip_W_mm = point.tip_W_mm;
   out.temperature_degC = temperature_degC_;
-  if (point->scale_temperature_degC) scale_temperature_degC_ = point->scale_temperature_degC;
+  if (point.scale_temperature_degC) scale_temperature_degC_ = point.scale_temperature_degC;
   out.scale_temperature_degC = scale_temperature_degC_;
   out.time_s = time_s();
-  out.tip_radius_mm = point->tip_radius_mm.value_or(0.0);
+  out.tip_radius_mm = point.tip_radius_mm.value_or(0.0);
   return on_grid(out);
 }
 
@@ -343,17 +327,15 @@ core::Result<void> IppMachine::recover() {
   stopped_ = false;
   if (!dialogue_->session().usable()) return connect();
   if (auto cleared = dialogue_->clear(); !cleared) return cleared;
-  const auto tool = dialogue_->active_tool();
-  if (!tool) return core::fail(tool.error());
-  if (*tool != tool_) {
+  TRY(const auto tool, dialogue_->active_tool());
+  if (tool != tool_) {
     dialogue_->forget_properties();
     effective_radius_mm_.reset();
   }
-  tool_ = *tool;
+  tool_ = tool;
   if (auto read = read_tool_radius(); !read) return read;
-  const auto stands = dialogue_->position_W_mm();
-  if (!stands) return core::fail(stands.error());
-  position_W_mm_ = on_grid_mm(*stands);
+  TRY(const auto stands, dialogue_->position_W_mm());
+  position_W_mm_ = on_grid_mm(stands);
   return {};
 }
 

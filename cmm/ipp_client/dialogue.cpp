@@ -222,10 +222,9 @@ core::Result<void> Dialogue::check_state() {
 }
 
 core::Result<std::string> Dialogue::version() {
-  const auto reply = ask_if_known("GetDMEVersion", {});
-  if (!reply) return core::fail(reply.error());
-  if (!*reply) return std::string("before 1.4");
-  const std::string version = word_of(**reply);
+  TRY(const auto reply, ask_if_known("GetDMEVersion", {}));
+  if (!reply) return std::string("before 1.4");
+  const std::string version = word_of(*reply);
   if (version.starts_with("1.") || version.starts_with("2.")) return version;
   return core::machine_fault(
       fmt::format("the server at {} speaks I++ DME version \"{}\", this program speaks "
@@ -239,55 +238,48 @@ core::Result<void> Dialogue::choose_reports(Identity& identity) {
     if (length > 4 && !identity.has_temperatures) continue;
     std::vector<Item> items;
     for (std::size_t i = 0; i < length; ++i) items.push_back(call_item(kPointReport[i]));
-    const auto taken = ask_if_known("OnPtMeasReport", std::move(items));
-    if (!taken) return core::fail(taken.error());
-    chosen = taken->has_value();
+    TRY(const auto taken, ask_if_known("OnPtMeasReport", std::move(items)));
+    chosen = taken.has_value();
     if (!chosen) continue;
     identity.tells_time = length > 4;
     break;
   }
   if (!chosen) return core::machine_fault("the machine cannot report X, Y and Z of a probed point");
-  const auto parameters = tool_may_have("ScanPar");
-  if (!parameters) return core::fail(parameters.error());
-  if (!*parameters) {
+  TRY(const auto parameters, tool_may_have("ScanPar"));
+  if (!parameters) {
     identity.no_scans = "its tool has no Tool.ScanPar";
     return {};
   }
-  const auto scans = ask_if_known("OnScanReport", {call_item("X"), call_item("Y"), call_item("Z")});
-  if (!scans) return core::fail(scans.error());
-  identity.scans = scans->has_value();
+  TRY(const auto scans,
+      ask_if_known("OnScanReport", {call_item("X"), call_item("Y"), call_item("Z")}));
+  identity.scans = scans.has_value();
   if (!identity.scans) identity.no_scans = "it does not take OnScanReport";
   return {};
 }
 
 core::Result<Identity> Dialogue::start() {
-  if (auto fresh = fresh_session(); !fresh) return core::fail(fresh.error());
-  if (auto well = check_state(); !well) return core::fail(well.error());
+  TRY_DO(fresh_session());
+  TRY_DO(check_state());
   Identity out;
-  const auto spoken = version();
-  if (!spoken) return core::fail(spoken.error());
-  out.version = *spoken;
-  const auto kind = ask_if_known("GetMachineClass", {});
-  if (!kind) return core::fail(kind.error());
-  if (*kind) out.machine_class = word_of(**kind);
+  TRY(out.version, version());
+  TRY(const auto kind, ask_if_known("GetMachineClass", {}));
+  if (kind) out.machine_class = word_of(*kind);
   const auto frame = ask("SetCoordSystem", {name_item("MachineCsy")});
   if (!frame) return core::fail(error_of(frame.error(), "choosing the frame of the machine"));
-  const auto tools = ask_if_known("EnumTools", {});
-  if (!tools) return core::fail(tools.error());
-  if (*tools) {
-    for (const Response& line : (*tools)->data) {
+  TRY(const auto tools, ask_if_known("EnumTools", {}));
+  if (tools) {
+    for (const Response& line : tools->data) {
       for (const Item& item : line.data) {
         const auto name = string_of(item);
         if (name && *name != "NoTool" && *name != "UnDefTool") out.tools.push_back(*name);
       }
     }
   }
-  const auto simulated = is_simulator();
-  if (!simulated) return core::fail(simulated.error());
-  out.simulated = *simulated;
+  TRY(const auto simulated, is_simulator());
+  out.simulated = simulated;
   out.has_temperatures =
       out.simulated || std::strtod(out.version.c_str(), nullptr) >= kFirstWithTemperatures;
-  if (auto chosen = choose_reports(out); !chosen) return core::fail(chosen.error());
+  TRY_DO(choose_reports(out));
   return out;
 }
 
@@ -295,28 +287,24 @@ core::Result<bool> Dialogue::is_simulator() {
   const auto list = tool_list();  // the list of our own server is complete
   if (!list) return core::fail(list.error());
   if (list->find("\"Id\"") == std::string::npos) return false;
-  const auto id = ask_if_known("GetProp", {call_item("Tool.Id")});
-  if (!id) return core::fail(id.error());
-  if (!*id || word_of(**id) != kSimulatorId) return false;
-  const auto simulated = property("Simulation.NextTouch");
-  if (!simulated) return core::fail(simulated.error());
-  return simulated->has_value();
+  TRY(const auto id, ask_if_known("GetProp", {call_item("Tool.Id")}));
+  if (!id || word_of(*id) != kSimulatorId) return false;
+  TRY(const auto simulated, property("Simulation.NextTouch"));
+  return simulated.has_value();
 }
 
 core::Result<std::string> Dialogue::tool_list() {
   if (!tool_list_) {
-    const auto list = ask_if_known("EnumAllProp", {call_item("Tool")});
-    if (!list) return core::fail(list.error());
-    tool_list_ = *list ? fault_text(**list) : "";
+    TRY(const auto list, ask_if_known("EnumAllProp", {call_item("Tool")}));
+    tool_list_ = list ? fault_text(*list) : "";
   }
   // A list without the parameters of a touch is unusable: no tool is active, or it is incomplete.
   return tool_list_->find("PtMeasPar") == std::string::npos ? std::string() : *tool_list_;
 }
 
 core::Result<bool> Dialogue::tool_may_have(std::string_view name) {
-  const auto list = tool_list();
-  if (!list) return core::fail(list.error());
-  return list->empty() || list->find(name) != std::string::npos;
+  TRY(const auto list, tool_list());
+  return list.empty() || list.find(name) != std::string::npos;
 }
 
 core::Result<Eigen::Vector3d> Dialogue::position_W_mm() {
@@ -341,9 +329,8 @@ core::Result<std::string> Dialogue::active_tool() {
 }
 
 core::Result<std::optional<double>> Dialogue::property(std::string_view name) {
-  const auto reply = ask_if_known("GetProp", {call_item(name)});
-  if (!reply) return core::fail(reply.error());
-  return *reply ? find_number(**reply, name) : std::nullopt;
+  TRY(const auto reply, ask_if_known("GetProp", {call_item(name)}));
+  return reply ? find_number(*reply, name) : std::nullopt;
 }
 
 core::Result<void> Dialogue::set(std::span<const std::pair<std::string_view, double>> values) {
@@ -368,10 +355,9 @@ core::Result<void> Dialogue::set(std::span<const std::pair<std::string_view, dou
 }
 
 core::Result<PointReport> Dialogue::point_of(const Reply& reply) const {
-  const auto point = find_point(reply);
-  if (!point) return core::fail(point.error());
+  TRY(const auto point, find_point(reply));
   PointReport out;
-  out.tip_W_mm = *point;
+  out.tip_W_mm = point;
   out.tip_radius_mm = find_number(reply, "ER");
   if (const Item* normal = find_value(reply, "IJK")) out.normal_W = vector_of(*normal);
   out.temperature_degC = find_number(reply, "Part.Temperature");

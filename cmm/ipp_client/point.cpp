@@ -74,11 +74,10 @@ core::Result<void> IppMachine::check_point(const TouchCommand& command, const To
     point_known_ = true;
     return {};
   }
-  const auto stands = dialogue_->position_W_mm();
-  if (!stands) return core::fail(stands.error());
+  TRY(const auto stands, dialogue_->position_W_mm());
   const Vector3d start = position_W_mm_;
-  position_W_mm_ = on_grid_mm(*stands);
-  const double back_mm = -(*stands - command.expected_tip_W_mm).dot(command.direction_W);
+  position_W_mm_ = on_grid_mm(stands);
+  const double back_mm = -(stands - command.expected_tip_W_mm).dot(command.direction_W);
   const bool surface_meant = options_.point == NamedPoint::kSurface;
   const double if_center_mm = sent.approach_mm - (surface_meant ? radius_mm : 0.0);
   const auto is_at = [&](double mm) { return std::abs(back_mm - mm) <= kOfRadius * radius_mm; };

@@ -46,21 +46,19 @@ std::vector<Item> scan_arguments(const ScanCircleCommand& command, const Vector3
 }  // namespace
 
 core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircleCommand& given) {
-  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
-  if (auto valid = check_scan(given); !valid) return core::fail(valid.error());
+  TRY_DO(check_ready());
+  TRY_DO(check_scan(given));
   if (const Capabilities can = capabilities(); !can.scans_circles) {
     return core::machine_fault(fmt::format("the machine does not scan circles: {}", can.no_scans));
   }
   const ScanCircleCommand command = on_grid(given);
   const TouchCommand first = scan_point(command, 0);
-  if (auto checked = check_touch(first, position_W_mm_); !checked) {
-    return core::fail(checked.error());
-  }
-  if (auto set = slow_down(is_cautious()); !set) return core::fail(set.error());
-  if (auto set = set_touch_distances(first); !set) return core::fail(set.error());
+  TRY_DO(check_touch(first, position_W_mm_));
+  TRY_DO(slow_down(is_cautious()));
+  TRY_DO(set_touch_distances(first));
   const std::array<std::pair<std::string_view, double>, 1> retract = {
       {{"Tool.ScanPar.Retract", command.approach_mm}}};
-  if (auto set = dialogue_->set(retract); !set) return core::fail(set.error());
+  TRY_DO(dialogue_->set(retract));
   if (auto numbered = number_touch(command.first_id); !numbered)
     return core::fail(numbered.error());
   const Vector3d start = position_W_mm_;
@@ -69,10 +67,10 @@ core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircle
                          fmt::format("the scan about {}", in_words(command.center_W_mm)));
   const bool goes_back = !reply && reply.error().code == core::Code::kNoTouch;
   if (goes_back) {
-    if (auto back = go_to(start); !back) return core::fail(back.error());
+    TRY_DO(go_to(start));
   }
   if (reply || goes_back) {
-    if (auto set = slow_down(false); !set) return core::fail(set.error());
+    TRY_DO(slow_down(false));
   }
   if (!reply) return core::fail(with_point_advice(reply.error()));
   return readings_of(*reply, command);
@@ -80,26 +78,24 @@ core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircle
 
 core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& reply,
                                                                 const ScanCircleCommand& command) {
-  const auto tips = ipp::client::scan_points(reply);
-  if (!tips) return core::fail(tips.error());
-  next_touch_ = command.first_id + static_cast<std::int64_t>(tips->size());
-  if (auto sane = check_scanned(command, *tips); !sane) return core::fail(distrust(sane.error()));
-  const auto stands = dialogue_->position_W_mm();
-  if (!stands) return core::fail(stands.error());
+  TRY(const auto tips, ipp::client::scan_points(reply));
+  next_touch_ = command.first_id + static_cast<std::int64_t>(tips.size());
+  if (auto sane = check_scanned(command, tips); !sane) return core::fail(distrust(sane.error()));
+  TRY(const auto stands, dialogue_->position_W_mm());
   const TouchCommand end = scan_point(command, command.points);
-  if (auto there = check_stands("the scan", start_of(end), *stands, kAfterScan_mm); !there) {
+  if (auto there = check_stands("the scan", start_of(end), stands, kAfterScan_mm); !there) {
     return core::fail(distrust(there.error()));
   }
-  position_W_mm_ = on_grid_mm(*stands);
+  position_W_mm_ = on_grid_mm(stands);
   // The points have no temperatures, and the last touch may be many circles ago.
-  if (auto read = read_part_temperature(); !read) return core::fail(read.error());
+  TRY_DO(read_part_temperature());
   std::vector<TouchReading> out;
-  out.reserve(tips->size());
+  out.reserve(tips.size());
   TouchReading reading;
   reading.temperature_degC = temperature_degC_;
   reading.scale_temperature_degC = scale_temperature_degC_;
   reading.time_s = time_s();
-  for (const Vector3d& tip : *tips) {
+  for (const Vector3d& tip : tips) {
     reading.tip_W_mm = tip;
     out.push_back(on_grid(reading));
   }
@@ -107,7 +103,7 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
 }
 
 core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& target) {
-  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
+  TRY_DO(check_ready());
   std::vector<Item> items;
   append(items, Vector3d::UnitZ());
   append(items, target.first_W);
@@ -115,9 +111,8 @@ core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& targ
   append(items, target.second_W);
   items.push_back(number_item(0.0));  // no limit for the residual error: the pose is read back
   items.push_back(number_item(0.0));
-  const auto reply = run("AlignPart", std::move(items), 0.0, "turning the part");
-  if (!reply) return core::fail(reply.error());
-  const std::vector<Vector3d> reached = ipp::client::find_vectors(*reply);
+  TRY(const auto reply, run("AlignPart", std::move(items), 0.0, "turning the part"));
+  const std::vector<Vector3d> reached = ipp::client::find_vectors(reply);
   if (reached.size() != 2) {
     return core::machine_fault(
         fmt::format("turning the part: the machine answered with {} vectors instead of 2; "

@@ -49,10 +49,9 @@ Outcome<Tag> Session::begin(std::string_view method, std::vector<Item> arguments
   const auto tag = send({next_tag(false), std::string(method), std::move(arguments)});
   if (!tag) return tag;
   Running& running = running_[to_text(*tag)];
-  const auto acknowledged = wait([&] { return running.acknowledged || running.complete; },
-                                 Clock::now() + options_.answer_limit, Watch::kNothing);
-  if (!acknowledged) return tl::unexpected(acknowledged.error());
-  if (*acknowledged) return tag;
+  TRY(const auto acknowledged, wait([&] { return running.acknowledged || running.complete; },
+                                    Clock::now() + options_.answer_limit, Watch::kNothing));
+  if (acknowledged) return tag;
   return break_off(
       fmt::format("{} did not acknowledge {} within {:g} s; is another client "
                   "connected to it?",
@@ -66,9 +65,8 @@ Outcome<Reply> Session::finish(const Tag& tag, Milliseconds limit, Watch watch) 
     return tl::unexpected(Failure{Failure::Kind::kLine, "there is no such command", {}});
   }
   Running& running = found->second;
-  const auto ended = wait([&] { return running.complete; }, Clock::now() + limit, watch);
-  if (!ended) return tl::unexpected(ended.error());
-  if (*ended) return result_of(tag);
+  TRY(const auto ended, wait([&] { return running.complete; }, Clock::now() + limit, watch));
+  if (ended) return result_of(tag);
   return break_off(fmt::format("{} did not finish {} within {:g} s", peer(),
                                excerpt(running.text, kShown),
                                static_cast<double>(limit.count()) / 1000.0));
@@ -95,21 +93,18 @@ Outcome<Reply> Session::result_of(const Tag& tag) {
 
 Outcome<Reply> Session::call(std::string_view method, std::vector<Item> arguments,
                              Milliseconds limit, Watch watch) {
-  const auto tag = begin(method, std::move(arguments));
-  if (!tag) return tl::unexpected(tag.error());
-  return finish(*tag, limit, watch);
+  TRY(const auto tag, begin(method, std::move(arguments)));
+  return finish(tag, limit, watch);
 }
 
 Outcome<Reply> Session::call_event(std::string_view method, std::vector<Item> arguments,
                                    Milliseconds limit) {
-  const auto tag = send({next_tag(true), std::string(method), std::move(arguments)});
-  if (!tag) return tl::unexpected(tag.error());
-  return finish(*tag, limit);
+  TRY(const auto tag, send({next_tag(true), std::string(method), std::move(arguments)}));
+  return finish(tag, limit);
 }
 
 Outcome<void> Session::abort() {
-  auto ended = call_event("AbortE", {}, options_.answer_limit);
-  if (!ended) return tl::unexpected(ended.error());
+  TRY_DO(call_event("AbortE", {}, options_.answer_limit));
   for (auto& [tag, running] : running_) {
     if (tag.front() == 'E') continue;
     running.complete = true;
@@ -123,7 +118,7 @@ Outcome<bool> Session::wait(const std::function<bool()>& done, Clock::time_point
   const bool watches = watch == Watch::kStop && options_.abort_works;
   while (!done()) {
     if (watches && (severe_ || (stop_ && stop_()))) {
-      if (auto stopped = abort(); !stopped) return tl::unexpected(stopped.error());
+      TRY_DO(abort());
       continue;
     }
     const auto left = std::chrono::duration_cast<Milliseconds>(deadline - Clock::now());
@@ -131,7 +126,7 @@ Outcome<bool> Session::wait(const std::function<bool()>& done, Clock::time_point
     const auto line = line_->read_line(watches ? std::min(left, kLook) : left);
     if (!line) return break_off(line.error().what);
     if (!*line) continue;
-    if (auto taken = take(**line); !taken) return tl::unexpected(taken.error());
+    TRY_DO(take(**line));
   }
   return true;
 }

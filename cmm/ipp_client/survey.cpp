@@ -51,7 +51,7 @@ class Surveyor {
 
   core::Result<Survey> run() {
     out_.peer = session_.peer();
-    if (auto begun = begin(); !begun) return core::fail(begun.error());
+    TRY_DO(begin());
     ask_state();
     if (out_.fault.empty()) {
       ask_who();

@@ -56,9 +56,7 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
   dialogue_->forget_properties();
   last_touch_.reset();
   effective_radius_mm_.reset();
-  const auto active = dialogue_->active_tool();
-  if (!active) return core::fail(active.error());
-  tool_ = *active;
+  TRY(tool_, dialogue_->active_tool());
   if (tool_ != name) {
     return core::machine_fault(
         fmt::format("tool {} was asked for, the machine says that {} is active; see which "
@@ -92,13 +90,11 @@ core::Result<void> IppMachine::check_tool() {
 
 core::Result<void> IppMachine::read_tool_radius() {
   tool_radius_mm_ = options_.tip_radius_mm;
-  const auto listed = dialogue_->tool_may_have("AvrRadius");
-  if (!listed) return core::fail(listed.error());
-  if (!*listed) return {};
-  const auto radius = dialogue_->property("Tool.AvrRadius");
-  if (!radius) return core::fail(radius.error());
+  TRY(const auto listed, dialogue_->tool_may_have("AvrRadius"));
+  if (!listed) return {};
+  TRY(const auto radius, dialogue_->property("Tool.AvrRadius"));
   // 0: unknown; the qualification of the run determines it.
-  if (*radius && **radius > 0.0) tool_radius_mm_ = **radius;
+  if (radius && *radius > 0.0) tool_radius_mm_ = *radius;
   return {};
 }
 
@@ -113,9 +109,8 @@ core::Result<bool> IppMachine::scans_with_tool() {
   if (!identity_.scans) return false;
   const auto listed = dialogue_->tool_may_have("ScanPar");
   if (!listed || !*listed) return listed;
-  const auto speed = dialogue_->property("Tool.ScanPar.Speed");
-  if (!speed) return core::fail(speed.error());
-  return speed->has_value() || tool_.empty();  // unknown without a tool
+  TRY(const auto speed, dialogue_->property("Tool.ScanPar.Speed"));
+  return speed.has_value() || tool_.empty();  // unknown without a tool
 }
 
 core::Result<void> IppMachine::read_speed_limits() {
@@ -125,17 +120,14 @@ core::Result<void> IppMachine::read_speed_limits() {
     least_.*speed.member = 0.0;
     greatest_.*speed.member = kNoLimit;
     if (scan) {
-      const auto has = scans_with_tool();
-      if (!has) return core::fail(has.error());
-      tool_scans_ = *has;
-      if (!*has) continue;
+      TRY(const auto has, scans_with_tool());
+      tool_scans_ = has;
+      if (!has) continue;
     }
-    const auto least = dialogue_->property(fmt::format("{}.Min", speed.name));
-    if (!least) return core::fail(least.error());
-    const auto greatest = dialogue_->property(fmt::format("{}.Max", speed.name));
-    if (!greatest) return core::fail(greatest.error());
-    least_.*speed.member = least->value_or(0.0);
-    greatest_.*speed.member = greatest->value_or(kNoLimit);
+    TRY(const auto least, dialogue_->property(fmt::format("{}.Min", speed.name)));
+    TRY(const auto greatest, dialogue_->property(fmt::format("{}.Max", speed.name)));
+    least_.*speed.member = least.value_or(0.0);
+    greatest_.*speed.member = greatest.value_or(kNoLimit);
   }
   return {};
 }

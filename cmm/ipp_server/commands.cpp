@@ -152,8 +152,7 @@ Server::Outcome Server::add_daemon(const Command& command, double now_s) {
   }
   daemon.last_s = now_s;
   daemon.last_W_mm = tip_now_W_mm(now_s);
-  const auto values = controller_.position_report(daemon.names, daemon.last_W_mm);
-  if (!values) return tl::unexpected(values.error());
+  TRY_DO(controller_.position_report(daemon.names, daemon.last_W_mm));
   if (daemon.names.empty()) return refusal(kIncorrectArguments, "nothing is to be reported");
   const bool exists = std::any_of(daemons_.begin(), daemons_.end(),
                                   [&](const Daemon& other) { return other.tag == daemon.tag; });

@@ -88,7 +88,7 @@ tl::expected<Vector3d, Failure> Controller::position_argument(const Arguments& a
 
 tl::expected<Motion, Failure> Controller::plan_motion(const Command& command) {
   if (command.method == "Home") return plan_home(command.arguments);
-  if (auto ready = ready_to_move(); !ready) return tl::unexpected(std::move(ready.error()));
+  TRY_DO(ready_to_move());
   if (command.method == "GoTo") return plan_go_to(command.arguments);
   if (command.method == "PtMeas") return plan_touch(command.arguments);
   if (command.method == "ScanOnCircle") return plan_scan(command.arguments);
@@ -101,12 +101,8 @@ tl::expected<Motion, Failure> Controller::plan_home(const Arguments& arguments) 
   Motion out;
   out.phases.push_back({{}, [this]() -> core::Result<std::vector<Vector3d>> {
                           const Vector3d from = machine().position_W_mm();
-                          if (auto homed = machine().home(); !homed) {
-                            return core::fail(homed.error());
-                          }
-                          if (auto homed = backend_.home_table(); !homed) {
-                            return core::fail(homed.error());
-                          }
+                          TRY_DO(machine().home());
+                          TRY_DO(backend_.home_table());
                           return std::vector<Vector3d>{from, machine().position_W_mm()};
                         }});
   out.reply = [] { return Reply{}; };
@@ -114,19 +110,17 @@ tl::expected<Motion, Failure> Controller::plan_home(const Arguments& arguments) 
 }
 
 tl::expected<Motion, Failure> Controller::plan_go_to(const Arguments& arguments) {
-  auto target = position_argument(arguments, false);
-  if (!target) return tl::unexpected(std::move(target.error()));
+  TRY(auto target, position_argument(arguments, false));
   Motion out;
-  out.phases.push_back(move_phase(*target));
+  out.phases.push_back(move_phase(target));
   out.reply = [] { return Reply{}; };
   return out;
 }
 
 tl::expected<Motion, Failure> Controller::plan_touch(const Arguments& arguments) {
   if (tool_.empty()) return refusal(kToolNotDefined, "no tool is active; send ChangeTool first");
-  auto nominal = position_argument(arguments, true);
-  if (!nominal) return tl::unexpected(std::move(nominal.error()));
-  Vector3d outward_W = machine().position_W_mm() - *nominal;
+  TRY(auto nominal, position_argument(arguments, true));
+  Vector3d outward_W = machine().position_W_mm() - nominal;
   if (const Item* ijk = find_call(arguments, "IJK")) {
     const auto direction = vector_of(*ijk);
     if (!direction) return refusal(kIncorrectArguments, "IJK has not three numbers");
@@ -137,7 +131,7 @@ tl::expected<Motion, Failure> Controller::plan_touch(const Arguments& arguments)
   }
   TouchCommand touch;
   touch.direction_W = direction_on_grid(-outward_W);
-  touch.expected_tip_W_mm = tip_at(*nominal, touch.direction_W);
+  touch.expected_tip_W_mm = tip_at(nominal, touch.direction_W);
   touch.approach_mm = parameters_.act("PtMeasPar.Approach");
   touch.search_mm = parameters_.act("PtMeasPar.Search");
   return touch_motion(touch);
@@ -158,11 +152,10 @@ Motion Controller::touch_motion(const TouchCommand& touch) {
   out.phases.push_back({{}, [this, touch, start, reading]() -> core::Result<std::vector<Vector3d>> {
                           TouchCommand numbered = touch;
                           numbered.id = next_touch_;
-                          auto touched = machine().touch(numbered);
-                          if (!touched) return core::fail(touched.error());
+                          TRY(auto touched, machine().touch(numbered));
                           ++next_touch_;
-                          *reading = *touched;
-                          last_reading_ = *touched;
+                          *reading = touched;
+                          last_reading_ = touched;
                           return std::vector<Vector3d>{start, reading->tip_W_mm, start};
                         }});
   if (const double retract_mm = parameters_.act("PtMeasPar.Retract"); retract_mm >= 0.0) {
@@ -229,10 +222,9 @@ Motion Controller::scan_motion(const ScanCircleCommand& scan) {
   out.phases.push_back({{}, [this, scan, readings]() -> core::Result<std::vector<Vector3d>> {
                           ScanCircleCommand numbered = scan;
                           numbered.first_id = next_touch_;
-                          auto scanned = machine().scan_circle(numbered);
-                          if (!scanned) return core::fail(scanned.error());
-                          next_touch_ += static_cast<std::int64_t>(scanned->size());
-                          *readings = std::move(*scanned);
+                          TRY(auto scanned, machine().scan_circle(numbered));
+                          next_touch_ += static_cast<std::int64_t>(scanned.size());
+                          *readings = std::move(scanned);
                           if (!readings->empty()) last_reading_ = readings->back();
                           std::vector<Vector3d> way;
                           way.reserve(readings->size());
@@ -267,9 +259,8 @@ tl::expected<Motion, Failure> Controller::plan_align(const Arguments& arguments)
   Motion out;
   out.phases.push_back(
       {{}, [this, wanted, limits_deg, reached]() -> core::Result<std::vector<Vector3d>> {
-         auto aligned = backend_.align_part(wanted);
-         if (!aligned) return core::fail(aligned.error());
-         *reached = std::move(*aligned);
+         TRY(auto aligned, backend_.align_part(wanted));
+         *reached = std::move(aligned);
          return std::vector<Vector3d>{};
        }});
   out.reply = [this, wanted, limits_deg, reached] {

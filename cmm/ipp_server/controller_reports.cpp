@@ -58,9 +58,8 @@ tl::expected<std::vector<Item>, Failure> Controller::position_report(
 Outcome Controller::get_position(const Arguments& arguments) {
   const auto names = empty_calls(arguments);
   if (!names) return wrong_arguments("(X(), Y(), ...)");
-  auto values = position_report(*names, machine().position_W_mm());
-  if (!values) return tl::unexpected(std::move(values.error()));
-  return Reply{{std::move(*values)}, 0};
+  TRY(auto values, position_report(*names, machine().position_W_mm()));
+  return Reply{{std::move(values)}, 0};
 }
 
 Outcome Controller::set_touch_report(const Arguments& arguments) {

@@ -41,14 +41,13 @@ core::Result<void> send_all(wire::LineTransport& client, Server& server) {
 /// Takes the next line, if one arrives in time, and advances the server.
 /// @return  Whether the client sent a line.
 core::Result<bool> serve_once(wire::LineTransport& client, Server& server) {
-  auto line = client.read_line(waits(server));
-  if (!line) return core::fail(line.error());
-  const bool said = line->has_value();
+  TRY(auto line, client.read_line(waits(server)));
+  const bool said = line.has_value();
   if (said) {
-    server.receive({std::move((*line)->text), (*line)->crlf}, now_s());
+    server.receive({std::move(line->text), line->crlf}, now_s());
   }
   server.advance(now_s());
-  if (auto sent = send_all(client, server); !sent) return core::fail(sent.error());
+  TRY_DO(send_all(client, server));
   return said;
 }
 
@@ -107,15 +106,11 @@ core::Result<void> serve(wire::TcpListener& listener, Server& server,
   std::unique_ptr<wire::LineTransport> client;
   while (!options.stop_requested()) {
     if (client == nullptr) {
-      auto accepted = listener.accept(kLook);
-      if (!accepted) return core::fail(accepted.error());
-      client = std::move(*accepted);
+      TRY(client, listener.accept(kLook));
     }
     if (client == nullptr) continue;
     if (!options.wire_log.empty()) {
-      auto logged = wire::logged(std::move(client), options.wire_log, wire::Side::kServer);
-      if (!logged) return core::fail(logged.error());
-      client = std::move(*logged);
+      TRY(client, wire::logged(std::move(client), options.wire_log, wire::Side::kServer));
     }
     options.tell(fmt::format("{} is connected", client->peer()));
     Departure departure = serve_client(listener, *client, server, options);

@@ -215,8 +215,8 @@ core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) 
 
 core::Result<TouchReading> SimulatedMachine::touch(const TouchCommand& given) {
   lost_ = lost_ || (options_.lost_at_touch > 0 && given.id + 1 == options_.lost_at_touch);
-  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
-  if (auto checked = check_command(given); !checked) return core::fail(checked.error());
+  TRY_DO(check_ready());
+  TRY_DO(check_command(given));
   const TouchCommand command = on_grid(given);
   const auto found = find_contact(command, time_s_);
   if (!found) return core::fail(touch_failed(found.error(), command));
@@ -254,10 +254,9 @@ const SimulatedPart* SimulatedMachine::warm_part() const {
 
 core::Result<Vector3d> SimulatedMachine::true_contact(const TouchCommand& command) const {
   const Vector3d start = start_of(command);
-  const auto contact = first_obstacle(part_ ? &*part_ : nullptr, start, command.direction_W,
-                                      tip_radius_mm(), command.approach_mm + command.search_mm);
-  if (!contact) return core::fail(contact.error());
-  return start + contact->travel_mm * command.direction_W;
+  TRY(const auto contact, first_obstacle(part_ ? &*part_ : nullptr, start, command.direction_W,
+                                         tip_radius_mm(), command.approach_mm + command.search_mm));
+  return start + contact.travel_mm * command.direction_W;
 }
 
 core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const TouchCommand& command,
@@ -265,20 +264,19 @@ core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const Touch
   const Vector3d start = start_of(command);
   const double reach_mm = command.approach_mm + command.search_mm;
   if (!has_map(options_.errors) || reach_mm == 0.0) {
-    const auto contact =
-        first_obstacle(warm_part(), start, command.direction_W, tip_radius_mm(), reach_mm);
-    if (!contact) return core::fail(contact.error());
-    return Found{start + contact->travel_mm * command.direction_W, !contact->is_sphere};
+    TRY(const auto contact,
+        first_obstacle(warm_part(), start, command.direction_W, tip_radius_mm(), reach_mm));
+    return Found{start + contact.travel_mm * command.direction_W, !contact.is_sphere};
   }
   // The errors bend a path of a few mm by less than 1e-9 mm: it is treated as a straight line.
   const Vector3d from = true_position(options_.errors, start, time_s);
   const Vector3d way =
       true_position(options_.errors, start + reach_mm * command.direction_W, time_s) - from;
   const Vector3d direction = way.normalized();
-  const auto contact = first_obstacle(warm_part(), from, direction, tip_radius_mm(), way.norm());
-  if (!contact) return core::fail(contact.error());
-  return Found{reading_of(options_.errors, from + contact->travel_mm * direction, time_s),
-               !contact->is_sphere};
+  TRY(const auto contact,
+      first_obstacle(warm_part(), from, direction, tip_radius_mm(), way.norm()));
+  return Found{reading_of(options_.errors, from + contact.travel_mm * direction, time_s),
+               !contact.is_sphere};
 }
 
 Vector3d SimulatedMachine::truth_of(const TouchCommand& command, const Found& found) const {
@@ -332,20 +330,17 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
     const ScanCircleCommand& given) {
   const std::int64_t lost = options_.lost_at_touch;
   lost_ = lost_ || (lost > given.first_id && lost <= given.first_id + given.points);
-  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
-  if (auto valid = check_scan(given); !valid) return core::fail(valid.error());
+  TRY_DO(check_ready());
+  TRY_DO(check_scan(given));
   const ScanCircleCommand command = on_grid(given);
-  if (auto checked = check_command(scan_point(command, 0)); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_command(scan_point(command, 0)));
   const std::vector<TouchCommand> points = points_of(command);
-  const auto circle = find_circle(command, points);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, find_circle(command, points));
   std::vector<TouchReading> readings;
-  readings.reserve(circle->size());
+  readings.reserve(circle.size());
   true_tips_W_mm_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Found& found = (*circle)[i];
+    const Found& found = circle[i];
     true_tips_W_mm_.push_back(truth_of(points[i], found));
     readings.push_back(reading_at(found, points[i], scan_time_s(command, static_cast<int>(i))));
   }
@@ -379,9 +374,8 @@ void SimulatedMachine::settle(const ScanCircleCommand& command, const TouchReadi
 core::Result<void> SimulatedMachine::continue_after(const TouchCommand& given,
                                                     const TouchReading& reading) {
   const TouchCommand command = on_grid(given);
-  const auto contact = true_contact(command);
-  if (!contact) return core::fail(contact.error());
-  true_tips_W_mm_ = {*contact};
+  TRY(const auto contact, true_contact(command));
+  true_tips_W_mm_ = {contact};
   settle(command, reading);
   return {};
 }

@@ -228,34 +228,31 @@ void warn_of_units(AxisTurn& turn) {
 }  // namespace
 
 core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions& options) {
-  if (auto checked = check(trace, options); !checked) return core::fail(checked.error());
+  TRY_DO(check(trace, options));
   if (options.samples < kLeastTurnSamples) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("the axes on {} angles are asked for; at least {} are needed",
                                   options.samples, kLeastTurnSamples));
   }
   const auto [rows, reversed] = oriented(trace, options);
-  if (auto checked = check_steps(rows.c_rad, reversed); !checked) {
-    return core::fail(checked.error());
-  }
-  const auto cut = cut_of(rows.c_rad, reversed);
-  if (!cut) return core::fail(cut.error());
+  TRY_DO(check_steps(rows.c_rad, reversed));
+  TRY(const auto cut, cut_of(rows.c_rad, reversed));
   AxisTurn out;
   const double span = rows.c_rad.back() - rows.c_rad.front();
   const double step = span / static_cast<double>(rows.c_rad.size() - 1);
   // A closed turn and one with margins may differ by a few; a spline needs three.
-  if (2 * (cut->end - cut->first) < kLeastTurnSamples) {
+  if (2 * (cut.end - cut.first) < kLeastTurnSamples) {
     return core::fail(core::Code::kSampling,
                       fmt::format("C steps by {:.4g} deg: the last turn has {} samples; at least "
                                   "{} are needed; C is in degrees",
-                                  recorded_step(trace.c_rad) / core::kDegree, cut->end - cut->first,
+                                  recorded_step(trace.c_rad) / core::kDegree, cut.end - cut.first,
                                   kLeastTurnSamples));
   }
   out.samples_per_turn = core::kTwoPi / step;
   out.turns = (span + step) / core::kTwoPi;
-  out.errors.c_rad = on_uniform(rows.c_rad, rows.c_error_rad, *cut, options.samples);
-  out.errors.x_mm = on_uniform(rows.c_rad, rows.x_error_mm, *cut, options.samples);
-  if (!rows.x_mm.empty()) out.x_mm = on_uniform(rows.c_rad, rows.x_mm, *cut, options.samples);
+  out.errors.c_rad = on_uniform(rows.c_rad, rows.c_error_rad, cut, options.samples);
+  out.errors.x_mm = on_uniform(rows.c_rad, rows.x_error_mm, cut, options.samples);
+  if (!rows.x_mm.empty()) out.x_mm = on_uniform(rows.c_rad, rows.x_mm, cut, options.samples);
   warn_of_units(out);
   return out;
 }

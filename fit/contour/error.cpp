@@ -57,20 +57,18 @@ core::Result<void> take_circle(ContourError& out, double nominal_mm) {
     const double angle = angle_of(m, n);
     points[m] = (nominal_mm + out.error_mm[m]) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
-  const auto circle = ls_circle(points);
-  if (!circle) return core::fail(circle.error());
-  out.base_radius_mm = circle->radius_mm;
-  out.base_center_mm = circle->center_mm;
+  TRY(const auto circle, ls_circle(points));
+  out.base_radius_mm = circle.radius_mm;
+  out.base_center_mm = circle.center_mm;
   std::vector<double> theta(n);
   std::vector<double> residual(n);
   for (std::size_t m = 0; m < n; ++m) {
-    const Eigen::Vector2d arm = points[m] - circle->center_mm;
+    const Eigen::Vector2d arm = points[m] - circle.center_mm;
     theta[m] = std::atan2(arm.y(), arm.x());
-    residual[m] = arm.norm() - circle->radius_mm;
+    residual[m] = arm.norm() - circle.radius_mm;
   }
-  const auto ordered = ordered_profile(theta, residual);
-  if (!ordered) return core::fail(ordered.error());
-  const PeriodicSpline spline(ordered->theta_rad, ordered->r_mm);
+  TRY(const auto ordered, ordered_profile(theta, residual));
+  const PeriodicSpline spline(ordered.theta_rad, ordered.r_mm);
   for (std::size_t m = 0; m < n; ++m) out.error_mm[m] = spline(angle_of(m, n));
   const double mean = core::mean(out.error_mm);
   for (double& v : out.error_mm) v -= mean;
@@ -95,7 +93,7 @@ double peak_to_valley(std::span<const double> curve) {
 
 core::Result<ContourError> contour_error(std::span<const double> deviation_mm, double nominal_mm,
                                          const ContourErrorOptions& options) {
-  if (auto checked = check_values(deviation_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_values(deviation_mm));
   ContourError out;
   out.error_mm.assign(deviation_mm.begin(), deviation_mm.end());
   if (options.base == BaseCircle::kLimacon) {
@@ -104,9 +102,8 @@ core::Result<ContourError> contour_error(std::span<const double> deviation_mm, d
     return core::fail(taken.error());
   }
   if (!options.filtered_already) {
-    auto filtered = filter_closed(out.error_mm, options.filter);
-    if (!filtered) return core::fail(filtered.error());
-    out.error_mm = std::move(filtered->r_mm);
+    TRY(auto filtered, filter_closed(out.error_mm, options.filter));
+    out.error_mm = std::move(filtered.r_mm);
   }
   out.peak_to_valley_mm = peak_to_valley(out.error_mm);
   out.rms_mm = core::root_mean_square(out.error_mm);

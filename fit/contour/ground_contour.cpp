@@ -99,7 +99,7 @@ core::Result<void> check_radii(const std::vector<double>& r_mm, const AxisErrors
 }  // namespace
 
 core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisErrors& errors) {
-  if (auto checked = check_geometry(geometry); !checked) return core::fail(checked.error());
+  TRY_DO(check_geometry(geometry));
   const std::size_t n = errors.c_rad.size();
   if (errors.x_mm.size() != n) {
     return core::fail(core::Code::kMeaning,
@@ -168,22 +168,19 @@ core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const 
                       fmt::format("a contour of {} points is asked for; at least {} are needed",
                                   options.samples, kLeastTurnSamples));
   }
-  const auto path = wheel_path(geometry, errors);
-  if (!path) return core::fail(path.error());
+  TRY(const auto path, wheel_path(geometry, errors));
   const double wheel = geometry.wheel_radius_mm;
   const std::size_t times =
-      options.refine ? (options.samples + path->x_mm.size() - 1) / path->x_mm.size() : 1;
+      options.refine ? (options.samples + path.x_mm.size() - 1) / path.x_mm.size() : 1;
   const ParallelCurve curve =
-      parallel_curve(times > 1 ? refined(*path, times) : *path, wheel, options.form);
+      parallel_curve(times > 1 ? refined(path, times) : path, wheel, options.form);
   GroundContour out;
   out.regularity = curve.regularity;
   out.least_regular_rad = curve.least_regular_rad;
   out.undercut = curve.undercut;
-  out.r_mm = out.undercut ? envelope_radii_mm(*path, wheel, options.samples)
+  out.r_mm = out.undercut ? envelope_radii_mm(path, wheel, options.samples)
                           : resampled_radii(curve, options.samples);
-  if (auto checked = check_radii(out.r_mm, errors, wheel); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_radii(out.r_mm, errors, wheel));
   return out;
 }
 

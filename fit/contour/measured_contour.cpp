@@ -193,38 +193,31 @@ void warn_of_rows(MeasuredContour& out, const AngularProfile& profile) {
 core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad,
                                                std::span<const double> deviation_mm,
                                                const MeasuredContourOptions& options) {
-  if (auto checked = check(angle_rad, deviation_mm, options); !checked) {
-    return core::fail(checked.error());
-  }
-  if (auto checked = check_order(angle_rad); !checked) return core::fail(checked.error());
+  TRY_DO(check(angle_rad, deviation_mm, options));
+  TRY_DO(check_order(angle_rad));
   std::vector<double> beta(angle_rad.size());
   std::ranges::transform(angle_rad, beta.begin(), [&](double angle) {
     return options.direction * (angle - options.phase_offset_rad);
   });
-  const auto profile = ordered_profile(beta, deviation_mm);
-  if (!profile) return core::fail(profile.error());
-  if (auto checked = check_contour_gap(*profile, angle_rad.size()); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY(const auto profile, ordered_profile(beta, deviation_mm));
+  TRY_DO(check_contour_gap(profile, angle_rad.size()));
   if (!options.error.filtered_already) {
-    const auto sampling = check_sampling(angle_rad.size(), options.error.filter);
-    if (!sampling) return core::fail(sampling.error());
+    TRY_DO(check_sampling(angle_rad.size(), options.error.filter));
   }
-  const std::vector<double> even = even_samples(profile->theta_rad, profile->r_mm, options.samples);
-  auto contour = contour_error(even, options.nominal_mm, options.error);
-  if (!contour) return core::fail(contour.error());
+  const std::vector<double> even = even_samples(profile.theta_rad, profile.r_mm, options.samples);
+  TRY(auto contour, contour_error(even, options.nominal_mm, options.error));
   MeasuredContour out;
-  out.contour = *std::move(contour);
+  out.contour = std::move(contour);
   out.rows = angle_rad.size();
-  out.largest_gap_rad = profile->largest_gap_rad;
+  out.largest_gap_rad = profile.largest_gap_rad;
   // A filter of the gauge shows in all rows; fewer samples would hide the upper harmonics.
-  const std::vector<double> all_rows = even_samples(
-      profile->theta_rad, profile->r_mm, std::max(options.samples, profile->r_mm.size()));
+  const std::vector<double> all_rows =
+      even_samples(profile.theta_rad, profile.r_mm, std::max(options.samples, profile.r_mm.size()));
   out.filter =
       filter_trace(all_rows, options.error.filter.cutoff_upr, 0.5 * static_cast<double>(out.rows));
   warn_of_filter(out, options);
   warn_of_loss(out, all_rows, options);
-  warn_of_rows(out, *profile);
+  warn_of_rows(out, profile);
   return out;
 }
 

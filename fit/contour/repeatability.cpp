@@ -94,7 +94,7 @@ std::optional<StabilityWord> Repeatability::word(const StabilityLimits& limits) 
 }
 
 core::Result<Repeatability> repeatability(std::span<const std::vector<double>> curves) {
-  if (auto checked = check_curves(curves); !checked) return core::fail(checked.error());
+  TRY_DO(check_curves(curves));
   Repeatability out;
   compare_places(curves, out);
   compare_sizes(curves, out);

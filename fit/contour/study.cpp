@@ -60,20 +60,16 @@ void warn_of_undercut(ContourPartResult& part) {
 /// Computes f from the axes alone.
 core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& options,
                           ContourPartResult& out) {
-  auto axes = last_turn(part.trace, options.axes);
-  if (!axes) return core::fail(axes.error());
-  out.axes = *std::move(axes);
+  TRY(auto axes, last_turn(part.trace, options.axes));
+  out.axes = std::move(axes);
   out.positions = check_positions(out.axes, options.geometry);
   if (out.positions && !out.positions->contradiction.empty()) {
     return core::fail(core::Code::kInconsistent, out.positions->contradiction);
   }
-  if (auto checked = check_axis_sampling(out.axes, options.error.filter); !checked) {
-    return core::fail(checked.error());
-  }
-  auto following = following_contour(out.axes.errors, options);
-  if (!following) return core::fail(following.error());
-  out.ground = std::move(following->ground);
-  out.following = std::move(following->error);
+  TRY_DO(check_axis_sampling(out.axes, options.error.filter));
+  TRY(auto following, following_contour(out.axes.errors, options));
+  out.ground = std::move(following.ground);
+  out.following = std::move(following.error);
   warn_of_undercut(out);
   return {};
 }
@@ -239,13 +235,11 @@ core::Result<FollowingContour> following_contour(const AxisErrors& errors,
   how.samples = options.samples;
   how.refine = options.refine_path;
   if (options.method == ContourMethod::kAsPublished) how.form = ParallelForm::kDifferences;
-  auto ground = ground_contour(options.geometry, errors, how);
-  if (!ground) return core::fail(ground.error());
-  std::vector<double> deviation = ground->r_mm;
+  TRY(auto ground, ground_contour(options.geometry, errors, how));
+  std::vector<double> deviation = ground.r_mm;
   for (double& r : deviation) r -= options.geometry.pin_radius_mm;
-  auto error = contour_error(deviation, options.geometry.pin_radius_mm, options.error);
-  if (!error) return core::fail(error.error());
-  return FollowingContour{*std::move(ground), *std::move(error)};
+  TRY(auto error, contour_error(deviation, options.geometry.pin_radius_mm, options.error));
+  return FollowingContour{std::move(ground), std::move(error)};
 }
 
 core::Result<ContourPartResult> contour_part(const ContourPart& part,

@@ -88,17 +88,17 @@ core::Result<Eigen::Vector3d> least_turned(const Eigen::Vector3d& datum, double 
 }  // namespace
 
 core::Result<double> coaxiality_mm(SpacePoints median_mm, const Axis& datum) {
-  if (auto checked = check_points(median_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(median_mm));
   return 2.0 * extremes_of(median_mm, [&](const auto& c) { return distance_mm(datum, c); }).high;
 }
 
 core::Result<double> orientation_of_axis_mm(SpacePoints median_mm, const Eigen::Vector3d& datum) {
-  if (auto checked = check_median(median_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_median(median_mm));
   return 2.0 * circle_along(median_mm, mean_point(median_mm), datum).zone.high;
 }
 
 core::Result<double> orientation_of_plane_mm(SpacePoints points_mm, const Eigen::Vector3d& normal) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   // From one of the points, so that a part far from the origin keeps its digits.
   return extremes_of(points_mm,
                      [&](const Eigen::Vector3d& p) { return (p - points_mm.front()).dot(normal); })
@@ -108,46 +108,42 @@ core::Result<double> orientation_of_plane_mm(SpacePoints points_mm, const Eigen:
 core::Result<InclinedZone> inclined_zone(SpacePoints points_mm, const Eigen::Vector3d& datum,
                                          double angle_rad,
                                          const std::optional<Eigen::Vector3d>& outward) {
-  if (auto checked = check_inclination(angle_rad); !checked) return core::fail(checked.error());
-  const auto ls = ls_plane(points_mm, outward);
-  if (!ls) return core::fail(ls.error());
+  TRY_DO(check_inclination(angle_rad));
+  TRY(const auto ls, ls_plane(points_mm, outward));
   InclinedZone out;
   const auto slope = [&](const Eigen::Vector3d& normal, const Eigen::Vector3d& along) {
     const auto [low, high] = std::ranges::minmax_element(
-        points_mm, {}, [&](const auto& p) { return normal.dot(p - ls->plane.point_mm); });
+        points_mm, {}, [&](const auto& p) { return normal.dot(p - ls.plane.point_mm); });
     return along.dot(*high - *low);
   };
-  const auto normal = least_turned(datum, angle_rad, ls->plane.normal, slope);
-  if (!normal) return core::fail(normal.error());
-  out.outer = {ls->plane.point_mm, *normal};
+  TRY(const auto normal, least_turned(datum, angle_rad, ls.plane.normal, slope));
+  out.outer = {ls.plane.point_mm, normal};
   const Extremes heights =
       extremes_of(points_mm, [&](const auto& p) { return height_mm(out.outer, p); });
-  out.outer.point_mm += heights.high * *normal;
+  out.outer.point_mm += heights.high * normal;
   out.width_mm = heights.width();
   return out;
 }
 
 core::Result<double> angularity_of_axis_mm(SpacePoints median_mm, const Eigen::Vector3d& datum,
                                            double angle_rad) {
-  if (auto checked = check_inclination(angle_rad); !checked) return core::fail(checked.error());
-  if (auto checked = check_median(median_mm); !checked) return core::fail(checked.error());
-  const auto ls = ls_line(median_mm);
-  if (!ls) return core::fail(ls.error());
+  TRY_DO(check_inclination(angle_rad));
+  TRY_DO(check_median(median_mm));
+  TRY(const auto ls, ls_line(median_mm));
   const auto slope = [&](const Eigen::Vector3d& axis, const Eigen::Vector3d& along) {
-    const auto circle = circle_along(median_mm, ls->axis.point_mm, axis);
+    const auto circle = circle_along(median_mm, ls.axis.point_mm, axis);
     const Eigen::Vector2d turn = across(axis).transpose() * along;
     // The centre follows the contacts, so that the radius grows as their weighted distances do.
     double sum = 0.0;
     for (const Contact& c : circle.outer) {
-      const Eigen::Vector3d v = median_mm[c.index] - ls->axis.point_mm;
+      const Eigen::Vector3d v = median_mm[c.index] - ls.axis.point_mm;
       const Eigen::Vector2d from = across(axis).transpose() * v - circle.center_mm;
       sum -= c.multiplier * v.dot(axis) * turn.dot(from);
     }
     return sum;
   };
-  const auto axis = least_turned(datum, angle_rad, ls->axis.direction, slope);
-  if (!axis) return core::fail(axis.error());
-  return orientation_of_axis_mm(median_mm, *axis);
+  TRY(const auto axis, least_turned(datum, angle_rad, ls.axis.direction, slope));
+  return orientation_of_axis_mm(median_mm, axis);
 }
 
 }  // namespace rondure::fit

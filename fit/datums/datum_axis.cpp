@@ -127,15 +127,12 @@ core::Result<AxisModel> ls_axis(const DatumPoints& data,
                                 const std::optional<Eigen::Vector3d>& near_direction) {
   Axis axis;
   if (data.features.size() == 1) {
-    const auto cylinder = ls_cylinder(data.points, near_direction);
-    if (!cylinder) return core::fail(cylinder.error());
-    axis = cylinder->axis;
+    TRY(const auto cylinder, ls_cylinder(data.points, near_direction));
+    axis = cylinder.axis;
   } else if (near_direction) {
     axis.direction = near_direction->normalized();
   } else {
-    const auto direction = start_direction(data);
-    if (!direction) return core::fail(direction.error());
-    axis.direction = *direction;
+    TRY(axis.direction, start_direction(data));
   }
   const double half = half_extent(data.points, axis.direction);
   LsAxisModel model{{&data, CylinderFrame(axis, half > 0.0 ? half : 1.0)}};
@@ -291,15 +288,14 @@ core::Result<double> first_order_sum(const DatumPoints& data, const AxisModel& a
 core::Result<DatumAxis> equalised_datum(const DatumPoints& data, AxisModel at) {
   constexpr int kSteps = 60;
   constexpr double kAtRest = 1e-8;  // mm
-  const auto sum = first_order_sum(data, at);
-  if (!sum) return core::fail(sum.error());
+  TRY(const auto sum, first_order_sum(data, at));
   Eigen::VectorXd radii = mean_radii(data, at);
   DatumAxis out;
   const double round_off = linear_round_off(at);
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kSteps && out.ending != ZoneEnding::kConverged; ++i) {
     LinearLimits limits(data, at, radii);
-    limits.limit_sum(*sum + kRockTolerance - limits.sum.tail(radii.size()).dot(radii));
+    limits.limit_sum(sum + kRockTolerance - limits.sum.tail(radii.size()).dot(radii));
     // A limit holds s (R_f - d_i); its square is that of the residual.
     const auto residuals = limits.normals.topRows(limits.normals.rows() - 1);
     const Eigen::MatrixXd hessian = residuals.transpose() * residuals;
@@ -331,41 +327,36 @@ core::Result<DatumAxis> equalised_datum(const DatumPoints& data, AxisModel at) {
 core::Result<DatumAxis> datum_axis(std::span<const DatumCylinder> features,
                                    DatumAssociation association,
                                    const std::optional<Eigen::Vector3d>& near_direction) {
-  const auto data = gathered(features);
-  if (!data) return core::fail(data.error());
-  const auto start = ls_axis(*data, near_direction);
-  if (!start) return core::fail(start.error());
+  TRY(const auto data, gathered(features));
+  TRY(const auto start, ls_axis(data, near_direction));
   switch (association) {
     case DatumAssociation::kLeastSquares:
-      return ls_datum(*data, *start);
+      return ls_datum(data, start);
     case DatumAssociation::kEqualised:
-      return equalised_datum(*data, *start);
+      return equalised_datum(data, start);
     case DatumAssociation::kZone:
-      return coupled_datum(*data, *start, true);
+      return coupled_datum(data, start, true);
     case DatumAssociation::kOneSided:
       break;
   }
-  return coupled_datum(*data, *start, false);
+  return coupled_datum(data, start, false);
 }
 
 core::Result<DatumRock> datum_rock(std::span<const DatumCylinder> features,
                                    const std::optional<Eigen::Vector3d>& near_direction) {
-  const auto data = gathered(features);
-  if (!data) return core::fail(data.error());
-  const auto at = ls_axis(*data, near_direction);
-  if (!at) return core::fail(at.error());
-  const auto sum = first_order_sum(*data, *at);
-  if (!sum) return core::fail(sum.error());
-  const Eigen::VectorXd radii = mean_radii(*data, *at);
-  LinearLimits limits(*data, *at, radii);
-  limits.limit_sum(*sum + kRockTolerance - limits.sum.tail(radii.size()).dot(radii));
+  TRY(const auto data, gathered(features));
+  TRY(const auto at, ls_axis(data, near_direction));
+  TRY(const auto sum, first_order_sum(data, at));
+  const Eigen::VectorXd radii = mean_radii(data, at);
+  LinearLimits limits(data, at, radii);
+  limits.limit_sum(sum + kRockTolerance - limits.sum.tail(radii.size()).dot(radii));
   DatumRock out;
-  out.sum_mm = *sum;
+  out.sum_mm = sum;
   for (const Eigen::Index tilt : {2, 3}) {
     double range = 0.0;
     for (const double sign : {1.0, -1.0}) {
       const Eigen::VectorXd gradient = sign * Eigen::VectorXd::Unit(limits.sum.size(), tilt);
-      const auto least = least_linear(limits, gradient, linear_round_off(*at));
+      const auto least = least_linear(limits, gradient, linear_round_off(at));
       if (!least) return core::fail(unbounded_datum());
       range -= *least;
     }
@@ -375,19 +366,19 @@ core::Result<DatumRock> datum_rock(std::span<const DatumCylinder> features,
 }
 
 core::Result<DatumAxis> datum_axis_square_to(const Plane& primary, const DatumCylinder& feature) {
-  if (auto checked = check_points(feature.points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(feature.points_mm));
   const Eigen::Vector3d mean = mean_point(feature.points_mm);
   const auto frame = across(primary.normal);
   std::vector<Eigen::Vector2d> flat;
   for (const Eigen::Vector3d& p : feature.points_mm) {
     flat.emplace_back(frame.transpose() * (p - mean));
   }
-  const auto circle = feature.inside ? max_inscribed_circle(flat) : min_circumscribed_circle(flat);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle,
+      feature.inside ? max_inscribed_circle(flat) : min_circumscribed_circle(flat));
   DatumAxis out;
-  out.axis = conventional({mean + frame * circle->center_mm, primary.normal}, mean);
-  out.radii_mm = {circle->radius_mm};
-  out.contacts = circle->contacts;
+  out.axis = conventional({mean + frame * circle.center_mm, primary.normal}, mean);
+  out.radii_mm = {circle.radius_mm};
+  out.contacts = circle.contacts;
   out.ending = ZoneEnding::kConverged;
   return out;
 }

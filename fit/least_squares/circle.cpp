@@ -162,7 +162,7 @@ std::optional<LsCircle> from_sample(PlanePoints points_mm) {
 }  // namespace
 
 core::Result<LsCircle> algebraic_start(PlanePoints points_mm) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 3) < 3) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("a circle needs at least 3 different points, there are {}",

@@ -172,7 +172,7 @@ double Cone::deviation_mm(const Eigen::Vector3d& point_mm) const {
 core::Result<LsCone> ls_cone(SpacePoints points_mm,
                              const std::optional<Eigen::Vector3d>& near_direction) {
   constexpr std::size_t kFewest = 6;
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   const std::size_t different = distinct_points(points_mm, kFewest);
   if (different < kFewest) {
     return core::fail(
@@ -186,15 +186,14 @@ core::Result<LsCone> ls_cone(SpacePoints points_mm,
     points.emplace_back(p - mean);
     length = std::max(length, points.back().norm());
   }
-  const auto settled = best_cone(points, length, near_direction);
-  if (!settled) return core::fail(settled.error());
+  TRY(const auto settled, best_cone(points, length, near_direction));
   // A step over 90 deg leads to the same surface with the other sign.
-  const ConeFrame& found = settled->model.frame;
+  const ConeFrame& found = settled.model.frame;
   const double half = std::remainder(found.half_angle_rad(), kHalfTurn);
   Axis axis = conventional(found.axis(), Eigen::Vector3d::Zero());
   const double opens = axis.direction.dot(found.axis().direction) < 0.0 ? -half : half;
   const ConeFrame cone(axis, opens, length);
-  if (auto checked = check_cone(points, cone); !checked) return core::fail(checked.error());
+  TRY_DO(check_cone(points, cone));
   LsCone out;
   const double count = static_cast<double>(points.size());
   Extremes range;
@@ -209,7 +208,7 @@ core::Result<LsCone> ls_cone(SpacePoints points_mm,
   out.cone.axis = axis;
   out.cone.full_angle_rad = 2.0 * opens;
   out.deviation_mm = range.width();
-  out.rms_mm = std::sqrt(settled->squares / count);
+  out.rms_mm = std::sqrt(settled.squares / count);
   return out;
 }
 

@@ -136,9 +136,8 @@ std::vector<Eigen::Vector3d> directions(SpacePoints points, const Eigen::Vector3
 
 core::Result<Settled> settle_from(SpacePoints points, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) {
-  auto model = start(points, origin, direction);
-  if (!model) return core::fail(model.error());
-  Settled out{*model, 0.0};
+  TRY(auto model, start(points, origin, direction));
+  Settled out{model, 0.0};
   const auto sums_at = [&](const CylinderModel& at, bool matrix) {
     return cylinder_sums(points, origin, at.frame, at.radius, {matrix});
   };
@@ -149,7 +148,7 @@ core::Result<Settled> settle_from(SpacePoints points, const Eigen::Vector3d& ori
 /// The best cylinder over the starts, of points whose mean is `origin`.
 core::Result<Settled> settle_all(SpacePoints points, const Eigen::Vector3d& origin,
                                  const std::optional<Eigen::Vector3d>& near_direction) {
-  if (auto ranked = check_rank(points, origin); !ranked) return core::fail(ranked.error());
+  TRY_DO(check_rank(points, origin));
   if (near_direction) return settle_from(points, origin, near_direction->normalized());
   core::Result<Settled> best =
       core::fail(core::Code::kNotConverged, "the least-squares cylinder did not settle");
@@ -200,19 +199,18 @@ core::Result<LsCylinder> ls_cylinder(SpacePoints points_mm,
   if (points_mm.size() > kStartSample) {
     if (const auto cylinder = from_sample(points_mm, near_direction)) return *cylinder;
   }
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 5) < 5) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("a cylinder needs at least 5 different points, there are {}",
                                   distinct_points(points_mm, 5)));
   }
   const Eigen::Vector3d mean = mean_point(points_mm);
-  const auto settled = settle_all(points_mm, mean, near_direction);
-  if (!settled) return core::fail(settled.error());
-  const CylinderFrame& frame = settled->model.frame;
+  TRY(const auto settled, settle_all(points_mm, mean, near_direction));
+  const CylinderFrame& frame = settled.model.frame;
   const auto range = distance_range(
       points_mm.size(), [&](std::size_t i) { return frame.distance(points_mm[i] - mean); });
-  return finished(*settled, mean, mean, range, points_mm.size());
+  return finished(settled, mean, mean, range, points_mm.size());
 }
 
 core::Result<void> check_only_cylinder(SpacePoints points_mm, const LsCylinder& found) {

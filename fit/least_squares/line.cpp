@@ -43,7 +43,7 @@ Eigen::Vector3d refined_direction(SpacePoints points, const Eigen::Vector3d& mea
 }  // namespace
 
 core::Result<LsLine> ls_line(SpacePoints points_mm) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 2) < 2) {
     return core::fail(core::Code::kTooFewPoints,
                       "a line needs at least 2 different points, all points are one");

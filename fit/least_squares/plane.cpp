@@ -46,7 +46,7 @@ Eigen::Vector3d turned_outward(const Eigen::Vector3d& normal,
 
 core::Result<LsPlane> ls_plane(SpacePoints points_mm,
                                const std::optional<Eigen::Vector3d>& outward) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 3) < 3) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("a plane needs at least 3 different points, there are {}",

@@ -23,7 +23,7 @@ double radius_variance(SpacePoints points, const Eigen::Vector3d& center) {
 }  // namespace
 
 core::Result<ProbeTip> qualify_tip(SpacePoints tip_centers_mm, double sphere_radius_mm) {
-  if (auto checked = check_points(tip_centers_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(tip_centers_mm));
   if (distinct_points(tip_centers_mm, 5) < 5) {
     return core::fail(
         core::Code::kTooFewPoints,

@@ -23,8 +23,7 @@ core::Result<Section> section_across(SpacePoints layer_mm, const Axis& axis) {
     out.points_mm.emplace_back(frame.transpose() * (p - axis.point_mm));
     out.heights_mm.push_back((p - axis.point_mm).dot(axis.direction));
   }
-  const auto circle = ls_circle(out.points_mm);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, ls_circle(out.points_mm));
   const double thickness = extremes_of(out.heights_mm, [](double h) { return h; }).width();
   if (thickness > kThickest) {
     return core::fail(core::Code::kSampling,
@@ -32,9 +31,9 @@ core::Result<Section> section_across(SpacePoints layer_mm, const Axis& axis) {
                                   "{:g} mm: measure layers square to the axis",
                                   thickness, kThickest));
   }
-  out.circle = *circle;
+  out.circle = circle;
   out.center_mm =
-      axis.point_mm + frame * circle->center_mm + core::mean(out.heights_mm) * axis.direction;
+      axis.point_mm + frame * circle.center_mm + core::mean(out.heights_mm) * axis.direction;
   return out;
 }
 

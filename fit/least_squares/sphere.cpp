@@ -67,26 +67,25 @@ NormalSums<4> sphere_sums(SpacePoints points, const Eigen::Vector3d& origin,
 }  // namespace
 
 core::Result<LsSphere> ls_sphere(SpacePoints points_mm) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 4) < 4) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("a sphere needs at least 4 different points, there are {}",
                                   distinct_points(points_mm, 4)));
   }
   const Eigen::Vector3d origin = mean_point(points_mm);
-  auto model = algebraic_sphere(points_mm, origin);
-  if (!model) return core::fail(model.error());
+  TRY(auto model, algebraic_sphere(points_mm, origin));
   double squares = 0.0;
   const auto sums_at = [&](const SphereModel& at, bool) {
     return sphere_sums(points_mm, origin, at);
   };
-  if (!settle(*model, squares, sums_at)) {
+  if (!settle(model, squares, sums_at)) {
     return core::fail(core::Code::kNotConverged, "the least-squares sphere did not settle");
   }
   const auto range = distance_range(points_mm.size(), [&](std::size_t i) {
-    return ((points_mm[i] - origin) - model->center).norm();
+    return ((points_mm[i] - origin) - model.center).norm();
   });
-  return LsSphere{origin + model->center, model->radius, range.width(),
+  return LsSphere{origin + model.center, model.radius, range.width(),
                   std::sqrt(squares / static_cast<double>(points_mm.size()))};
 }
 

@@ -189,17 +189,14 @@ double spread_mm(const JointModel& model, const Eigen::VectorXd& x, const Eigen:
 core::Result<void> set_zones(const JointModel& model, const Eigen::VectorXd& x,
                              const Eigen::MatrixXd& unit, const PoseJointOptions& options,
                              PoseJoint& joint) {
-  const auto cylinder = ls_cylinder(joint.joint_B_mm, options.axis_B);
-  if (!cylinder) return fail(cylinder.error());
-  joint.axis_B = cylinder->axis;
-  joint.radius_mm = cylinder->radius_mm;
+  TRY(const auto cylinder, ls_cylinder(joint.joint_B_mm, options.axis_B));
+  joint.axis_B = cylinder.axis;
+  joint.radius_mm = cylinder.radius_mm;
   CylinderZoneFitter fitter;
-  const auto naive = fitter.fit(joint.naive_B_mm, options.axis_B);
-  if (!naive) return fail(naive.error());
-  joint.naive_mm = naive->width_mm();
-  const auto zone = fitter.fit(joint.joint_B_mm, options.axis_B);
-  if (!zone) return fail(zone.error());
-  joint.joint_mm = zone->width_mm();
+  TRY(const auto naive, fitter.fit(joint.naive_B_mm, options.axis_B));
+  joint.naive_mm = naive.width_mm();
+  TRY(const auto zone, fitter.fit(joint.joint_B_mm, options.axis_B));
+  joint.joint_mm = zone.width_mm();
   joint.u_joint_mm = spread_mm(model, x, core::cholesky_root(unit), joint, options.draws);
   joint.u_naive_mm = spread_mm(model, x, Eigen::MatrixXd::Identity(unit.rows(), unit.rows()), joint,
                                options.draws);
@@ -246,25 +243,23 @@ void set_statements(PoseJoint& joint) {
 
 core::Result<PoseJoint> pose_joint(std::span<const JointPose> poses,
                                    const PoseJointOptions& options) {
-  if (auto good = check(poses, options); !good) return fail(good.error());
+  TRY_DO(check(poses, options));
   PoseJoint joint;
   joint.naive_B_mm = by_kinematics(poses);
-  const auto start = ls_cylinder(joint.naive_B_mm, options.axis_B);
-  if (!start) return fail(start.error());
-  JointModel model(poses, options, *start);
+  TRY(const auto start, ls_cylinder(joint.naive_B_mm, options.axis_B));
+  JointModel model(poses, options, start);
   const JointRank rank = joint_rank(model);
-  if (auto good = check_rank(rank, options.condition_limit); !good) return fail(good.error());
-  const auto x = settle_form(model, options.touch_mm);
-  if (!x) return fail(x.error());
+  TRY_DO(check_rank(rank, options.condition_limit));
+  TRY(const auto x, settle_form(model, options.touch_mm));
   joint.condition = rank.condition;
   joint.shared = model.shared();
   joint.form_mm = model.form_mm();
-  joint.joint_B_mm = model.corrected(*x);
-  for (int k = 0; k < model.pose_count(); ++k) joint.X_WB.push_back(model.motion(*x, k));
-  const Eigen::MatrixXd unit = pose_covariance(model, *x);
-  set_errors(model, *x, unit, joint);
-  set_chi2(x->tail(unit.rows()), unit, joint);
-  if (auto good = set_zones(model, *x, unit, options, joint); !good) return fail(good.error());
+  joint.joint_B_mm = model.corrected(x);
+  for (int k = 0; k < model.pose_count(); ++k) joint.X_WB.push_back(model.motion(x, k));
+  const Eigen::MatrixXd unit = pose_covariance(model, x);
+  set_errors(model, x, unit, joint);
+  set_chi2(x.tail(unit.rows()), unit, joint);
+  TRY_DO(set_zones(model, x, unit, options, joint));
   set_statements(joint);
   return joint;
 }

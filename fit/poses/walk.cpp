@@ -47,12 +47,11 @@ class Walker {
       const Degrees around = degrees_[center];
       for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j) {
-          const auto index =
-              visit({around.alpha + i * step_deg, around.beta + j * step_deg}, step_deg);
-          if (!index) return core::fail(index.error());
-          if (!*index) continue;
-          if (walk_.visited[**index].f_mm < walk_.visited[walk_.best].f_mm - kTie)
-            walk_.best = **index;
+          TRY(const auto index,
+              visit({around.alpha + i * step_deg, around.beta + j * step_deg}, step_deg));
+          if (!index) continue;
+          if (walk_.visited[*index].f_mm < walk_.visited[walk_.best].f_mm - kTie)
+            walk_.best = *index;
         }
       }
       if (walk_.best == center) return {};
@@ -73,14 +72,14 @@ class Walker {
 core::Result<PoseWalk> walk_poses(const PoseFunction& f, const core::Pose& start,
                                   std::span<const double> steps_deg) {
   Walker walker(f);
-  const auto first = walker.visit({start.alpha_rad / core::kDegree, start.beta_rad / core::kDegree},
-                                  steps_deg.empty() ? 0.0 : steps_deg.front());
-  if (!first) return core::fail(first.error());
-  if (!*first) {
+  TRY(const auto first,
+      walker.visit({start.alpha_rad / core::kDegree, start.beta_rad / core::kDegree},
+                   steps_deg.empty() ? 0.0 : steps_deg.front()));
+  if (!first) {
     return core::fail(core::Code::kPoseRange, "the start pose of the search cannot be taken");
   }
   for (const double step : steps_deg) {
-    if (auto settled = walker.settle(step); !settled) return core::fail(settled.error());
+    TRY_DO(walker.settle(step));
   }
   return walker.walk();
 }

@@ -123,7 +123,7 @@ bool AngularProfile::uniform() const {
 
 core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
                                              std::span<const double> r_mm) {
-  if (auto checked = check_values(theta_rad, r_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_values(theta_rad, r_mm));
   AngularProfile out;
   count_steps(theta_rad, out);
   std::vector<double> turned(theta_rad.size());

@@ -26,7 +26,7 @@ FormParameters form_parameters(std::span<const double> deviations_mm,
 core::Result<FormParameters> cylindricity_parameters(std::span<const Eigen::Vector3d> points_mm,
                                                      const Axis& axis, double radius_mm,
                                                      bool inside) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   std::vector<double> deviations;
   deviations.reserve(points_mm.size());
   for (const Eigen::Vector3d& p : points_mm) {
@@ -38,7 +38,7 @@ core::Result<FormParameters> cylindricity_parameters(std::span<const Eigen::Vect
 
 core::Result<FormParameters> flatness_parameters(std::span<const Eigen::Vector3d> points_mm,
                                                  const Plane& plane) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   std::vector<double> deviations;
   deviations.reserve(points_mm.size());
   for (const Eigen::Vector3d& p : points_mm) deviations.push_back(height_mm(plane, p));

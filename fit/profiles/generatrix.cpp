@@ -141,7 +141,7 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   }
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < z_mm.size(); ++i) points.emplace_back(z_mm[i], r_mm[i]);
-  if (auto checked = check_points(points); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points));
   if (points.size() < 3) {
     return core::fail(
         core::Code::kTooFewPoints,
@@ -161,7 +161,7 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
 }
 
 core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis) {
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector3d& p : points_mm) {
     points.emplace_back((p - axis.point_mm).dot(axis.direction), distance_mm(axis, p));
@@ -175,7 +175,7 @@ core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis) {
 core::Result<std::vector<Generatrix>> generatrices(Layers layers_mm, const Axis& axis) {
   if (layers_mm.empty()) return core::fail(core::Code::kNoPoints, "there is no layer");
   for (const auto& layer : layers_mm) {
-    if (auto checked = check_points(layer); !checked) return core::fail(checked.error());
+    TRY_DO(check_points(layer));
   }
   const auto frame = across(axis.direction);
   const auto angle_of = [&](const Eigen::Vector3d& p) {

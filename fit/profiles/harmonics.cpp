@@ -112,7 +112,7 @@ std::optional<double> Harmonic::crest_rad() const {
 core::Result<HarmonicTable> harmonics(const UniformProfile& profile,
                                       const HarmonicOptions& options) {
   const std::size_t n = profile.r_mm.size();
-  if (auto checked = check_harmonics(n, options); !checked) return core::fail(checked.error());
+  TRY_DO(check_harmonics(n, options));
   const auto f = spectrum(profile.r_mm);
   const double scale = 2.0 / static_cast<double>(n);
   HarmonicTable out;
@@ -129,10 +129,8 @@ core::Result<HarmonicTable> harmonics(const UniformProfile& profile,
 core::Result<HarmonicTable> harmonic_fit(const AngularProfile& profile,
                                          const HarmonicOptions& options) {
   const std::size_t n = profile.r_mm.size();
-  if (auto checked = check_harmonics(n, options); !checked) return core::fail(checked.error());
-  if (auto checked = check_harmonic_gap(profile, options.highest); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_harmonics(n, options));
+  TRY_DO(check_harmonic_gap(profile, options.highest));
   const Eigen::VectorXd x = least_squares(profile, options.highest);
   HarmonicTable out;
   out.mean_mm = x(0);

@@ -139,7 +139,7 @@ void fill(std::span<const double> x, std::span<const double> r, const OpenFilter
 core::Result<OpenProfile> filter_open(std::span<const double> position,
                                       std::span<const double> r_mm,
                                       const OpenFilterOptions& options) {
-  if (auto checked = check(position, r_mm, options); !checked) return core::fail(checked.error());
+  TRY_DO(check(position, r_mm, options));
   OpenProfile out;
   const double gap = profile_gap(gaps_of(position), options.windows);
   out.sampling_overridden = 7.0 * gap > options.cutoff * (1.0 + 1e-9);
@@ -207,9 +207,8 @@ core::Result<std::vector<double>> filter_with_windows(const AngularProfile& prof
     const double at = profile.theta_rad[i] + core::kTwoPi;
     if (i == 0 || at <= profile.theta_rad.back() + reach) append(i, core::kTwoPi);
   }
-  const auto mean = filter_open(x, r, options);
-  if (!mean) return core::fail(mean.error());
-  const auto begin = mean->r_mm.begin() + static_cast<std::ptrdiff_t>(first);
+  TRY(const auto mean, filter_open(x, r, options));
+  const auto begin = mean.r_mm.begin() + static_cast<std::ptrdiff_t>(first);
   return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(n));
 }
 

@@ -186,20 +186,17 @@ core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm, doub
 core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOptions& options) {
   FilteredProfile out;
   if (options.pass == PassBand::kLow || options.pass == PassBand::kHigh) {
-    auto line = robust_mean_line(r, options.cutoff_upr);
-    if (!line) return core::fail(line.error());
-    out.iterations = line->iterations;
-    out.scale_floored = line->scale_floored;
-    out.r_mm = options.pass == PassBand::kLow ? std::move(line->r_mm) : difference(r, line->r_mm);
+    TRY(auto line, robust_mean_line(r, options.cutoff_upr));
+    out.iterations = line.iterations;
+    out.scale_floored = line.scale_floored;
+    out.r_mm = options.pass == PassBand::kLow ? std::move(line.r_mm) : difference(r, line.r_mm);
     return out;
   }
-  const auto upper = robust_mean_line(r, options.upper_cutoff_upr);
-  if (!upper) return core::fail(upper.error());
-  const auto lower = robust_mean_line(upper->r_mm, options.cutoff_upr);
-  if (!lower) return core::fail(lower.error());
-  out.iterations = upper->iterations + lower->iterations;
-  out.scale_floored = upper->scale_floored || lower->scale_floored;
-  out.r_mm = difference(upper->r_mm, lower->r_mm);
+  TRY(const auto upper, robust_mean_line(r, options.upper_cutoff_upr));
+  TRY(const auto lower, robust_mean_line(upper.r_mm, options.cutoff_upr));
+  out.iterations = upper.iterations + lower.iterations;
+  out.scale_floored = upper.scale_floored || lower.scale_floored;
+  out.r_mm = difference(upper.r_mm, lower.r_mm);
   return out;
 }
 
@@ -306,8 +303,7 @@ core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
                       fmt::format("row {} is {} mm; a finite number up to {:g} is needed", i,
                                   r_mm[i], core::kGreatestNumber));
   }
-  const auto sampling = check_sampling(r_mm.size(), options);
-  if (!sampling) return core::fail(sampling.error());
+  TRY(const auto sampling, check_sampling(r_mm.size(), options));
   FilteredProfile out;
   if (options.filter == ProfileFilter::kNone) {
     out.r_mm.assign(r_mm.begin(), r_mm.end());
@@ -320,7 +316,7 @@ core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
   } else {
     out.r_mm = linear(r_mm, options);
   }
-  out.sampling = *sampling;
+  out.sampling = sampling;
   return out;
 }
 
@@ -329,24 +325,21 @@ core::Result<FilteredProfile> filter_at_angles(const AngularProfile& profile,
   if (profile.uniform() || options.filter == ProfileFilter::kNone) {
     return filter_closed(profile.r_mm, options);
   }
-  const auto sampling = check_sampling(profile.r_mm.size(), options);
-  if (!sampling) return core::fail(sampling.error());
+  TRY(const auto sampling, check_sampling(profile.r_mm.size(), options));
   if (!options.override_sampling) {
-    const auto checked = check_gaps(profile, options.highest_cutoff_upr());
-    if (!checked) return core::fail(checked.error());
+    TRY_DO(check_gaps(profile, options.highest_cutoff_upr()));
   }
-  const auto even = resampled(profile);
-  if (!even) return core::fail(even.error());
-  auto out = filter_closed(even->profile.r_mm, options);
+  TRY(const auto even, resampled(profile));
+  auto out = filter_closed(even.profile.r_mm, options);
   if (!out) return out;
   const double per_rad = static_cast<double>(out->r_mm.size()) / core::kTwoPi;
   std::vector<double> r;
   r.reserve(profile.theta_rad.size());
   for (const double theta : profile.theta_rad) {
-    r.push_back(between_samples(out->r_mm, (theta - even->profile.start_rad) * per_rad));
+    r.push_back(between_samples(out->r_mm, (theta - even.profile.start_rad) * per_rad));
   }
   out->r_mm = std::move(r);
-  out->sampling = *sampling;
+  out->sampling = sampling;
   return out;
 }
 

@@ -40,45 +40,42 @@ std::vector<std::size_t> rows_of(std::span<const Contact> contacts) {
 }
 
 core::Result<Roundness> ls_points(PlanePoints points, const RoundnessSide& side) {
-  const auto circle = ls_circle(points);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, ls_circle(points));
   Roundness out;
-  out.center_mm = circle->center_mm;
-  out.radius_mm = circle->radius_mm;
+  out.center_mm = circle.center_mm;
+  out.radius_mm = circle.radius_mm;
   out.parameters = parameters_of(
       points.size(),
-      [&](std::size_t i) { return (points[i] - circle->center_mm).norm() - circle->radius_mm; },
+      [&](std::size_t i) { return (points[i] - circle.center_mm).norm() - circle.radius_mm; },
       side);
   out.total_mm = out.parameters->total_mm;
   return out;
 }
 
 core::Result<Roundness> mz_points(PlanePoints points) {
-  const auto zone = min_zone_circle(points);
-  if (!zone) return core::fail(zone.error());
+  TRY(const auto zone, min_zone_circle(points));
   Roundness out;
   out.reference = CircleReference::kMz;
-  out.center_mm = zone->center_mm;
-  out.radius_mm = 0.5 * (zone->inner_radius_mm + zone->outer_radius_mm);
-  out.total_mm = zone->width_mm();
-  out.outer = rows_of(zone->outer);
-  out.inner = rows_of(zone->inner);
-  out.certificate = zone->certificate;
+  out.center_mm = zone.center_mm;
+  out.radius_mm = 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm);
+  out.total_mm = zone.width_mm();
+  out.outer = rows_of(zone.outer);
+  out.inner = rows_of(zone.inner);
+  out.certificate = zone.certificate;
   return out;
 }
 
 core::Result<Roundness> one_sided_points(PlanePoints points, CircleReference reference) {
   const bool outside = reference == CircleReference::kMc;
-  const auto circle = outside ? min_circumscribed_circle(points) : max_inscribed_circle(points);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, outside ? min_circumscribed_circle(points) : max_inscribed_circle(points));
   Roundness out;
   out.reference = reference;
-  out.center_mm = circle->center_mm;
-  out.radius_mm = circle->radius_mm;
-  out.total_mm = circle->deviation_mm;
-  (outside ? out.outer : out.inner) = rows_of(circle->contacts);
-  out.certificate = circle->certificate;
-  out.range = circle->range;
+  out.center_mm = circle.center_mm;
+  out.radius_mm = circle.radius_mm;
+  out.total_mm = circle.deviation_mm;
+  (outside ? out.outer : out.inner) = rows_of(circle.contacts);
+  out.certificate = circle.certificate;
+  out.range = circle.range;
   return out;
 }
 
@@ -111,7 +108,7 @@ double mean_of(std::span<const double> r) {
 
 core::Result<Roundness> ls_profile(std::span<const double> theta, std::span<const double> r,
                                    const RoundnessSide& side) {
-  if (auto checked = check_profile(theta, r, 3); !checked) return core::fail(checked.error());
+  TRY_DO(check_profile(theta, r, 3));
   const double mean = mean_of(r);
   const auto n = static_cast<Eigen::Index>(r.size());
   Eigen::Matrix<double, Eigen::Dynamic, 3> basis(n, 3);

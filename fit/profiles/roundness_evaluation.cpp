@@ -74,14 +74,13 @@ core::Result<void> check_gap(RoundnessEvaluation& out) {
 
 /// Fills in the filtered profile of `measured`; without a filter, the profile itself.
 core::Result<void> fill_filtered(RoundnessEvaluation& out) {
-  const auto sampling = check_sampling(out.measured.r_mm.size(), out.filter);
-  if (!sampling) return core::fail(sampling.error());
+  TRY(const auto sampling, check_sampling(out.measured.r_mm.size(), out.filter));
   if (out.filter.filter == ProfileFilter::kNone) {
     out.theta_rad = out.measured.theta_rad;
     out.r_mm = out.measured.r_mm;
     return {};
   }
-  out.sampling = *sampling;
+  out.sampling = sampling;
   if (auto checked = check_gap(out); !checked) return checked;
   if (out.sampling.overridden) {
     warn(
@@ -91,22 +90,20 @@ core::Result<void> fill_filtered(RoundnessEvaluation& out) {
                     out.measured.r_mm.size(), out.sampling.points_per_undulation,
                     out.measured.largest_gap_rad / core::kDegree, out.filter.highest_cutoff_upr()));
   }
-  const auto even = resampled(out.measured);
-  if (!even) return core::fail(even.error());
-  auto filtered = filter_closed(even->profile.r_mm, out.filter);
-  if (!filtered) return core::fail(filtered.error());
-  out.interpolated = even->interpolated;
-  out.resampling_error_mm = even->error_mm;
-  out.filter_iterations = filtered->iterations;
-  if (filtered->scale_floored) {
+  TRY(const auto even, resampled(out.measured));
+  TRY(auto filtered, filter_closed(even.profile.r_mm, out.filter));
+  out.interpolated = even.interpolated;
+  out.resampling_error_mm = even.error_mm;
+  out.filter_iterations = filtered.iterations;
+  if (filtered.scale_floored) {
     warn(out, core::Code::kNotConverged,
          "the median scale of the robust filter did not settle: the profile is smoother than the "
          "filter's own attenuation; the scale was kept above that (docs/filters.md)");
   }
-  for (std::size_t i = 0; i < filtered->r_mm.size(); ++i) {
-    out.theta_rad.push_back(even->profile.angle_rad(i));
+  for (std::size_t i = 0; i < filtered.r_mm.size(); ++i) {
+    out.theta_rad.push_back(even.profile.angle_rad(i));
   }
-  out.r_mm = std::move(filtered->r_mm);
+  out.r_mm = std::move(filtered.r_mm);
   return {};
 }
 
@@ -118,28 +115,23 @@ core::Result<void> fill_harmonics(RoundnessEvaluation& out, int asked) {
   HarmonicOptions options;
   options.highest = static_cast<int>(std::min(static_cast<double>(asked), carried));
   if (options.highest < 1 || gap >= kFullCircleGapDeg * core::kDegree) return {};
-  auto table = out.measured.uniform()
-                   ? harmonics({out.measured.theta_rad[0], out.measured.r_mm}, options)
-                   : harmonic_fit(out.measured, options);
-  if (!table) return core::fail(table.error());
-  out.harmonics = *std::move(table);
+  TRY(out.harmonics, out.measured.uniform()
+                         ? harmonics({out.measured.theta_rad[0], out.measured.r_mm}, options)
+                         : harmonic_fit(out.measured, options));
   return {};
 }
 
 /// The steps common to profiles and points, up to the values to be fitted.
 core::Result<RoundnessEvaluation> prepared(std::span<const double> theta, std::span<const double> r,
                                            const RoundnessOptions& options) {
-  auto measured = ordered_profile(theta, r);
-  if (!measured) return core::fail(measured.error());
+  TRY(auto measured, ordered_profile(theta, r));
   RoundnessEvaluation out;
   out.points = r.size();
   out.filter = options.filter;
-  out.measured = *std::move(measured);
-  if (auto checked = check_coverage(out); !checked) return core::fail(checked.error());
-  if (auto filled = fill_filtered(out); !filled) return core::fail(filled.error());
-  if (auto filled = fill_harmonics(out, options.highest_harmonic); !filled) {
-    return core::fail(filled.error());
-  }
+  out.measured = std::move(measured);
+  TRY_DO(check_coverage(out));
+  TRY_DO(fill_filtered(out));
+  TRY_DO(fill_harmonics(out, options.highest_harmonic));
   return out;
 }
 
@@ -210,14 +202,13 @@ core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta
 
 core::Result<RoundnessEvaluation> evaluate_section(PlanePoints points_mm,
                                                    const RoundnessOptions& options) {
-  const auto circle = ls_circle(points_mm);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, ls_circle(points_mm));
   std::vector<double> theta;
   std::vector<double> r;
   for (const Eigen::Vector2d& p : points_mm) {
-    const Eigen::Vector2d v = p - circle->center_mm;
+    const Eigen::Vector2d v = p - circle.center_mm;
     theta.push_back(std::atan2(v.y(), v.x()));
-    r.push_back(v.norm() - circle->radius_mm);
+    r.push_back(v.norm() - circle.radius_mm);
   }
   auto out = prepared(theta, r, options);
   if (!out) return out;
@@ -226,7 +217,7 @@ core::Result<RoundnessEvaluation> evaluate_section(PlanePoints points_mm,
     out->theta_rad = theta;
     out->r_mm = r;
   } else {
-    points = points_of(*out, *circle);
+    points = points_of(*out, circle);
   }
   out->samples = points.size();
   const auto cells = cells_of_rows(out->theta_rad);

@@ -73,10 +73,9 @@ void take(CenterSearch& search, const ContactCandidate& met) {
 }  // namespace
 
 core::Result<CenterSearch> center_search_as_published(PlanePoints points_mm) {
-  const auto start = algebraic_circle(points_mm);
-  if (!start) return core::fail(start.error());
+  TRY(const auto start, algebraic_circle(points_mm));
   CenterSearch out;
-  out.center_mm = start->center_mm;
+  out.center_mm = start.center_mm;
   measure(points_mm, out, true);
   for (int move = 0; move < kCenterMoveLimit; ++move) {
     const Eigen::Vector2d u = direction(points_mm, out);

@@ -81,15 +81,13 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
 core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
                                             const CenterProofOptions& options) {
   CircleZoneFitter fitter;
-  const auto zone = fitter.fit(points_mm);
-  if (!zone) return core::fail(zone.error());
+  TRY(const auto zone, fitter.fit(points_mm));
   if (distinct_points(points_mm, 4) < 4) {
-    const auto circle = algebraic_circle(points_mm);
-    if (!circle) return core::fail(circle.error());
-    return exact_fit(*circle);
+    TRY(const auto circle, algebraic_circle(points_mm));
+    return exact_fit(circle);
   }
   MinZoneCircle out;
-  const double growth = certify(points_mm, zone->place, out);
+  const double growth = certify(points_mm, zone.place, out);
   if (!options.global) return out;
   search_all_centers(points_mm, options.search, fitter, growth, out);
   const bool proven = out.certificate.kind == Certificate::Kind::kGlobal;

@@ -53,8 +53,7 @@ double first_order_gap(const CoupledZone<ConeZoneModel>& zone, double width) {
 
 core::Result<MinZoneCone> min_zone_cone(SpacePoints points_mm,
                                         const std::optional<Eigen::Vector3d>& near_direction) {
-  const auto start = ls_cone(points_mm, near_direction);
-  if (!start) return core::fail(start.error());
+  TRY(const auto start, ls_cone(points_mm, near_direction));
   const Eigen::Vector3d mean = mean_point(points_mm);
   std::vector<Eigen::Vector3d> points;
   double length = 0.0;
@@ -62,10 +61,10 @@ core::Result<MinZoneCone> min_zone_cone(SpacePoints points_mm,
     points.emplace_back(p - mean);
     length = std::max(length, points.back().norm());
   }
-  Axis axis = start->cone.axis;
+  Axis axis = start.cone.axis;
   axis.point_mm -= mean;
   const std::vector<CoupledBound> sides = {{0, points.size(), true}, {0, points.size(), false}};
-  const ConeZoneModel from{points, ConeFrame(axis, 0.5 * start->cone.full_angle_rad, length)};
+  const ConeZoneModel from{points, ConeFrame(axis, 0.5 * start.cone.full_angle_rad, length)};
   const auto zone = CoupledDescent<ConeZoneModel>(from, sides).run();
   MinZoneCone out;
   out.ending = zone.ending;

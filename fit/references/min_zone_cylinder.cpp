@@ -8,9 +8,8 @@ core::Result<MinZoneCylinder> min_zone_cylinder(
     SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction,
     const CylinderProofOptions& options) {
   CylinderZoneFitter fitter;
-  const auto zone = fitter.fit(points_mm, near_direction);
-  if (!zone) return core::fail(zone.error());
-  AxisProof proof = prove_axis(points_mm, *zone, kMinimumZone);
+  TRY(const auto zone, fitter.fit(points_mm, near_direction));
+  AxisProof proof = prove_axis(points_mm, zone, kMinimumZone);
   search_scopes(points_mm, options, kMinimumZone, {}, fitter, proof);
   MinZoneCylinder out;
   out.axis = conventional(proof.axis, mean_point(points_mm));

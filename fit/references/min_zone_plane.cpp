@@ -90,10 +90,9 @@ Certificate plane_certificate(const FlatPoints& points, const ZoneStep<2>& step,
 
 core::Result<MinZonePlane> min_zone_plane(SpacePoints points_mm,
                                           const std::optional<Eigen::Vector3d>& outward) {
-  const auto start = ls_plane(points_mm, outward);
-  if (!start) return core::fail(start.error());
+  TRY(const auto start, ls_plane(points_mm, outward));
   MinZonePlane out;
-  Plane plane = start->plane;
+  Plane plane = start.plane;
   FlatPoints points = flat_points(points_mm, plane);
   ZoneStep<2> step = least_range(points);
   for (int i = 0; i < kProgrammes && step.solved && step.inside_box; ++i) {

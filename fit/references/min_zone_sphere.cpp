@@ -7,12 +7,11 @@ namespace rondure::fit {
 
 core::Result<MinZoneSphere> min_zone_sphere(SpacePoints points_mm) {
   SphereZoneFitter fitter;
-  const auto zone = fitter.fit(points_mm);
-  if (!zone) return core::fail(zone.error());
+  TRY(const auto zone, fitter.fit(points_mm));
   const double round_off =
-      distance_round_off(zone->place.cwiseAbs().maxCoeff() + zone->outer_radius_mm);
+      distance_round_off(zone.place.cwiseAbs().maxCoeff() + zone.outer_radius_mm);
   MinZoneSphere out;
-  state_zone<3>(points_mm, zone->place, round_off, out);
+  state_zone<3>(points_mm, zone.place, round_off, out);
   return out;
 }
 

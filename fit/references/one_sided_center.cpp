@@ -35,10 +35,9 @@ template <int D>
 core::Result<OneSidedCenter<D>> fit_one_sided(
     std::span<const Eigen::Matrix<double, D, 1>> points_mm, const ZoneWeights& weights) {
   CenterZoneFitter<D> fitter;
-  const auto zone = fitter.fit(points_mm, weights);
-  if (!zone) return core::fail(zone.error());
+  TRY(const auto zone, fitter.fit(points_mm, weights));
   OneSidedCenter<D> out;
-  state<D>(points_mm, *zone, weights, out);
+  state<D>(points_mm, zone, weights, out);
   if (weights.outer > 0.0 && out.certificate.kind == Certificate::Kind::kLocal) {
     // The problem is convex, so a local minimum is the global one.
     out.certificate = {
@@ -94,10 +93,9 @@ core::Result<OneSidedSphere> min_circumscribed_sphere(SpacePoints points_mm) {
 core::Result<OneSidedCircle> max_inscribed_circle(PlanePoints points_mm,
                                                   const CenterProofOptions& options) {
   CircleZoneFitter fitter;
-  const auto zone = fitter.fit(points_mm, kMaximumInscribed);
-  if (!zone) return core::fail(zone.error());
+  TRY(const auto zone, fitter.fit(points_mm, kMaximumInscribed));
   OneSidedCircle out;
-  const double growth = state<2>(points_mm, *zone, kMaximumInscribed, out);
+  const double growth = state<2>(points_mm, zone, kMaximumInscribed, out);
   if (!options.global) return out;
   search_inscribed(points_mm, options.search, fitter, growth, out);
   out.range = inscribed_deviation_range(points_mm, out.center_mm, out.radius_mm);

@@ -41,9 +41,8 @@ core::Result<OneSidedCylinder> fit_one_sided(SpacePoints points_mm,
                                              const ZoneWeights& weights,
                                              const CylinderProofOptions& options) {
   CylinderZoneFitter fitter;
-  const auto zone = fitter.fit(points_mm, near_direction, weights);
-  if (!zone) return core::fail(zone.error());
-  AxisProof proof = prove_axis(points_mm, *zone, weights);
+  TRY(const auto zone, fitter.fit(points_mm, near_direction, weights));
+  AxisProof proof = prove_axis(points_mm, zone, weights);
   // Circumscribed: two radii, the limit of the descent. Inscribed: less than that limit, so that
   // all axes of the scope stay inside the points.
   const LsCylinder& start = fitter.start();
@@ -94,11 +93,10 @@ core::Result<OneSidedCylinder> max_inscribed_cylinder(
 }
 
 core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm, Proof proof) {
-  const auto line = ls_line(points_mm);
-  if (!line) return core::fail(line.error());
+  TRY(const auto line, ls_line(points_mm));
   if (points_mm.size() == 3) return about_triangle(points_mm);
   CylinderZoneFitter fitter;
-  const CylinderZone zone = fitter.fit_from(points_mm, line->axis, kMinimumCircumscribed);
+  const CylinderZone zone = fitter.fit_from(points_mm, line.axis, kMinimumCircumscribed);
   if (proof == Proof::kNone) return MinZoneLine{zone.place, 2.0 * zone.outer_radius_mm, {}, {}};
   OneSidedCylinder found =
       stated(points_mm, prove_axis(points_mm, zone, kMinimumCircumscribed), kMinimumCircumscribed);

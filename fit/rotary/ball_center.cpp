@@ -16,12 +16,11 @@ core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("a ball of radius {:g} mm has no surface", radius_mm));
   }
-  const auto start = ls_sphere(points_mm);
-  if (!start) return core::fail(start.error());
+  TRY(const auto start, ls_sphere(points_mm));
   constexpr int kSteps = 50;
-  const double still_mm = 1e-12 * std::max(1.0, start->radius_mm);
+  const double still_mm = 1e-12 * std::max(1.0, start.radius_mm);
   BallCenter out;
-  out.center_mm = start->center_mm;
+  out.center_mm = start.center_mm;
   for (int i = 0; i < kSteps; ++i) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();

@@ -120,9 +120,7 @@ core::Result<std::vector<RotaryStation>> solve_stations(const RotaryMeasurement&
                                                         std::span<const BallCentre> reference) {
   std::optional<PublishedSetups> setups;
   if (options.solver == RotaryOptions::Solver::kAsPublished) {
-    const auto found = published_setups(m, reference);
-    if (!found) return core::fail(found.error());
-    setups = *found;
+    TRY(setups, published_setups(m, reference));
   }
   const bool c_axis = m.axis.direction.z() > 0.5;
   std::vector<RotaryStation> out;
@@ -362,12 +360,8 @@ core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& opt
   study.table.reference_covariance = reference_covariance(m, study.reference);
   scale_uncertainties(study);
   add_placing(m, study);
-  auto doubts = check_neighbours(study.stations, m.axis, m.reference_rad);
-  if (!doubts) return core::fail(doubts.error());
-  study.warnings = *std::move(doubts);
-  const auto periodic = check_periodicity(study.stations);
-  if (!periodic) return core::fail(periodic.error());
-  study.periodicity_checked = *periodic;
+  TRY(study.warnings, check_neighbours(study.stations, m.axis, m.reference_rad));
+  TRY(study.periodicity_checked, check_periodicity(study.stations));
   fill_table(study);
   warn_of_stations(study);
   warn_of_study(m, study);
@@ -388,7 +382,7 @@ core::Result<RotaryStudy> identify_rotary_axis(const RotaryMeasurement& measurem
     return core::fail(Code::kBadOption, fmt::format("outlier probability {:g} is not in 0.5..1",
                                                     options.outlier_probability));
   }
-  if (auto fine = check_measurement(measurement); !fine) return core::fail(fine.error());
+  TRY_DO(check_measurement(measurement));
   RotaryStudy study;
   study.reference_rad = measurement.reference_rad;
   study.reference = mean_reference(measurement);
@@ -399,14 +393,12 @@ core::Result<RotaryStudy> identify_rotary_axis(const RotaryMeasurement& measurem
     places.push_back(ball.centre_mm - measurement.axis.origin_mm);
     names.push_back(ball.ball);
   }
-  if (auto fine = check_setup(places, names); !fine) return core::fail(fine.error());
+  TRY_DO(check_setup(places, names));
   for (const auto check : {check_sizes, check_sense, check_distances}) {
-    if (auto fine = check(measurement, study.reference); !fine) return core::fail(fine.error());
+    TRY_DO(check(measurement, study.reference));
   }
-  auto stations = solve_stations(measurement, options, study.reference);
-  if (!stations) return core::fail(stations.error());
-  study.stations = *std::move(stations);
-  if (auto done = conclude(measurement, options, study); !done) return core::fail(done.error());
+  TRY(study.stations, solve_stations(measurement, options, study.reference));
+  TRY_DO(conclude(measurement, options, study));
   return study;
 }
 

@@ -84,8 +84,8 @@ core::Result<void> check_rows(const RotaryTable& table) {
 }  // namespace
 
 core::Result<RotaryModel> RotaryModel::of(RotaryTable table) {
-  if (auto fine = check_curve(table); !fine) return core::fail(fine.error());
-  if (auto fine = check_rows(table); !fine) return core::fail(fine.error());
+  TRY_DO(check_curve(table));
+  TRY_DO(check_rows(table));
   RotaryModel out;
   out.table_ = std::move(table);
   if (out.table_.curve == RotaryCurve::kSpline) {
@@ -189,9 +189,8 @@ core::Result<double> RotaryModel::within(double angle_rad) const {
 }
 
 core::Result<RotaryErrors> RotaryModel::at(double angle_rad) const {
-  const auto angle = within(angle_rad);
-  if (!angle) return core::fail(angle.error());
-  const Weights weights = weights_at(*angle);
+  TRY(const auto angle, within(angle_rad));
+  const Weights weights = weights_at(angle);
   Vector6 sum = Vector6::Zero();
   RotaryErrors out;
   for (std::size_t i = 0; i < table_.rows.size(); ++i) {
@@ -202,18 +201,17 @@ core::Result<RotaryErrors> RotaryModel::at(double angle_rad) const {
   out.t_mm = sum.head<3>();
   out.w_rad = sum.tail<3>();
   Matrix6 turn = Matrix6::Zero();
-  turn.topLeftCorner<3, 3>() = table_.axis.turn(*angle - table_.reference_rad);
+  turn.topLeftCorner<3, 3>() = table_.axis.turn(angle - table_.reference_rad);
   turn.bottomRightCorner<3, 3>() = turn.topLeftCorner<3, 3>();
   out.covariance += turn * table_.reference_covariance * turn.transpose();
   out.covariance.diagonal() += table_.hysteresis_rms.cwiseAbs2();
-  out.bridged = bridged_at(*angle);
+  out.bridged = bridged_at(angle);
   return out;
 }
 
 core::Result<Eigen::Isometry3d> RotaryModel::motion(double angle_rad) const {
-  const auto errors = at(angle_rad);
-  if (!errors) return core::fail(errors.error());
-  return rotary_motion(table_.axis, angle_rad - table_.reference_rad, *errors);
+  TRY(const auto errors, at(angle_rad));
+  return rotary_motion(table_.axis, angle_rad - table_.reference_rad, errors);
 }
 
 }  // namespace rondure::fit

@@ -63,7 +63,7 @@ double circumference(const Spectrum& harmonics) {
 
 core::Result<CalculatedSizes> calculated_sizes(const UniformProfile& profile,
                                                const Material& material) {
-  if (auto checked = check(profile, material); !checked) return core::fail(checked.error());
+  TRY_DO(check(profile, material));
   const std::size_t n = profile.r_mm.size();
   Spectrum harmonics = spectrum(profile.r_mm);
   for (Complex& value : harmonics) value /= static_cast<double>(n);

@@ -25,20 +25,16 @@ core::Result<double> settled(const core::Result<ZoneFit<Place>>& zone, double ra
 /// @param fit  Fits the zone with the given weights.
 template <class Fit>
 core::Result<GlobalSizes> sizes_of(double ls_radius_mm, const Material& material, const Fit& fit) {
-  if (auto checked = check_material(material, ls_radius_mm); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_material(material, ls_radius_mm));
   const auto least = fit(kMinimumCircumscribed);
-  const auto outer = settled(least, least ? least->outer_radius_mm : 0.0);
-  if (!outer) return core::fail(outer.error());
+  TRY(const auto outer, settled(least, least ? least->outer_radius_mm : 0.0));
   const auto zone = fit(kMinimumZone);
-  const auto middle =
-      settled(zone, zone ? 0.5 * (zone->outer_radius_mm + zone->inner_radius_mm) : 0.0);
-  if (!middle) return core::fail(middle.error());
+  TRY(const auto middle,
+      settled(zone, zone ? 0.5 * (zone->outer_radius_mm + zone->inner_radius_mm) : 0.0));
   GlobalSizes out;
   out.gg_mm = material.diameter_mm(ls_radius_mm);
-  out.gn_mm = material.diameter_mm(*outer);
-  out.gc_mm = material.diameter_mm(*middle);
+  out.gn_mm = material.diameter_mm(outer);
+  out.gc_mm = material.diameter_mm(middle);
   const auto largest = fit(kMaximumInscribed);
   out.gx_mm = settled(largest, largest ? largest->inner_radius_mm : 0.0).map([&](double radius) {
     return material.diameter_mm(radius);
@@ -50,7 +46,7 @@ template <int D>
 core::Result<GlobalSizes> sizes_about_center(std::span<const Eigen::Matrix<double, D, 1>> points_mm,
                                              const Material& material,
                                              const core::Result<LsCenter<D>>& ls) {
-  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  TRY_DO(check_material(material));
   if (!ls) return core::fail(ls.error());
   CenterZoneFitter<D> fitter;
   return sizes_of(ls->radius_mm, material,
@@ -79,12 +75,11 @@ core::Result<void> check_material(const Material& material, double center_radius
 
 core::Result<GlobalSizes> global_sizes(SpacePoints points_mm, const Material& material,
                                        const std::optional<Eigen::Vector3d>& near_direction) {
-  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
-  const auto ls = ls_cylinder(points_mm, near_direction);
-  if (!ls) return core::fail(ls.error());
+  TRY_DO(check_material(material));
+  TRY(const auto ls, ls_cylinder(points_mm, near_direction));
   CylinderZoneFitter fitter;
-  return sizes_of(ls->radius_mm, material, [&](const ZoneWeights& weights) {
-    return fitter.fit(points_mm, ls->axis.direction, weights);
+  return sizes_of(ls.radius_mm, material, [&](const ZoneWeights& weights) {
+    return fitter.fit(points_mm, ls.axis.direction, weights);
   });
 }
 

@@ -82,15 +82,13 @@ bool append_pairs(const Section& section, std::size_t number, const Material& ma
 
 core::Result<std::vector<LocalSize>> two_point_sizes(std::span<const Section> sections,
                                                      const Material& material) {
-  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  TRY_DO(check_material(material));
   if (sections.empty()) {
     return core::fail(core::Code::kSampling, "there is no section to take two-point sizes from");
   }
   std::vector<LocalSize> out;
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    if (auto checked = check_material(material, sections[i].circle.radius_mm); !checked) {
-      return core::fail(checked.error());
-    }
+    TRY_DO(check_material(material, sections[i].circle.radius_mm));
     if (append_pairs(sections[i], i, material, out)) continue;
     return core::fail(core::Code::kSampling,
                       fmt::format("section {} of {}, of {} points, has no two points opposite each "
@@ -103,7 +101,7 @@ core::Result<std::vector<LocalSize>> two_point_sizes(std::span<const Section> se
 
 core::Result<std::vector<LocalSize>> two_point_sizes(const UniformProfile& profile,
                                                      const Material& material) {
-  if (auto checked = check_material(material); !checked) return core::fail(checked.error());
+  TRY_DO(check_material(material));
   const std::size_t half = profile.r_mm.size() / 2;
   if (half == 0 || profile.r_mm.size() % 2 != 0) {
     return core::fail(core::Code::kSampling,

@@ -166,7 +166,7 @@ DesignedLayout designed(const Candidate& candidate, const LayoutSearch& search) 
 }  // namespace
 
 core::Result<std::vector<DesignedLayout>> design_layout(const LayoutSearch& search) {
-  if (auto sound = check(search); !sound) return core::fail(sound.error());
+  TRY_DO(check(search));
   const auto count = static_cast<std::size_t>(search.count);
   std::vector<Candidate> found = distinct(scan_grid(search), kRefined * count);
   if (search.samples == 0) {

@@ -183,32 +183,30 @@ void average(ProbeSamples& out) {
 
 core::Result<ProbeSamples> sample_readings(const ProbeReadings& readings, const SwingArm& arm,
                                            const ThreeProbeOptions& options) {
-  if (auto sound = check_rows(readings, options); !sound) return core::fail(sound.error());
-  const auto theta = travel(readings, arm, options.resample);
-  if (!theta) return core::fail(theta.error());
-  const auto extent = whole_revolutions(*theta, options);
-  if (!extent) return core::fail(extent.error());
-  const auto turns = static_cast<std::size_t>(extent->revolutions);
+  TRY_DO(check_rows(readings, options));
+  TRY(const auto theta, travel(readings, arm, options.resample));
+  TRY(const auto extent, whole_revolutions(theta, options));
+  const auto turns = static_cast<std::size_t>(extent.revolutions);
   ProbeSamples out;
-  out.revolutions = extent->revolutions;
-  out.rows = extent->rows;
-  out.start_rad = theta->front();
-  const std::size_t each = extent->rows / turns;
+  out.revolutions = extent.revolutions;
+  out.rows = extent.rows;
+  out.start_rad = theta.front();
+  const std::size_t each = extent.rows / turns;
   const bool recorded = options.samples == 0 || !options.resample;
   out.count = recorded ? each : static_cast<std::size_t>(options.samples);
-  for (std::size_t m = 1; m < extent->rows; ++m) {
-    out.largest_gap_rad = std::max(out.largest_gap_rad, (*theta)[m] - (*theta)[m - 1]);
+  for (std::size_t m = 1; m < extent.rows; ++m) {
+    out.largest_gap_rad = std::max(out.largest_gap_rad, theta[m] - theta[m - 1]);
   }
   const bool as_they_are =
-      out.count * turns == extent->rows && (!options.resample || is_uniform(*theta, *extent));
+      out.count * turns == extent.rows && (!options.resample || is_uniform(theta, extent));
   if (as_they_are) {
-    take_rows(readings, extent->rows, out);
+    take_rows(readings, extent.rows, out);
   } else {
-    interpolate(readings, *theta, *extent, options.highest, out);
+    interpolate(readings, theta, extent, options.highest, out);
   }
-  place_samples(readings, *theta, arm, out);
+  place_samples(readings, theta, arm, out);
   average(out);
-  out.theta_rad.assign(theta->begin(), theta->begin() + static_cast<std::ptrdiff_t>(extent->rows));
+  out.theta_rad.assign(theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(extent.rows));
   return out;
 }
 

@@ -277,11 +277,10 @@ void judge_sense(const ProbeSamples& samples, const Guard& guard, ThreeProbeResu
 core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& readings,
                                                     const SwingArm& arm, const ProbeLayout& layout,
                                                     const ThreeProbeOptions& options) {
-  if (auto sound = check_options(options); !sound) return core::fail(sound.error());
-  if (auto sound = check_swing_arm(arm); !sound) return core::fail(sound.error());
-  auto sampled = sample_readings(readings, arm, options);
-  if (!sampled) return core::fail(sampled.error());
-  ProbeSamples samples = *std::move(sampled);
+  TRY_DO(check_options(options));
+  TRY_DO(check_swing_arm(arm));
+  TRY(auto sampled, sample_readings(readings, arm, options));
+  ProbeSamples samples = std::move(sampled);
   if (samples.count < static_cast<std::size_t>(2 * options.highest + 2)) {
     return core::fail(
         Code::kSampling,
@@ -311,10 +310,7 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   const Guard guard{options, layout, result.noise_mm, static_cast<double>(samples.rows)};
   Spectrum part = recover(sum, guard, samples.count, samples.start_rad, result);
   separate_motion(samples, part, options, result);
-  if (auto refined = refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result);
-      !refined) {
-    return core::fail(refined.error());
-  }
+  TRY_DO(refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result));
   judge_residual(sum, part, samples, result);
   result.beyond = beyond_of(sum, guard, samples.count);
   result.mean_readings_mm = samples.mean_mm;

@@ -163,7 +163,7 @@ double WheelCenters::rms_kappa() const {
 
 core::Result<WheelCenters> select_centers(PlanePoints points_mm, double radius_mm,
                                           const QuadrupleOptions& options) {
-  if (auto checked = check(options); !checked) return core::fail(checked.error());
+  TRY_DO(check(options));
   WheelCenters out = select_systematic(points_mm, radius_mm, options);
   if (out.accepted.size() >= kLeastCenters) return out;
   return core::fail(

@@ -24,21 +24,18 @@ core::Result<double> radius_of(const WheelMeasurement& wheel, RadiusChoice choic
 
 core::Result<void> add_path(const WheelTask& task, WheelEvaluation& out) {
   const WheelPathTask& wanted = *task.path;
-  const auto radius = radius_of(out.wheel, wanted.radius);
-  if (!radius) return core::fail(radius.error());
-  auto path = wheel_path(wanted.surface, *radius, wanted.options);
-  if (!path) return core::fail(path.error());
+  TRY(const auto radius, radius_of(out.wheel, wanted.radius));
+  TRY(auto path, wheel_path(wanted.surface, radius, wanted.options));
   ForecastInput input;
-  input.radius_mm = *radius;
+  input.radius_mm = radius;
   input.radius_uncertainty_mm = out.wheel.radius_uncertainty_mm;
   input.nominal_radius_mm = task.wheel.nominal_radius_mm;
   input.repeatability_mm = wanted.repeatability_mm;
   input.touch_off_mm =
       wanted.touch_off_mm.value_or(std::clamp(0.0, wanted.options.from_mm, wanted.options.to_mm));
-  auto forecast = fit::forecast(wanted.surface, input, wanted.options);
-  if (!forecast) return core::fail(forecast.error());
-  out.path = *std::move(path);
-  out.forecast = *std::move(forecast);
+  TRY(auto forecast, fit::forecast(wanted.surface, input, wanted.options));
+  out.path = std::move(path);
+  out.forecast = std::move(forecast);
   return {};
 }
 
@@ -49,10 +46,9 @@ std::string_view name_of(RadiusChoice choice) {
 }
 
 core::Result<WheelEvaluation> evaluate_wheel(PlanePoints points_mm, const WheelTask& task) {
-  auto wheel = measure_wheel(points_mm, task.wheel);
-  if (!wheel) return core::fail(wheel.error());
+  TRY(auto wheel, measure_wheel(points_mm, task.wheel));
   WheelEvaluation out;
-  out.wheel = *std::move(wheel);
+  out.wheel = std::move(wheel);
   if (!task.path) return out;
   out.radius = task.path->radius;
   if (auto added = add_path(task, out); !added) out.refused = added.error();

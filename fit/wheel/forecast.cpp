@@ -23,10 +23,8 @@ core::Result<ResidualForm> residual_form(const WheelSurface& surface, double use
         fmt::format("the radius of the path is {} mm; above 0 is needed", used_radius_mm));
   }
   // With a cusp the options have no step; the residual is smooth, so any fine step will do.
-  const auto load = wheel_load(surface, true_radius_mm, options);
-  if (!load) return core::fail(load.error());
-  const auto origin = surface.at(touch_off_mm);
-  if (!origin) return core::fail(origin.error());
+  TRY_DO(wheel_load(surface, true_radius_mm, options));
+  TRY(const auto origin, surface.at(touch_off_mm));
   ResidualForm out;
   out.used_radius_mm = used_radius_mm;
   out.true_radius_mm = true_radius_mm;
@@ -38,10 +36,9 @@ core::Result<ResidualForm> residual_form(const WheelSurface& surface, double use
   Extremes touched;
   for (double i = 0.0; i <= steps; i += 1.0) {
     const double x = options.from_mm + i / steps * length;
-    const auto point = surface.at(x);
-    if (!point) return core::fail(point.error());
-    const double q = point->stretch();
-    out.rows.push_back({x, out.delta_mm * q, out.delta_mm * (q - origin->stretch())});
+    TRY(const auto point, surface.at(x));
+    const double q = point.stretch();
+    out.rows.push_back({x, out.delta_mm * q, out.delta_mm * (q - origin.stretch())});
     touched.take(out.rows.back().touched_mm);
   }
   out.deviation_mm = touched.width();
@@ -52,18 +49,16 @@ core::Result<WheelForecast> forecast(const WheelSurface& surface, const Forecast
                                      const WheelPathOptions& options) {
   WheelForecast out;
   const double left = 2.0 * input.radius_uncertainty_mm;
-  auto measured =
-      residual_form(surface, input.radius_mm + left, input.radius_mm, input.touch_off_mm, options);
-  if (!measured) return core::fail(measured.error());
-  out.measured = *std::move(measured);
+  TRY(auto measured,
+      residual_form(surface, input.radius_mm + left, input.radius_mm, input.touch_off_mm, options));
+  out.measured = std::move(measured);
   if (!input.nominal_radius_mm) return out;
-  auto nominal = residual_form(surface, *input.nominal_radius_mm, input.radius_mm,
-                               input.touch_off_mm, options);
-  if (!nominal) return core::fail(nominal.error());
+  TRY(auto nominal, residual_form(surface, *input.nominal_radius_mm, input.radius_mm,
+                                  input.touch_off_mm, options));
   out.capped = input.repeatability_mm > left;
   const double floor = std::max(left, input.repeatability_mm);
-  if (floor > 0.0) out.improvement = std::abs(nominal->delta_mm) / floor;
-  out.nominal = *std::move(nominal);
+  if (floor > 0.0) out.improvement = std::abs(nominal.delta_mm) / floor;
+  out.nominal = std::move(nominal);
   return out;
 }
 

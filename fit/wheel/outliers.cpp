@@ -109,9 +109,7 @@ core::Result<Outliers> find_outliers(PlanePoints points_mm,
     }
   }
   std::ranges::sort(out.dropped, {}, &DroppedPoint::row);
-  if (auto checked = check_count(out, points_mm.size()); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_count(out, points_mm.size()));
   for (const DroppedPoint& point : out.dropped) {
     out.warnings.push_back(
         {core::Code::kOutliers, fmt::format("point {} (counted from 0) is {:+.2f} um off, {:.1f} "

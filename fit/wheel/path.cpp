@@ -88,15 +88,14 @@ core::Result<void> check_contact(const WheelPathRow& row, const WheelPathOptions
 }
 
 core::Result<WheelPathRow> row_at(const WheelSurface& surface, double x_mm, double radius_mm) {
-  const auto point = surface.at(x_mm);
-  if (!point) return core::fail(point.error());
+  TRY(const auto point, surface.at(x_mm));
   WheelPathRow row;
   row.x_mm = x_mm;
-  row.surface = *point;
-  const double q = point->stretch();
-  row.center_mm = {x_mm - radius_mm * point->slope / q, point->height_mm + radius_mm / q};
-  row.contact_rad = std::atan(point->slope);
-  row.load = radius_mm * point->curvature_per_mm();
+  row.surface = point;
+  const double q = point.stretch();
+  row.center_mm = {x_mm - radius_mm * point.slope / q, point.height_mm + radius_mm / q};
+  row.contact_rad = std::atan(point.slope);
+  row.load = radius_mm * point.curvature_per_mm();
   return row;
 }
 
@@ -131,10 +130,9 @@ core::Result<void> fill_rows(const WheelSurface& surface, const WheelPathOptions
   const auto count = static_cast<std::size_t>(steps);
   for (std::size_t i = 0; i <= count; ++i) {
     const double share = static_cast<double>(i) / steps;
-    const auto row = row_at(surface, options.from_mm + share * length, path.radius_mm);
-    if (!row) return core::fail(row.error());
-    if (auto checked = check_contact(*row, options); !checked) return checked;
-    path.rows.push_back(*row);
+    TRY(const auto row, row_at(surface, options.from_mm + share * length, path.radius_mm));
+    if (auto checked = check_contact(row, options); !checked) return checked;
+    path.rows.push_back(row);
   }
   return {};
 }
@@ -151,30 +149,25 @@ double cusp_height_mm(double step_mm, double radius_mm, double curvature_per_mm)
 
 core::Result<WheelLoad> wheel_load(const WheelSurface& surface, double radius_mm,
                                    const WheelPathOptions& options) {
-  if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
-  const auto samples = sample_of(surface, options);
-  if (!samples) return core::fail(samples.error());
-  return load_of(*samples, radius_mm, options);
+  TRY_DO(check(radius_mm, options));
+  TRY(const auto samples, sample_of(surface, options));
+  return load_of(samples, radius_mm, options);
 }
 
 core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm,
                                    const WheelPathOptions& options) {
-  if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
-  const auto samples = sample_of(surface, options);
-  if (!samples) return core::fail(samples.error());
-  const auto load = load_of(*samples, radius_mm, options);
-  if (!load) return core::fail(load.error());
+  TRY_DO(check(radius_mm, options));
+  TRY(const auto samples, sample_of(surface, options));
+  TRY(const auto load, load_of(samples, radius_mm, options));
   WheelPath path;
   path.radius_mm = radius_mm;
   path.lowest_point = options.lowest_point;
-  path.load = *load;
+  path.load = load;
   const double relief = 1.0 / radius_mm - path.load.least_curvature_per_mm;
   path.step_mm = options.cusp_mm ? std::sqrt(8.0 * *options.cusp_mm / relief) : options.step_mm;
-  if (auto filled = fill_rows(surface, options, path); !filled) return core::fail(filled.error());
+  TRY_DO(fill_rows(surface, options, path));
   path.cusp_mm = cusp_height_mm(path.step_mm, radius_mm, path.load.least_curvature_per_mm);
-  if (auto clear = check_clearance(*samples, options, path); !clear) {
-    return core::fail(clear.error());
-  }
+  TRY_DO(check_clearance(samples, options, path));
   if (path.load.load > options.load_warning) {
     path.warnings.push_back(
         {core::Code::kLowMargin,

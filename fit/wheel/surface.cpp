@@ -126,9 +126,8 @@ core::Result<WheelSurface> WheelSurface::asphere(Asphere asphere) {
 }
 
 core::Result<WheelSurface> WheelSurface::table(std::vector<double> x_mm, std::vector<double> z_mm) {
-  auto spline = spline_of(std::move(x_mm), std::move(z_mm));
-  if (!spline) return core::fail(spline.error());
-  return WheelSurface(*std::move(spline));
+  TRY(auto spline, spline_of(std::move(x_mm), std::move(z_mm)));
+  return WheelSurface(std::move(spline));
 }
 
 core::Result<WheelSurface> WheelSurface::less(std::vector<double> x_mm,
@@ -139,10 +138,9 @@ core::Result<WheelSurface> WheelSurface::less(std::vector<double> x_mm,
                       fmt::format("the removal is {:.6g} mm at x = {:.6g} mm; a depth is 0 or more",
                                   depth_mm[i], x_mm[i]));
   }
-  auto spline = spline_of(std::move(x_mm), std::move(depth_mm));
-  if (!spline) return core::fail(spline.error());
+  TRY(auto spline, spline_of(std::move(x_mm), std::move(depth_mm)));
   WheelSurface out = *this;
-  out.removal_ = *std::move(spline);
+  out.removal_ = std::move(spline);
   return out;
 }
 

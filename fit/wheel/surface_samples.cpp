@@ -66,9 +66,8 @@ core::Result<SurfaceSamples> SurfaceSamples::over(const WheelSurface& surface, d
                                                   double to_mm) {
   SurfaceSamples out(surface);
   for (const double x : places_of(surface, from_mm, to_mm)) {
-    const auto point = surface.at(x);
-    if (!point) return core::fail(point.error());
-    out.samples_.push_back({x, *point});
+    TRY(const auto point, surface.at(x));
+    out.samples_.push_back({x, point});
   }
   out.make_boxes();
   return out;

@@ -99,22 +99,18 @@ core::Result<void> check_arc(PlanePoints points, const LsCircle& circle,
 
 /// Makes the checks that are possible before quadruples are chosen.
 core::Result<LsCircle> check_and_start(PlanePoints points_mm, const WheelOptions& options) {
-  if (auto checked = check_options(options); !checked) return core::fail(checked.error());
+  TRY_DO(check_options(options));
   if (points_mm.size() < kLeastPoints) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("there are {} points, a wheel needs at least {}",
                                   points_mm.size(), kLeastPoints));
   }
-  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
-  if (auto checked = check_distinct(points_mm); !checked) return core::fail(checked.error());
+  TRY_DO(check_points(points_mm));
+  TRY_DO(check_distinct(points_mm));
   const auto circle = ls_circle(points_mm);
   if (!circle) return circle;
-  if (auto checked = check_arc(points_mm, *circle, options); !checked) {
-    return core::fail(checked.error());
-  }
-  if (auto checked = check_radius(circle->radius_mm, options); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_arc(points_mm, *circle, options));
+  TRY_DO(check_radius(circle->radius_mm, options));
   return circle;
 }
 
@@ -305,9 +301,8 @@ void warn(WheelMeasurement& out) {
 core::Result<Outliers> outliers_of(const OutlierOptions& options,
                                    const QuadrupleOptions& quadruples, const Points& used,
                                    const WheelMeasurement& out) {
-  const auto all = select_centers(used, out.check.radius_mm, quadruples);
-  if (!all) return core::fail(all.error());
-  return find_outliers(used, all->accepted, options);
+  TRY(const auto all, select_centers(used, out.check.radius_mm, quadruples));
+  return find_outliers(used, all.accepted, options);
 }
 
 /// Adds a warning that names the points that the robust variant would drop; they are kept.
@@ -342,22 +337,18 @@ void name_outliers(const OutlierOptions& options, const QuadrupleOptions& quadru
 core::Result<void> make_robust(const OutlierOptions& options, const QuadrupleOptions& quadruples,
                                std::vector<std::size_t>& rows, Points& used,
                                WheelMeasurement& out) {
-  const auto outliers = outliers_of(options, quadruples, used, out);
-  if (!outliers) return core::fail(outliers.error());
-  out.outlier_scale_mm = outliers->scale_mm;
-  out.warnings = outliers->warnings;
-  out.dropped = outliers->dropped;
+  TRY(const auto outliers, outliers_of(options, quadruples, used, out));
+  out.outlier_scale_mm = outliers.scale_mm;
+  out.warnings = outliers.warnings;
+  out.dropped = outliers.dropped;
   if (out.dropped.empty()) return {};
   for (auto point = out.dropped.rbegin(); point != out.dropped.rend(); ++point) {
     rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(point->row));
     used.erase(used.begin() + static_cast<std::ptrdiff_t>(point->row));
   }
-  const auto circle = ls_circle(used);
-  if (!circle) return core::fail(circle.error());
-  out.check = *circle;
-  auto centers = select_centers(used, circle->radius_mm, quadruples);
-  if (!centers) return core::fail(centers.error());
-  out.centers = *std::move(centers);
+  TRY(const auto circle, ls_circle(used));
+  out.check = circle;
+  TRY(out.centers, select_centers(used, circle.radius_mm, quadruples));
   return {};
 }
 
@@ -382,22 +373,19 @@ std::optional<double> WheelMeasurement::effective_radius_mm() const {
 }
 
 core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm, const WheelOptions& options) {
-  const auto start = check_and_start(points_mm, options);
-  if (!start) return core::fail(start.error());
+  TRY(const auto start, check_and_start(points_mm, options));
   WheelMeasurement out;
   out.mode = options.mode;
   out.mean = options.mean;
   out.points = points_mm.size();
-  out.check = *start;
-  auto centers = select_centers(points_mm, start->radius_mm, options.quadruples);
-  if (!centers) return core::fail(centers.error());
-  out.centers = *std::move(centers);
+  out.check = start;
+  TRY(auto centers, select_centers(points_mm, start.radius_mm, options.quadruples));
+  out.centers = std::move(centers);
   std::vector<std::size_t> rows(points_mm.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   Points used(points_mm.begin(), points_mm.end());
   if (options.robust) {
-    auto done = make_robust(options.outliers, options.quadruples, rows, used, out);
-    if (!done) return core::fail(done.error());
+    TRY_DO(make_robust(options.outliers, options.quadruples, rows, used, out));
   } else {
     name_outliers(options.outliers, options.quadruples, used, out);
   }

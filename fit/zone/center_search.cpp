@@ -102,11 +102,10 @@ std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
 }
 
 core::Result<CenterSearch> center_search(PlanePoints points_mm) {
-  const auto start = algebraic_circle(points_mm);
-  if (!start) return core::fail(start.error());
+  TRY(const auto start, algebraic_circle(points_mm));
   const double tolerance = contact_tolerance(points_mm);
   CenterSearch out;
-  out.center_mm = start->center_mm;
+  out.center_mm = start.center_mm;
   for (int move = 0; move <= kCenterMoveLimit; ++move) {
     const ContactSets now = contacts_at(points_mm, out.center_mm, tolerance);
     out.inner_radius_mm = now.low;

@@ -70,7 +70,7 @@ template <class Place, class Point>
 core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> points,
                                     const ZoneWeights& weights, std::string_view shape) {
   if (zone.ending == ZoneEnding::kNotFinite) {
-    if (auto checked = check_points(points); !checked) return core::fail(checked.error());
+    TRY_DO(check_points(points));
     return core::fail(core::Code::kUnits,
                       "the coordinates are so large that squared distances are not finite; mm are "
                       "expected");
@@ -175,14 +175,13 @@ auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeight
     // The problem is convex, so any start will do.
     const auto zone = fit_from(points_mm, points_mm.front(), weights);
     if (zone.ending == ZoneEnding::kConverged && !spans_space(points_mm, zone)) {
-      if (const auto start = start_of(points_mm); !start) return core::fail(start.error());
+      TRY_DO(start_of(points_mm));
     }
     return judged(zone, points_mm, weights, kShape);
   }
-  const auto start = start_of(points_mm);
-  if (!start) return core::fail(start.error());
-  const double limit = limit_of(weights, start->radius_mm);
-  return judged(fit_from(points_mm, start->center_mm, weights, limit), points_mm, weights, kShape);
+  TRY(const auto start, start_of(points_mm));
+  const double limit = limit_of(weights, start.radius_mm);
+  return judged(fit_from(points_mm, start.center_mm, weights, limit), points_mm, weights, kShape);
 }
 
 template class CenterZoneFitter<2>;

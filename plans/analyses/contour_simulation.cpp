@@ -89,9 +89,8 @@ core::Result<std::vector<double>> ground_um(const GroundWorld& world,
     errors.c_rad.push_back(world.c_error_deg(alpha) * kDegree);
     errors.x_mm.push_back(world.x_error_um(alpha) * kMicrometre);
   }
-  const auto path = fit::wheel_path(geometry, errors);
-  if (!path) return core::fail(path.error());
-  auto out = fit::envelope_radii_mm(*path, geometry.wheel_radius_mm, points);
+  TRY(const auto path, fit::wheel_path(geometry, errors));
+  auto out = fit::envelope_radii_mm(path, geometry.wheel_radius_mm, points);
   for (double& r : out) r = (r - geometry.pin_radius_mm) / kMicrometre;
   return out;
 }
@@ -144,8 +143,7 @@ core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
   for (int part = 0; part < hidden.parts; ++part) {
     const auto key = static_cast<std::uint64_t>(part);
     const GroundWorld world = world_of(hidden, seed, index, key);
-    auto pin = ground_um(world, geometry, points);
-    if (!pin) return core::fail(pin.error());
+    TRY(auto pin, ground_um(world, geometry, points));
     record::Series truth;
     truth.role = record::Series::Role::kTruth;
     truth.columns = {{"beta_deg", "deg"}, {"ground_um", "um"}, {"rest_um", "um"}};
@@ -153,13 +151,13 @@ core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
     for (std::size_t m = 0; m < points; ++m) {
       const double beta = core::kTwoPi * static_cast<double>(m) / static_cast<double>(points);
       rest[m] = world.rest_um(beta);
-      truth.values.insert(truth.values.end(), {beta / kDegree, (*pin)[m], rest[m]});
-      (*pin)[m] += rest[m];
+      truth.values.insert(truth.values.end(), {beta / kDegree, pin[m], rest[m]});
+      pin[m] += rest[m];
     }
     const int number = part + 1;
     add(out, axes_of(world, asked, seed, index, key), fmt::format("axes {}", number), feature);
     add(out,
-        gauge_of(*pin, {asked.phase_offset_deg, sense, hidden.roughness_um},
+        gauge_of(pin, {asked.phase_offset_deg, sense, hidden.roughness_um},
                  core::KeyedNoise(seed, {kGaugeStream, index, key, 0})),
         fmt::format("pin {}", number), feature);
     add(out,

@@ -256,16 +256,14 @@ core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
                                             std::uint64_t seed) {
   const SpindleTask& asked = *plan.features[index].spindle;
   const SimulatedSpindlePlan& hidden = *plan.simulation->spindle;
-  const auto layout = layout_of(asked);
-  if (!layout) return core::fail(layout.error());
-  ProbedWorld world{hidden, arm_of(asked), layout->angles_rad()};
+  TRY(const auto layout, layout_of(asked));
+  ProbedWorld world{hidden, arm_of(asked), layout.angles_rad()};
   if (asked.wheel_radius_from) {
     // The head was set on the nominal wheel: on another one its lines miss the pin.
     const NamedWheel wheel = named_wheel(plan, *asked.wheel_radius_from);
     world.arm.wheel_radius_mm = wheel.true_mm;
-    const auto turned = fit::turned_by_arm(*layout, world.arm, wheel.nominal_mm);
-    if (!turned) return core::fail(turned.error());
-    world.places_rad = turned->angles_rad();
+    TRY(const auto turned, fit::turned_by_arm(layout, world.arm, wheel.nominal_mm));
+    world.places_rad = turned.angles_rad();
   }
   world.places_rad[1] += hidden.p2_error_deg * kDegree;
   world.places_rad[2] += hidden.p3_error_deg * kDegree;

@@ -23,9 +23,7 @@ std::vector<double> ServedCell::table_angles_deg() const {
 }
 
 core::Result<void> ServedCell::home_table() {
-  auto homed = cell_.home_fixture();
-  if (!homed) return core::fail(homed.error());
-  pose_ = *homed;
+  TRY(pose_, cell_.home_fixture());
   return {};
 }
 
@@ -33,9 +31,7 @@ core::Result<std::vector<Eigen::Vector3d>> ServedCell::align_part(
     std::span<const cmm::ipp::Alignment> alignments) {
   std::vector<fixture::DirectionPair> pairs;
   for (const auto& [part, machine] : alignments) pairs.push_back({part, machine});
-  const auto reached = cell_.turn_to(fixture::aligning_pose(pairs, pose_));
-  if (!reached) return core::fail(reached.error());
-  pose_ = *reached;
+  TRY(pose_, cell_.turn_to(fixture::aligning_pose(pairs, pose_)));
   const Eigen::Matrix3d turned = fixture::body_to_machine(cell_.kinematics(), pose_).linear();
   std::vector<Eigen::Vector3d> out;
   for (const auto& [part, machine] : alignments) out.emplace_back(turned * part);

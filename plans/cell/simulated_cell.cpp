@@ -176,9 +176,7 @@ core::Result<core::Pose> SimulatedCell::home_driven() {
 
 core::Result<core::Pose> SimulatedCell::replay_turn(const core::Pose& commanded) {
   if (driven_) {
-    if (auto within = fixture::check_pose_range(driven_->limits(), commanded); !within) {
-      return core::fail(within.error());
-    }
+    TRY_DO(fixture::check_pose_range(driven_->limits(), commanded));
   }
   return turn(commanded);
 }
@@ -197,7 +195,7 @@ core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
 core::Result<core::Pose> SimulatedCell::home_again() {
   shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
   fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
-  if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
+  TRY_DO(machine_.home());
   if (driven_) {
     const core::Pose last = last_turn_;
     const std::uint64_t turns = turns_;

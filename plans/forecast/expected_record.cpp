@@ -58,10 +58,9 @@ core::Result<record::RunRecord> with_series(record::RunRecord expected, const Pl
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const FeaturePlan& feature = plan.features[i];
     if (analysis_kind(feature.type) == nullptr || measures_by_touch(feature)) continue;
-    auto data = analysis_data(plan, i, seed);
-    if (!data) return core::fail(data.error());
+    TRY(auto data, analysis_data(plan, i, seed));
     if (!has_files(feature)) expected.header.seed = seed;
-    for (record::Series& series : data->series) expected.series.push_back(std::move(series));
+    for (record::Series& series : data.series) expected.series.push_back(std::move(series));
   }
   return expected;
 }

@@ -120,10 +120,9 @@ class NominalSession final : public PoseSession {
         geometry_(path_geometry(plan, feature_, plan.part.location_uncertainty_mm)) {}
 
   core::Result<Cloud> measure_reachable(const core::Pose& commanded) override {
-    const auto all = sampling_targets(feature_);
-    if (!all) return core::fail(all.error());
+    TRY(const auto all, sampling_targets(feature_));
     reachable_ =
-        planner_.reachable(*all, geometry_, body_at(commanded), nominal_seat(*plan_.fixture));
+        planner_.reachable(all, geometry_, body_at(commanded), nominal_seat(*plan_.fixture));
     if (reachable_.size() < kLeastTargets) {
       return core::fail(core::Code::kUnreachable, too_few_targets(commanded, reachable_.size()));
     }
@@ -132,25 +131,22 @@ class NominalSession final : public PoseSession {
   core::Result<void> end_merged() override { return {}; }
 
   core::Result<Cloud> measure(const core::Pose& commanded) override {
-    const auto targets = measured_targets();
-    if (!targets) return core::fail(targets.error());
-    const std::vector<Target> stops = stops_of(*targets);
-    if (auto turned = turn(commanded, stops); !turned) return core::fail(turned.error());
+    TRY(const auto targets, measured_targets());
+    const std::vector<Target> stops = stops_of(targets);
+    TRY_DO(turn(commanded, stops));
     if (auto done = touch(stops, ForecastStage::Kind::kCloud); !done)
       return core::fail(done.error());
-    return Cloud{reached_, tips(*targets)};
+    return Cloud{reached_, tips(targets)};
   }
 
   core::Result<void> repeat(int times) override {
     if (times < 1) return {};
-    const auto targets = measured_targets();
-    if (!targets) return core::fail(targets.error());
-    const auto path = lay(stops_of(*targets), reached_);
-    if (!path) return core::fail(path.error());
+    TRY(const auto targets, measured_targets());
+    TRY(const auto path, lay(stops_of(targets), reached_));
     ForecastStage& stage = tally_.forecast().stages.back();
     for (int i = 0; i < times; ++i) {
       ++stage.times;
-      follow(*path, stage);
+      follow(path, stage);
     }
     return {};
   }
@@ -161,10 +157,9 @@ class NominalSession final : public PoseSession {
   }
 
   core::Result<fit::Axis> locate(const core::Pose& commanded) override {
-    const auto targets = locating_targets(feature_, plan_.part.location_uncertainty_mm);
-    if (!targets) return core::fail(targets.error());
-    if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
-    if (auto done = touch(*targets, ForecastStage::Kind::kLocation); !done)
+    TRY(const auto targets, locating_targets(feature_, plan_.part.location_uncertainty_mm));
+    TRY_DO(turn(commanded, targets));
+    if (auto done = touch(targets, ForecastStage::Kind::kLocation); !done)
       return core::fail(done.error());
     geometry_ = path_geometry(plan_, feature_, 0.0);
     return fit::Axis{part_at(reached_).translation(), expected_axis()};
@@ -219,23 +214,20 @@ class NominalSession final : public PoseSession {
   }
 
   core::Result<void> turn(const core::Pose& commanded, const std::vector<Target>& targets) {
-    if (const auto path = lay(targets, commanded); !path) return core::fail(path.error());
-    const auto reached = fixture_.move_to(commanded);
-    if (!reached) return core::fail(reached.error());
-    reached_ = *reached;
+    TRY_DO(lay(targets, commanded));
+    TRY(reached_, fixture_.move_to(commanded));
     ++tally_.forecast().poses;
     return add_ring(plan_, index_, commanded, tally_);
   }
 
   core::Result<void> touch(const std::vector<Target>& targets, ForecastStage::Kind kind) {
-    const auto path = lay(targets, reached_);
-    if (!path) return core::fail(path.error());
+    TRY(const auto path, lay(targets, reached_));
     ForecastStage stage;
     stage.kind = kind;
     stage.feature = index_;
     stage.pose = reached_;
     stage.placement = {part_at(reached_), part_at(reached_)};
-    follow(*path, stage);
+    follow(path, stage);
     tally_.add(std::move(stage));
     return {};
   }
@@ -297,9 +289,8 @@ class NominalSession final : public PoseSession {
 
 /// Adds the poses of a calibration of the fixture, one stage each.
 core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally& tally) {
-  const auto visits = rotary_visits(plan, feature);
-  if (!visits) return core::fail(visits.error());
-  for (const RotaryVisit& visit : *visits) {
+  TRY(const auto visits, rotary_visits(plan, feature));
+  for (const RotaryVisit& visit : visits) {
     const Eigen::Isometry3d X_WB =
         fixture::body_to_machine(nominal_kinematics(*plan.fixture), visit.pose);
     if (auto added = add_ring(plan, static_cast<int>(feature), visit.pose, tally); !added) {
@@ -309,10 +300,9 @@ core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally&
     stage.feature = static_cast<int>(feature);
     stage.pose = visit.pose;
     for (const std::size_t ball : visit.balls) {
-      const auto steps = ball_steps(plan, feature, X_WB, ball);
-      if (!steps) return core::fail(steps.error());
+      TRY(const auto steps, ball_steps(plan, feature, X_WB, ball));
       tally.rise(stage);
-      for (const TouchStep& step : *steps) {
+      for (const TouchStep& step : steps) {
         tally.move(stage, step.way_W);
         tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
       }
@@ -335,12 +325,10 @@ core::Result<Forecast> forecast(const Plan& plan) {
       !added) {
     return core::fail(added.error().at("/probe/qualification"));
   }
-  if (auto added = add_spheres(datum_steps(plan), stage_of(Kind::kBase), tally); !added) {
-    return core::fail(added.error());
-  }
+  TRY_DO(add_spheres(datum_steps(plan), stage_of(Kind::kBase), tally));
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (measures_by_touch(plan.features[i])) {
-      if (auto added = add_calibration(plan, i, tally); !added) return core::fail(added.error());
+      TRY_DO(add_calibration(plan, i, tally));
     }
     if (!is_touched(plan.features[i])) continue;
     NominalSession session(plan, static_cast<int>(i), tally);

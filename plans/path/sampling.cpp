@@ -71,21 +71,20 @@ double layered_mm(const FeaturePlan& feature) {
 
 core::Result<std::vector<double>> layer_heights_mm(const FeaturePlan& feature) {
   const int layers = feature.type == record::Shape::kCircle ? 1 : feature.sampling.layers;
-  if (auto checked = check_layers(feature, layers); !checked) return core::fail(checked.error());
+  TRY_DO(check_layers(feature, layers));
   std::vector<double> out;
   for (int layer = 0; layer < layers; ++layer) out.push_back(layer_height(feature, layer, layers));
   return out;
 }
 
 core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature) {
-  const auto heights = layer_heights_mm(feature);
-  if (!heights) return core::fail(heights.error());
+  TRY(const auto heights, layer_heights_mm(feature));
   const SamplingPlan& sampling = feature.sampling;
   const double step_rad = core::kTwoPi / sampling.points_per_layer;
-  const int layers = static_cast<int>(heights->size());
+  const int layers = static_cast<int>(heights.size());
   std::vector<Target> targets;
   for (int layer = 0; layer < layers; ++layer) {
-    const double z_mm = (*heights)[static_cast<std::size_t>(layer)];
+    const double z_mm = heights[static_cast<std::size_t>(layer)];
     const double start_rad =
         sampling.start_deg * core::kDegree + sampling.stagger * layer * step_rad / layers;
     for (int point = 0; point < sampling.points_per_layer; ++point) {

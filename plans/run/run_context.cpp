@@ -71,15 +71,14 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   step.row.approach = step.command.direction_W;
   if (const record::Touch* known = recorded.touch(next_touch))
     return replay(std::move(step), *known);
-  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  TRY_DO(check_stop());
   const NextMove next = {NextMove::Kind::kTouch, doing + ": touch", cell->machine().position_W_mm(),
                          step.command.expected_tip_W_mm};
-  if (auto go = ask(next); !go) return core::fail(go.error());
-  const auto reading = cell->machine().touch(step.command);
-  if (!reading) return core::fail(reading.error());
+  TRY_DO(ask(next));
+  TRY(const auto reading, cell->machine().touch(step.command));
   record::Touch row = step.row;
-  take_reading(*reading, row);
-  if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
+  take_reading(reading, row);
+  TRY_DO(journal.add(row));
   ++next_touch;
   progress.touches = static_cast<std::size_t>(next_touch);
   progress.time_s = row.time_s;
@@ -88,13 +87,11 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
 }
 
 core::Result<record::Touch> RunContext::replay(TouchStep step, const record::Touch& known) {
-  if (auto same = check_same_step(known, step.row); !same) return core::fail(same.error());
-  if (auto kept = cell->replay_touch(step.command, reading_of(known)); !kept) {
-    return core::fail(kept.error());
-  }
+  TRY_DO(check_same_step(known, step.row));
+  TRY_DO(cell->replay_touch(step.command, reading_of(known)));
   ++next_touch;
   step.row = known;
-  if (auto kept = keep_replayed(std::move(step)); !kept) return core::fail(kept.error());
+  TRY_DO(keep_replayed(std::move(step)));
   return known;
 }
 
@@ -104,7 +101,7 @@ core::Result<void> RunContext::keep_replayed(TouchStep step) {
   last_steps.push_back(std::move(step));
   if (recorded.relocated_after(next_touch)) {
     if (!replaying()) {
-      if (const auto reads = cell->home_again(); !reads) return core::fail(reads.error());
+      TRY_DO(cell->home_again());
     }
     relocation_due = true;
     return core::fail(core::Code::kLocation, "the part was located again");
@@ -121,13 +118,12 @@ core::Result<void> RunContext::come_back() {
   if (auto go = ask_for_homing(); !go) return go;
   lost_place = true;
   doing = "repeating the last touches";
-  const auto reads = cell->home_again();
-  if (!reads) return core::fail(reads.error());
+  TRY(const auto reads, cell->home_again());
   // The repeated touches themselves check a pose that was measured.
   const bool has_encoders = !plan.fixture->reached_pose;
   if (const record::PoseVisit* known = recorded.pose(last_steps.back().row.pose);
       known != nullptr && has_encoders) {
-    if (auto same = check_reading(*known, *reads, resolution_rad()); !same) return same;
+    if (auto same = check_reading(*known, reads, resolution_rad()); !same) return same;
   }
   double largest_mm = 0.0;
   for (std::size_t i = 0; i < last_steps.size(); ++i) {
@@ -178,7 +174,7 @@ tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error)
       -1,
       cell->machine().time_s(),
       {core::MessageCode::kPartLocatedAgain, {static_cast<double>(next_touch), error.what}}};
-  if (auto kept = journal.add(decision); !kept) return core::fail(kept.error());
+  TRY_DO(journal.add(decision));
   relocation_due = true;
   lost_place = false;
   return core::fail(error);
@@ -201,7 +197,7 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
   check.id = check_id;
   check.purpose = record::Touch::Purpose::kCheck;
   take_reading(*reading, check);
-  if (auto kept = journal.add(check); !kept) return core::fail(kept.error());
+  TRY_DO(journal.add(check));
   const double difference_mm = (check.tip_mm - step.row.tip_mm).norm();
   if (difference_mm <= plan.machine->resume_limit_um * core::kMicrometre) return difference_mm;
   return core::fail(
@@ -256,7 +252,7 @@ core::Result<void> RunContext::rise() {
 core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
   if (!replaying()) {
     const std::string what = "turn the fixture to " + in_degrees(commanded);
-    if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
+    TRY_DO(ask({NextMove::Kind::kTurn, what, {}, {}}));
   }
   const auto steps =  // planned before a person turns the fixture
       reached_pose_steps(plan, cell->kinematics(), feature, commanded);
@@ -274,14 +270,11 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
     ++next_pose;
     return *known;
   }
-  if (auto stands = check_station_reached(plan, static_cast<std::size_t>(feature), commanded,
-                                          *reached, resolution_rad());
-      !stands) {
-    return core::fail(stands.error());
-  }
+  TRY_DO(check_station_reached(plan, static_cast<std::size_t>(feature), commanded, *reached,
+                               resolution_rad()));
   const record::PoseVisit visit{next_pose, feature, commanded,
                                 *reached,  false,   cell->machine().time_s()};
-  if (auto kept = journal.add(visit); !kept) return core::fail(kept.error());
+  TRY_DO(journal.add(visit));
   ++next_pose;
   return visit;
 }

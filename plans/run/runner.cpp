@@ -50,9 +50,7 @@ core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
   std::vector<std::vector<Target>> out(plan.features.size());
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (!is_touched(plan.features[i])) continue;
-    auto targets = reachable_targets(plan, i);
-    if (!targets) return core::fail(targets.error());
-    out[i] = std::move(*targets);
+    TRY(out[i], reachable_targets(plan, i));
   }
   return out;
 }
@@ -66,11 +64,9 @@ struct FeatureData {
 
 core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
   const std::string& name = plan.features[index].source->file;
-  const auto bytes = record::read_file(plan.folder / name, record::kMostPointsBytes);
-  if (!bytes) return core::fail(bytes.error());
-  auto table = record::parse_feature_csv(*bytes, name, plan.features[index].source->feature);
-  if (!table) return core::fail(table.error());
-  return FeatureData{record::sha256_hex(*bytes), *std::move(table), {}};
+  TRY(const auto bytes, record::read_file(plan.folder / name, record::kMostPointsBytes));
+  TRY(auto table, record::parse_feature_csv(bytes, name, plan.features[index].source->feature));
+  return FeatureData{record::sha256_hex(bytes), std::move(table), {}};
 }
 
 core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t seed) {
@@ -78,14 +74,11 @@ core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (needs_machine(plan.features[i])) continue;
     if (analysis_kind(plan.features[i].type) != nullptr) {
-      auto data = analysis_data(plan, i, seed);
-      if (!data) return core::fail(data.error());
-      out[i].sha256 = data->sha256;
-      out[i].series = *std::move(data);
+      TRY(auto data, analysis_data(plan, i, seed));
+      out[i].sha256 = data.sha256;
+      out[i].series = std::move(data);
     } else {
-      auto data = read_points_file(plan, i);
-      if (!data) return core::fail(data.error());
-      out[i] = *std::move(data);
+      TRY(out[i], read_points_file(plan, i));
     }
   }
   return out;
@@ -162,11 +155,11 @@ core::Result<void> prepare(RunContext& context) {
       std::find_if(context.plan.features.begin(), context.plan.features.end(), needs_machine);
   context.cell->mount(*first);
   if (context.replaying()) {
-    if (auto homed = context.cell->replay_home(); !homed) return core::fail(homed.error());
+    TRY_DO(context.cell->replay_home());
   } else {
     if (auto go = context.ask_for_homing(); !go) return go;
     if (auto homed = context.cell->machine().home(); !homed) return homed;
-    if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
+    TRY_DO(context.cell->home_fixture());
   }
   if (auto tip = qualify_probe(context); !tip)
     return core::fail(tip.error().at("/probe/qualification"));
@@ -209,14 +202,11 @@ struct Preparation {
 /// @param run_utc  Start of the run.
 core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options,
                                        std::string_view run_utc) {
-  auto targets = plan_targets(plan);
-  if (!targets) return core::fail(targets.error());
+  TRY(auto targets, plan_targets(plan));
   const std::uint64_t seed = options.seed.value_or(plan.simulation ? plan.simulation->seed : 0);
-  auto data = read_data(plan, seed);
-  if (!data) return core::fail(data.error());
-  auto calibration = used_calibration(plan, run_utc);
-  if (!calibration) return core::fail(calibration.error());
-  return Preparation{std::move(*targets), std::move(*data), seed, *std::move(calibration)};
+  TRY(auto data, read_data(plan, seed));
+  TRY(auto calibration, used_calibration(plan, run_utc));
+  return Preparation{std::move(targets), std::move(data), seed, std::move(calibration)};
 }
 
 /// The cell of a plan; null when every feature comes from a file.
@@ -229,9 +219,7 @@ core::Result<std::unique_ptr<Cell>> cell_of(const Plan& plan, const RunOptions& 
   // The driver may be coarser than the plan states.
   const double resolution_rad = (*cell)->fixture().limits().resolution_rad;
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (auto held = check_zero_is_held(plan, i, resolution_rad); !held) {
-      return core::fail(held.error());
-    }
+    TRY_DO(check_zero_is_held(plan, i, resolution_rad));
   }
   return cell;
 }
@@ -308,35 +296,32 @@ bool is_resumable(const core::Error& failure) {
 }
 
 core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
-  const auto known = prepare_plan(plan, options, options.started_utc);
-  if (!known) return core::fail(known.error());
-  auto cell = cell_of(plan, options, known->seed, false);
-  if (!cell) return core::fail(cell.error());
-  record::RunRecord head = run_head(plan, options, known->seed);
-  if (*cell) {
-    head.header.simulated = (*cell)->is_simulated() || simulates_analysis(plan);
+  TRY(const auto known, prepare_plan(plan, options, options.started_utc));
+  TRY(auto cell, cell_of(plan, options, known.seed, false));
+  record::RunRecord head = run_head(plan, options, known.seed);
+  if (cell) {
+    head.header.simulated = cell->is_simulated() || simulates_analysis(plan);
     if (!head.header.simulated) head.header.seed = 0;
-    head.header.machine = (*cell)->machine().description();
-    head.header.fixture = (*cell)->fixture().description();
+    head.header.machine = cell->machine().description();
+    head.header.fixture = cell->fixture().description();
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    head.features[i].points_sha256 = known->data[i].sha256;
-    if (const record::PointTable& points = known->data[i].points; !points.layers.empty()) {
+    head.features[i].points_sha256 = known.data[i].sha256;
+    if (const record::PointTable& points = known.data[i].points; !points.layers.empty()) {
       head.features[i].layers = points.layer_count();
       head.features[i].points_per_layer = points.least_points_per_layer();
     }
   }
   const auto resolution_rad =
-      *cell ? std::optional((*cell)->fixture().limits().resolution_rad) : std::nullopt;
-  for (record::Setting& setting : fixture_settings(plan, known->calibration, resolution_rad)) {
+      cell ? std::optional(cell->fixture().limits().resolution_rad) : std::nullopt;
+  for (record::Setting& setting : fixture_settings(plan, known.calibration, resolution_rad)) {
     head.settings.push_back(std::move(setting));
   }
-  auto journal = record::Journal::create(options.directory, head.header, head.artefact,
-                                         head.features, head.settings);
-  if (!journal) return core::fail(journal.error());
-  Run run{std::move(*journal), std::nullopt};
+  TRY(auto journal, record::Journal::create(options.directory, head.header, head.artefact,
+                                            head.features, head.settings));
+  Run run{std::move(journal), std::nullopt};
   follow(options, std::move(head), run.journal);
-  execute(plan, options, *known, cell->get(), {}, run);
+  execute(plan, options, known, cell.get(), {}, run);
   return run;
 }
 

@@ -60,15 +60,14 @@ bool of_one_scan(const record::Touch& a, const record::Touch& b) {
 core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   step.command.first_id = next_touch;
   if (recorded.touch(next_touch) != nullptr) return replay_scan(std::move(step));
-  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  TRY_DO(check_stop());
   const NextMove next = {NextMove::Kind::kTouch, doing + ": scan", cell->machine().position_W_mm(),
                          step.command.start_tip_W_mm};
-  if (auto go = ask(next); !go) return core::fail(go.error());
-  const auto readings = cell->machine().scan_circle(step.command);
-  if (!readings) return core::fail(readings.error());
-  std::vector<record::Touch> rows = rows_of(step, tips_of(*readings, &cmm::TouchReading::tip_W_mm));
-  for (std::size_t i = 0; i < rows.size(); ++i) take_reading((*readings)[i], rows[i]);
-  if (auto kept = journal.add(rows); !kept) return core::fail(kept.error());
+  TRY_DO(ask(next));
+  TRY(const auto readings, cell->machine().scan_circle(step.command));
+  std::vector<record::Touch> rows = rows_of(step, tips_of(readings, &cmm::TouchReading::tip_W_mm));
+  for (std::size_t i = 0; i < rows.size(); ++i) take_reading(readings[i], rows[i]);
+  TRY_DO(journal.add(rows));
   next_touch += static_cast<std::int64_t>(rows.size());
   progress.touches = static_cast<std::size_t>(next_touch);
   if (!rows.empty()) progress.time_s = rows.back().time_s;
@@ -85,7 +84,7 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
   }
   const auto planned = rows_of(step, tips_of(known, &record::Touch::tip_mm));
   for (std::size_t i = 0; i < known.size(); ++i) {
-    if (auto same = check_same_step(known[i], planned[i]); !same) return core::fail(same.error());
+    TRY_DO(check_same_step(known[i], planned[i]));
   }
   TouchStep first;
   first.scan = step.command;
@@ -106,9 +105,9 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
   first.row = nearest;
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
-  if (auto state = replay_state(first); !state) return core::fail(state.error());
+  TRY_DO(replay_state(first));
   next_touch += static_cast<std::int64_t>(known.size());
-  if (auto kept = keep_replayed(std::move(first)); !kept) return core::fail(kept.error());
+  TRY_DO(keep_replayed(std::move(first)));
   return known;
 }
 
@@ -151,25 +150,22 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
     if (starts.empty() || target.layer != starts.back().layer) starts.push_back(target);
   }
   const auto points = static_cast<int>(targets.size() / starts.size());
-  const auto path = lay(starts, reached_);
-  if (!path) return core::fail(path.error());
+  TRY(const auto path, lay(starts, reached_));
   std::vector<std::vector<Eigen::Vector3d>> layers(starts.size());
   const auto scan = [&](TouchStep first, std::size_t k) -> core::Result<void> {
-    const Target& start = path->target(k);
+    const Target& start = path.target(k);
     const auto rows = context_.scan(scan_of(std::move(first), start, points));
     if (!rows) {
       const bool known = context_.lost_place || context_.relocation_due;
       return known ? core::fail(rows.error()) : fault_at(start, rows.error());
     }
-    for (const record::Touch& row : *rows) layers[path->order()[k]].push_back(row.tip_mm);
+    for (const record::Touch& row : *rows) layers[path.order()[k]].push_back(row.tip_mm);
     if (repeat_ > 0) return {};
     const auto truth = context_.cell->true_scan_W_mm();
     truth_.insert(truth_.end(), truth.begin(), truth.end());
     return {};
   };
-  if (auto done = visit(*path, record::Touch::Purpose::kMeasure, true, scan); !done) {
-    return core::fail(done.error());
-  }
+  TRY_DO(visit(path, record::Touch::Purpose::kMeasure, true, scan));
   std::vector<Eigen::Vector3d> tips;
   for (const auto& layer : layers) tips.insert(tips.end(), layer.begin(), layer.end());
   return tips;

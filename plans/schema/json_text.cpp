@@ -227,7 +227,7 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 }
 
 core::Result<JsonValue> parse_json(std::string_view text, std::string_view name) {
-  if (auto sound = check_bytes(text, name); !sound) return core::fail(std::move(sound.error()));
+  TRY_DO(check_bytes(text, name));
   Builder builder;
   if (!json::sax_parse(text, &builder)) {
     if (!builder.limit.empty()) {

@@ -18,9 +18,8 @@ Archive& Archive::operator=(Archive&&) noexcept = default;
 Archive::~Archive() = default;
 
 core::Result<Archive> Archive::open(const ArchivePlace& place, Access access) {
-  auto session = open_archive_session(place, access);
-  if (!session) return core::fail(session.error());
-  return Archive(std::move(*session));
+  TRY(auto session, open_archive_session(place, access));
+  return Archive(std::move(session));
 }
 
 core::Result<bool> Archive::push(const ArchiveRun& run) {
@@ -32,8 +31,7 @@ core::Result<bool> Archive::push(const ArchiveRun& run) {
                                   run.head.run_id, run.head.started_utc));
   }
   bool added = false;
-  auto written = write_in_one(*session_, [&] { added = insert_run(session_->sql, run, *time_s); });
-  if (!written) return core::fail(written.error());
+  TRY_DO(write_in_one(*session_, [&] { added = insert_run(session_->sql, run, *time_s); }));
   return added;
 }
 

@@ -53,9 +53,8 @@ class Receiver {
  private:
   core::Result<bool> push_once(const ArchiveRun& run) {
     if (!archive_) {
-      auto opened = Archive::open(place_, Archive::Access::kWrite);
-      if (!opened) return core::fail(opened.error());
-      archive_.emplace(std::move(*opened));
+      TRY(auto opened, Archive::open(place_, Archive::Access::kWrite));
+      archive_.emplace(std::move(opened));
     }
     return archive_->push(run);
   }
@@ -74,16 +73,15 @@ void count(Delivery& delivery, const ArchiveRun& run, bool added) {
 core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Receiver& receiver,
                               const RetryPolicy& retries, Delivery& delivery) {
   while (!delivery.failure && !retries.ended()) {
-    const auto waiting = queue.first(target);
-    if (!waiting) return core::fail(waiting.error());
-    if (!*waiting) return {};
-    const auto pushed = receiver.push(**waiting);
+    TRY(const auto waiting, queue.first(target));
+    if (!waiting) return {};
+    const auto pushed = receiver.push(*waiting);
     if (!pushed) {
       delivery.failure = pushed.error();
       return {};
     }
-    count(delivery, **waiting, *pushed);
-    if (auto removed = queue.remove(target, **waiting); !removed) return removed;
+    count(delivery, *waiting, *pushed);
+    if (auto removed = queue.remove(target, *waiting); !removed) return removed;
   }
   return {};
 }
@@ -91,16 +89,13 @@ core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Re
 core::Result<void> use_queue(const std::filesystem::path& file, const std::string& target,
                              const ArchiveRun* left, Receiver& receiver, const RetryPolicy& retries,
                              Delivery& delivery) {
-  auto queue = ArchiveQueue::open(file);
-  if (!queue) return core::fail(queue.error());
+  TRY(auto queue, ArchiveQueue::open(file));
   if (left != nullptr) {
-    if (auto added = queue->add(target, *left); !added) return added;
-  } else if (auto sent = send_queue(*queue, target, receiver, retries, delivery); !sent) {
+    if (auto added = queue.add(target, *left); !added) return added;
+  } else if (auto sent = send_queue(queue, target, receiver, retries, delivery); !sent) {
     return sent;
   }
-  const auto waiting = queue->size(target);
-  if (!waiting) return core::fail(waiting.error());
-  delivery.waiting = *waiting;
+  TRY(delivery.waiting, queue.size(target));
   return {};
 }
 

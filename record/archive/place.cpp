@@ -23,9 +23,8 @@ core::Result<ArchivePlace> server_at(std::string_view url, std::size_t authority
                       "the URL of the archive has an @ too many; write / as %2F and @ as %40 in a "
                       "user, a password or the name of a database");
   }
-  const auto settings = parse_server_url(url);
-  if (!settings) return core::fail(settings.error());
-  const std::string shown = shown_url(url, *settings);
+  TRY(const auto settings, parse_server_url(url));
+  const std::string shown = shown_url(url, settings);
   return ArchivePlace{ArchivePlace::Kind::kServer, std::string(url), shown, shown};
 }
 

@@ -21,16 +21,13 @@ ArchiveQueue::~ArchiveQueue() = default;
 core::Result<ArchiveQueue> ArchiveQueue::open(const std::filesystem::path& file) {
   const std::string path = file.string();
   const ArchivePlace place{ArchivePlace::Kind::kFile, path, path, path};
-  auto session = open_archive_session(place, Archive::Access::kWrite);
-  if (!session) return core::fail(session.error());
-  auto made = write_in_one(**session, [&] {
-    (*session)->sql
-        << "create table if not exists rondure_queue (id integer primary key, "
-           "journal_sha256 text not null, target text not null, unique (journal_sha256, "
-           "target))";
-  });
-  if (!made) return core::fail(made.error());
-  return ArchiveQueue(std::move(*session));
+  TRY(auto session, open_archive_session(place, Archive::Access::kWrite));
+  TRY_DO(write_in_one(*session, [&] {
+    session->sql << "create table if not exists rondure_queue (id integer primary key, "
+                    "journal_sha256 text not null, target text not null, unique (journal_sha256, "
+                    "target))";
+  }));
+  return ArchiveQueue(std::move(session));
 }
 
 core::Result<void> ArchiveQueue::add(const std::string& target, const ArchiveRun& run) {

@@ -91,17 +91,15 @@ core::Result<int> direction_of(std::string_view text) {
 core::Result<void> read_numbers(const Fields& fields, BallRow& out) {
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const auto place = fields.number(3 + i);
-    if (!place) return core::fail(place.error());
+    TRY(const auto place, fields.number(3 + i));
     const std::size_t column = fields.places[6] ? 6 : 7 + i;
-    const auto u = fields.number(column);
-    if (!u) return core::fail(u.error());
-    if (*u < 0.0) {
+    TRY(const auto u, fields.number(column));
+    if (u < 0.0) {
       return core::fail(Code::kOutOfRange,
-                        fmt::format("{} is {:g}, less than 0", kColumns[column], *u));
+                        fmt::format("{} is {:g}, less than 0", kColumns[column], u));
     }
-    out.centre_mm(k) = *place;
-    out.u_um(k) = *u;
+    out.centre_mm(k) = place;
+    out.u_um(k) = u;
   }
   return {};
 }
@@ -129,10 +127,8 @@ core::Result<BallRow> read_row(std::string_view line, const Places& places, std:
     }
     out.station_deg = *station;
   }
-  const auto direction = direction_of(fields.text(10));
-  if (!direction) return core::fail(direction.error());
-  out.direction = *direction;
-  if (auto read = read_numbers(fields, out); !read) return core::fail(read.error());
+  TRY(out.direction, direction_of(fields.text(10)));
+  TRY_DO(read_numbers(fields, out));
   return out;
 }
 
@@ -143,24 +139,20 @@ core::Result<std::vector<BallRow>> parse_ball_csv(std::string_view text, std::st
   Places places;
   std::size_t columns = 0;
   const auto header = [&](std::string_view line) -> core::Result<void> {
-    const auto found = read_header(line);
-    if (!found) return core::fail(found.error());
-    places = *found;
+    TRY(places, read_header(line));
     columns = split_fields(line).size();
     return {};
   };
   const auto add = [&](std::string_view line, std::size_t number) -> core::Result<void> {
-    auto row = read_row(line, places, columns);
-    if (!row) return core::fail(row.error());
-    row->line = number;
-    out.push_back(*std::move(row));
+    TRY(auto row, read_row(line, places, columns));
+    row.line = number;
+    out.push_back(std::move(row));
     return {};
   };
-  const auto read = read_table(text, name, header, add, [](bool) {
+  TRY_DO(read_table(text, name, header, add, [](bool) {
     return fmt::format("the file holds no rows; a header line {} and a row a ball are expected",
                        kColumnList);
-  });
-  if (!read) return core::fail(read.error());
+  }));
   return out;
 }
 

@@ -249,9 +249,7 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
     if (columns.has(kFeature)) out.features.push_back(values.feature);
   };
   const auto header = [&](std::string_view line) -> core::Result<void> {
-    const auto found = read_header(line, format);
-    if (!found) return core::fail(found.error());
-    columns = *found;
+    TRY(columns, read_header(line, format));
     plain_rows = !columns.has(kLayer) && !columns.has(kFeature);
     return {};
   };
@@ -275,9 +273,7 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
         without_byte_order_mark(text).empty() ? "is empty" : "holds only comments and blank lines",
         format.columns);
   };
-  if (auto read = read_table(text, name, header, row, no_rows, plain); !read) {
-    return core::fail(read.error());
-  }
+  TRY_DO(read_table(text, name, header, row, no_rows, plain));
   return out;
 }
 
@@ -322,37 +318,36 @@ int PointTable::least_points_per_layer() const {
 
 core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_view name,
                                            std::string_view feature) {
-  auto rows = parse(text, name, kFeatureFormat);
-  if (!rows) return core::fail(rows.error());
+  TRY(auto rows, parse(text, name, kFeatureFormat));
   const auto fail = [&](core::Code code, std::string what) {
     return core::fail(core::Error{code, std::move(what), std::string(name)});
   };
-  if (feature.empty() != rows->features.empty()) {
+  if (feature.empty() != rows.features.empty()) {
     return feature.empty()
                ? fail(core::Code::kMissingKey,
                       fmt::format("the file holds the features {}; choose one by feature, as {}",
-                                  names_in(rows->features), quoted_text(rows->features.front())))
+                                  names_in(rows.features), quoted_text(rows.features.front())))
                : fail(core::Code::kMeaning,
                       fmt::format("the file has no column feature, {} is asked for; add the "
                                   "column, or name no feature",
                                   quoted_text(feature)));
   }
-  PointTable out{rows->columns.has(2) ? 3 : 2, {}, {}, {}};
-  if (rows->features.empty()) {
-    out.points_mm = std::move(rows->values);
-    out.layers = std::move(rows->layers);
+  PointTable out{rows.columns.has(2) ? 3 : 2, {}, {}, {}};
+  if (rows.features.empty()) {
+    out.points_mm = std::move(rows.values);
+    out.layers = std::move(rows.layers);
   }
-  for (std::size_t i = 0; i < rows->features.size(); ++i) {
-    if (rows->features[i] != feature) {
-      count_other(rows->features[i], rows->lines[i], out.others);
+  for (std::size_t i = 0; i < rows.features.size(); ++i) {
+    if (rows.features[i] != feature) {
+      count_other(rows.features[i], rows.lines[i], out.others);
       continue;
     }
-    out.points_mm.push_back(rows->values[i]);
-    if (!rows->layers.empty()) out.layers.push_back(rows->layers[i]);
+    out.points_mm.push_back(rows.values[i]);
+    if (!rows.layers.empty()) out.layers.push_back(rows.layers[i]);
   }
   if (out.points_mm.empty()) {
     return fail(core::Code::kNoPoints, fmt::format("no row is of feature {}; the file has {}",
-                                                   quoted_text(feature), names_in(rows->features)));
+                                                   quoted_text(feature), names_in(rows.features)));
   }
   const std::vector<int> points = points_of_layers(out.layers);
   const auto gap = std::find(points.begin(), points.end(), 0);
@@ -364,11 +359,10 @@ core::Result<PointTable> parse_feature_csv(std::string_view text, std::string_vi
 }
 
 core::Result<ProfileTable> parse_profile_csv(std::string_view text, std::string_view name) {
-  const auto rows = parse(text, name, kProfileFormat);
-  if (!rows) return core::fail(rows.error());
-  ProfileTable table{rows->columns.set.names[0] == kPolar.names[0], {}};
-  table.rows.reserve(rows->values.size());
-  for (const Eigen::Vector3d& values : rows->values) table.rows.emplace_back(values.head<2>());
+  TRY(const auto rows, parse(text, name, kProfileFormat));
+  ProfileTable table{rows.columns.set.names[0] == kPolar.names[0], {}};
+  table.rows.reserve(rows.values.size());
+  for (const Eigen::Vector3d& values : rows.values) table.rows.emplace_back(values.head<2>());
   return table;
 }
 

@@ -152,15 +152,12 @@ core::Result<Series> parse_series_csv(std::string_view text, std::string_view na
                                       std::span<const ColumnName> names) {
   const std::vector<WantedColumn> all = with_temperature(wanted);
   const std::string list = list_of(wanted);
-  if (auto known = check_names(all, list, names); !known) return core::fail(known.error());
-  const auto stated_degC = stated_temperature(text, name);
-  if (!stated_degC) return core::fail(stated_degC.error());
+  TRY_DO(check_names(all, list, names));
+  TRY(const auto stated_degC, stated_temperature(text, name));
   Series out;
   Layout layout;
   const auto header = [&](std::string_view line) -> core::Result<void> {
-    auto found = read_layout(line, all, list, names);
-    if (!found) return core::fail(found.error());
-    layout = *std::move(found);
+    TRY(layout, read_layout(line, all, list, names));
     if (layout.wanted.empty() || layout.wanted.front() >= wanted.size()) {
       return core::fail(syntax_error(fmt::format(
           "none of the columns {} stands in the first line, {}", list, quoted_text(line))));
@@ -168,20 +165,19 @@ core::Result<Series> parse_series_csv(std::string_view text, std::string_view na
     for (const std::size_t w : layout.wanted) {
       out.columns.push_back({std::string(all[w].name), std::string(unit_of_column(all[w].name))});
     }
-    if (*stated_degC && !out.column(kTemperatureColumn)) {
+    if (stated_degC && !out.column(kTemperatureColumn)) {
       out.columns.push_back(
           {std::string(kTemperatureColumn), std::string(unit_of_column(kTemperatureColumn))});
     }
     return {};
   };
-  const auto read = read_table(
+  TRY_DO(read_table(
       text, name, header,
-      [&](std::string_view line, std::size_t) { return read_row(line, layout, *stated_degC, out); },
+      [&](std::string_view line, std::size_t) { return read_row(line, layout, stated_degC, out); },
       [&](bool) {
         return fmt::format(
             "the file holds no rows; a header line {} and a row a sample are expected", list);
-      });
-  if (!read) return core::fail(read.error());
+      }));
   return out;
 }
 

@@ -72,15 +72,15 @@ core::Result<void> require_empty_directory(const fs::path& directory) {
 /// Creates a directory where it is missing and takes its lock. kFile when that fails, when another
 /// process holds the lock, or when the directory holds anything else; nothing is written then.
 core::Result<RunLock> lock_new_directory(const fs::path& directory, Undo& undo) {
-  if (auto made = make_directory(directory, undo); !made) return core::fail(made.error());
+  TRY_DO(make_directory(directory, undo));
   // A new lock is created only in an empty directory; an existing one names its holder.
   std::error_code ignored;
   if (!fs::exists(directory / kLockName, ignored)) {
-    if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
+    TRY_DO(require_empty_directory(directory));
   }
   auto lock = RunLock::take(directory);
   if (!lock) return lock;
-  if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
+  TRY_DO(require_empty_directory(directory));
   return lock;
 }
 
@@ -139,16 +139,14 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   fs::path folder = fs::absolute(directory);
   if (!folder.has_filename()) folder = folder.parent_path();  // "runs/1/" is "runs/1"
   const fs::path file = folder / kJournalName;
-  const auto connection = connection_string(file);
-  if (!connection) return core::fail(connection.error());
+  TRY(const auto connection, connection_string(file));
 
   Undo undo;
-  auto lock = lock_new_directory(folder, undo);
-  if (!lock) return core::fail(lock.error());
-  if (auto made = make_empty_journal(file, undo); !made) return core::fail(made.error());
+  TRY(auto lock, lock_new_directory(folder, undo));
+  TRY_DO(make_empty_journal(file, undo));
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
-    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
+    impl = std::make_unique<Impl>(std::move(lock), file, connection);
     enable_wal(impl->sql);
     insert_head(impl->sql, header, artefact, features, settings);
     checkpoint_wal(impl->sql);
@@ -159,7 +157,7 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
                       fmt::format("the journal {} cannot be made: {}", file.string(),
                                   reason_of(exception, impl ? &impl->sql : nullptr)));
   }
-  if (auto synced = sync_names(undo); !synced) return core::fail(synced.error());
+  TRY_DO(sync_names(undo));
   undo.made.clear();
   return Journal(std::move(impl));
 }
@@ -169,11 +167,9 @@ core::Result<HeldJournal> hold_journal(const fs::path& directory) {
   if (!fs::exists(directory / kJournalName, ignored)) {
     return core::fail(read_journal(directory).error());
   }
-  auto lock = RunLock::take(directory);
-  if (!lock) return core::fail(lock.error());
-  auto read = read_journal(directory);
-  if (!read) return core::fail(read.error());
-  return HeldJournal{std::move(*lock), std::move(*read)};
+  TRY(auto lock, RunLock::take(directory));
+  TRY(auto read, read_journal(directory));
+  return HeldJournal{std::move(lock), std::move(read)};
 }
 
 core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal held) {
@@ -184,13 +180,12 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
-  if (auto own = require_no_link(file); !own) return core::fail(own.error());
-  const auto connection = connection_string(file);
-  if (!connection) return core::fail(connection.error());
+  TRY_DO(require_no_link(file));
+  TRY(const auto connection, connection_string(file));
   remove_temporaries(directory);
   std::unique_ptr<Impl> impl;
   try {
-    impl = std::make_unique<Impl>(std::move(held.lock), file, *connection);
+    impl = std::make_unique<Impl>(std::move(held.lock), file, connection);
     int timeout_ms = 0;
     // do not wait: a run holds the lock for hours
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);
@@ -207,10 +202,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
   for (const PoseVisit& pose : found.record.poses) impl->poses.emplace(pose.id, pose);
   for (const Touch& touch : found.record.touches) impl->note_touch(touch);
   if (!found.record.ending.empty()) {
-    if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });
-        !cleared) {
-      return core::fail(cleared.error());
-    }
+    TRY_DO(impl->write("that the run goes on", [&] { impl->clear_ending(); }));
   }
   return Journal(std::move(impl));
 }

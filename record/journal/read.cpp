@@ -182,14 +182,12 @@ core::Result<void> require_file(const fs::path& directory, const fs::path& file)
 using Logs = PrivateCopy::Logs;
 
 core::Result<ReadJournal> read_copy(const fs::path& file, Logs logs) {
-  const auto copy = PrivateCopy::of(file, logs);
-  if (!copy) return core::fail(copy.error());
-  const auto connection = connection_string(copy->file());
-  if (!connection) return core::fail(connection.error());
+  TRY(const auto copy, PrivateCopy::of(file, logs));
+  TRY(const auto connection, connection_string(copy.file()));
   std::optional<soci::session> sql;
   std::string reason;
   try {
-    sql.emplace(soci::sqlite3, *connection);
+    sql.emplace(soci::sqlite3, connection);
     distrust(*sql);
     *sql << "pragma synchronous = off";  // the copy need not survive a power cut
     return read_tables(*sql);
@@ -197,7 +195,7 @@ core::Result<ReadJournal> read_copy(const fs::path& file, Logs logs) {
     reason = reason_of(exception, sql ? &*sql : nullptr);
     if (is_damage(exception)) {
       sql.reset();
-      reason += advice_after(loss_in_words(copy->file()));
+      reason += advice_after(loss_in_words(copy.file()));
     }
   }
   return core::fail(core::Code::kJournal, fmt::format("the journal cannot be read: {}", reason),
@@ -259,7 +257,7 @@ bool begins_as_log(const fs::path& file) {
 
 core::Result<ReadJournal> read_journal(const fs::path& directory) {
   const fs::path file = directory / kJournalName;
-  if (auto found = require_file(directory, file); !found) return core::fail(found.error());
+  TRY_DO(require_file(directory, file));
   const auto listed = listed_digest(directory);
   const std::vector<std::string> logs = logs_beside(file);
   if (!listed && !logs.empty()) {

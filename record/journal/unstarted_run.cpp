@@ -29,12 +29,10 @@ bool holds_no_table(soci::session& sql) {
 /// Whether a journal has no tables after SQLite has finished its log. A file that has tables
 /// without its log is a journal, whatever the log contains.
 core::Result<bool> is_unstarted(const fs::path& journal) {
-  const auto alone = in_copy(journal, Logs::kWithout, holds_no_table);
-  if (!alone) return core::fail(alone.error());
-  if (!alone->value_or(true)) return false;
-  const auto whole = in_copy(journal, Logs::kWith, holds_no_table);
-  if (!whole) return core::fail(whole.error());
-  return whole->value_or(false);  // the reader of journals reports a damaged one
+  TRY(const auto alone, in_copy(journal, Logs::kWithout, holds_no_table));
+  if (!alone.value_or(true)) return false;
+  TRY(const auto whole, in_copy(journal, Logs::kWith, holds_no_table));
+  return whole.value_or(false);  // the reader of journals reports a damaged one
 }
 
 constexpr std::array kSuffixes = {"-shm", "-wal", "-journal", ""};  ///< Files of one journal.
@@ -70,8 +68,7 @@ core::Result<bool> clear_unstarted_run(const fs::path& directory) {
   }
   if (!holds_only_a_beginning(directory)) return false;
   if (!fs::exists(journal, problem)) return true;
-  const auto lock = RunLock::take(directory);
-  if (!lock) return core::fail(lock.error());
+  TRY_DO(RunLock::take(directory));
   auto unstarted = is_unstarted(journal);
   if (!unstarted || !*unstarted) return unstarted;
   for (const char* suffix : kSuffixes) {

@@ -18,9 +18,8 @@ namespace fs = std::filesystem;
 
 /// Writes the digest of the closed journal into the list in its directory.
 core::Result<void> list_digest(const fs::path& file) {
-  auto sha256 = sha256_inside(file.parent_path(), kJournalName);
-  if (!sha256) return core::fail(sha256.error());
-  return update_checksums(file.parent_path(), {{kJournalName, *std::move(sha256)}});
+  TRY(auto sha256, sha256_inside(file.parent_path(), kJournalName));
+  return update_checksums(file.parent_path(), {{kJournalName, std::move(sha256)}});
 }
 
 }  // namespace
@@ -150,18 +149,16 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
   const fs::path file = fs::absolute(directory) / kJournalName;
   std::error_code ignored;
   if (fs::exists(directory / kChecksumsName, ignored)) {
-    const auto listed = read_checksums(directory);
-    if (!listed) return core::fail(listed.error());
-    const bool known = std::any_of(listed->begin(), listed->end(),
+    TRY(const auto listed, read_checksums(directory));
+    const bool known = std::any_of(listed.begin(), listed.end(),
                                    [](const Checksum& line) { return line.file == kJournalName; });
     if (known) return {};
   }
   if (auto own = require_no_link(file); !own) return own;
-  const auto connection = connection_string(file);
-  if (!connection) return core::fail(connection.error());
+  TRY(const auto connection, connection_string(file));
   std::optional<soci::session> sql;
   try {
-    sql.emplace(soci::sqlite3, *connection);
+    sql.emplace(soci::sqlite3, connection);
     distrust(*sql);
     int tables = 0;  // this read rolls back an unfinished change of the mode
     *sql << "select count(*) from sqlite_schema", soci::into(tables);

@@ -44,13 +44,11 @@ core::Result<std::optional<RecordedUncertainty>> recorded_uncertainty(
     return setting.name.starts_with(kUncertaintyPath);
   });
   if (!there) return std::optional<RecordedUncertainty>();
-  auto task = task_of<UncertaintyTask>(settings, kUncertaintyPath);
-  if (!task) return core::fail(task.error());
-  const auto declared = task_of<DeclaredUncertainty>(settings, kUncertaintyPath);
-  if (!declared) return core::fail(declared.error());
-  DeclaredOnly only{declared->groups};
-  describe_groups(only, *task);
-  return RecordedUncertainty{*std::move(task), declared->expansion_per_K};
+  TRY(auto task, task_of<UncertaintyTask>(settings, kUncertaintyPath));
+  TRY(const auto declared, task_of<DeclaredUncertainty>(settings, kUncertaintyPath));
+  DeclaredOnly only{declared.groups};
+  describe_groups(only, task);
+  return RecordedUncertainty{std::move(task), declared.expansion_per_K};
 }
 
 }  // namespace rondure::record

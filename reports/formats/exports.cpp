@@ -70,11 +70,9 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
                                          const record::Header& header, std::string bytes,
                                          Paper paper) {
   if (what.format == Format::kPdf) {
-    auto printed = print_pdf(header, bytes, paper);
-    if (!printed) return core::fail(printed.error());
-    bytes = std::move(*printed);
+    TRY(bytes, print_pdf(header, bytes, paper));
   }
-  if (auto sound = look_through(what, bytes); !sound) return core::fail(sound.error());
+  TRY_DO(look_through(what, bytes));
   if (auto done = record::write_inside(directory, what.file, bytes); !done)
     return core::fail(done.error());
   return record::Checksum{what.file, record::sha256_hex(bytes)};
@@ -221,8 +219,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
           fmt::format("format '{}' is unknown; {} can be written", format, enumerated(known)));
     }
   }
-  const auto earlier = read_earlier(directory);
-  if (!earlier) return core::fail(earlier.error());
+  TRY(const auto earlier, read_earlier(directory));
   std::vector<std::filesystem::path> written;
   std::vector<record::Checksum> sums;
   std::vector<std::string> gone;
@@ -230,7 +227,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) continue;
-    std::vector<Rendered> files = render_all(e, record, evaluation, language, *earlier);
+    std::vector<Rendered> files = render_all(e, record, evaluation, language, earlier);
     if (e.format == Format::kCorrections) {
       auto removed = remove_old_tables(directory, files);
       if (!removed) {

@@ -140,13 +140,12 @@ Capability of_sample(std::span<const double> values_mm, const LimitPair& limits)
 }  // namespace
 
 core::Result<ControlLimits> control_limits(std::span<const double> values_mm) {
-  const auto ln = logarithms(values_mm, kLeastForLimits);
-  if (!ln) return core::fail(ln.error());
+  TRY(const auto ln, logarithms(values_mm, kLeastForLimits));
   double range = 0.0;
-  for (std::size_t i = 1; i < ln->size(); ++i) {
-    range += std::abs((*ln)[i] - (*ln)[i - 1]) / static_cast<double>(ln->size() - 1);
+  for (std::size_t i = 1; i < ln.size(); ++i) {
+    range += std::abs(ln[i] - ln[i - 1]) / static_cast<double>(ln.size() - 1);
   }
-  const double mean = moments_of(*ln).mean;
+  const double mean = moments_of(ln).mean;
   const double reach = 3.0 * range / kRangeToSigma;
   return ControlLimits{std::exp(mean - reach), std::exp(mean), std::exp(mean + reach)};
 }
@@ -155,9 +154,8 @@ core::Result<Capability> capability_between(std::span<const double> values_mm,
                                             const std::optional<double>& lower_mm,
                                             const std::optional<double>& upper_mm) {
   const LimitPair limits = {lower_mm, upper_mm};
-  const auto ln = logarithms(values_mm, kLeastForIndex);
-  if (!ln) return core::fail(ln.error());
-  const double p = anderson_darling_p(*ln);
+  TRY(const auto ln, logarithms(values_mm, kLeastForIndex));
+  const double p = anderson_darling_p(ln);
   if (p < kLeastP && values_mm.size() < kEnoughForSample) {
     return core::fail(
         Code::kNotConverged,
@@ -167,7 +165,7 @@ core::Result<Capability> capability_between(std::span<const double> values_mm,
   }
   Capability out = p < kLeastP
                        ? of_sample(values_mm, limits)
-                       : log_normal(moments_of(*ln), static_cast<double>(values_mm.size()), limits);
+                       : log_normal(moments_of(ln), static_cast<double>(values_mm.size()), limits);
   out.fit_p = p;
   return out;
 }

@@ -88,11 +88,10 @@ std::string earlier_json(const EarlierResults& earlier) {
 }
 
 core::Result<EarlierResults> parse_earlier(const std::string& text) {
-  const auto document = core::read_json<Json>(text, kEarlierName);
-  if (!document) return core::fail(document.error());
+  TRY(const auto document, core::read_json<Json>(text, kEarlierName));
   EarlierResults out;
   try {
-    for (const Json& row : document->at("results")) {
+    for (const Json& row : document.at("results")) {
       out.push_back(result_of(row));
       const record::ArchiveResult& result = out.back().result;
       if (core::is_measurable(result.value.value_or(0.0)) &&
@@ -119,9 +118,8 @@ core::Result<EarlierResults> parse_earlier(const std::string& text) {
 core::Result<EarlierResults> read_earlier(const std::filesystem::path& directory) {
   std::error_code unknown;
   if (!std::filesystem::exists(directory / kEarlierName, unknown)) return EarlierResults();
-  const auto text = record::read_file(directory / kEarlierName);
-  if (!text) return core::fail(text.error());
-  return parse_earlier(*text);
+  TRY(const auto text, record::read_file(directory / kEarlierName));
+  return parse_earlier(text);
 }
 
 core::Result<void> keep_earlier(const std::filesystem::path& directory,

@@ -162,8 +162,7 @@ core::Result<fs::path> find_browser() {
 core::Result<std::string> print_pdf(const record::Header& header, std::string_view html,
                                     Paper paper, std::chrono::milliseconds time_limit) {
   const LanguageScope scope(language_of_page(html));
-  const auto browser = find_browser();
-  if (!browser) return core::fail(browser.error());
+  TRY(const auto browser, find_browser());
   const PrintFolder folder;
   if (folder.path().empty()) return not_printed(record::system_reason(errno));
   std::string page(html);
@@ -172,13 +171,13 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
     return not_printed(done.error().what);
   }
   const auto ran = record::run_program(
-      {*browser, print_arguments(folder), print_environment(folder), folder / "said", time_limit});
+      {browser, print_arguments(folder), print_environment(folder), folder / "said", time_limit});
   if (!ran) return not_printed(core::printable(ran.error().what));
   auto bytes = record::read_file(folder / "report.pdf");
   const std::size_t end = bytes ? bytes->rfind("startxref") : std::string::npos;
   if (end == std::string::npos || !bytes->starts_with("%PDF-") ||
       bytes->find("%%EOF", end) == std::string::npos) {
-    return not_printed(fmt::format("{} ended without a whole document", browser->string()));
+    return not_printed(fmt::format("{} ended without a whole document", browser.string()));
   }
   // Placed where a comment moves no offset that the document states.
   bytes->insert(end,

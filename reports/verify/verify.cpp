@@ -191,19 +191,17 @@ core::Result<std::string> compare_exports(const fs::path& directory,
     if (!there && !has_tables) continue;
     Language language = Language::kEnglish;
     if (there && (e.format == Format::kHtml || e.format == Format::kPdf)) {
-      const auto page = record::read_inside(directory, e.file, record::kMostPointsBytes);
-      if (!page) return core::fail(page.error());
-      language = language_of(e, *page);
+      TRY(const auto page, record::read_inside(directory, e.file, record::kMostPointsBytes));
+      language = language_of(e, page);
     }
     for (const Rendered& rendered : render_all(e, record, evaluation, language, *earlier)) {
       const auto& [file, made] = rendered;
       tables.erase(file.file);
       if (file.file == e.file ? !there : !is_there(file)) continue;
-      const auto bytes = record::read_inside(directory, file.file, most_bytes_of(rendered));
-      if (!bytes) return core::fail(bytes.error());
+      TRY(const auto bytes, record::read_inside(directory, file.file, most_bytes_of(rendered)));
       names += (names.empty() ? "" : ", ") + file.file;
       const auto state = listed.state_of(file.file);
-      const auto difference = compare_export(file, made, *bytes, exactness);
+      const auto difference = compare_export(file, made, bytes, exactness);
       if (difference || state == State::kChanged) {
         out.differences.push_back(difference_line(file, difference, state));
       }
@@ -329,33 +327,27 @@ core::Result<std::string> about_signature(const fs::path& directory, const Verif
     const bool present = stands_there(directory / record::kSignatureName);
     return present ? "; signed, the signature was not checked (--key PUBLIC.pem checks it)" : "";
   }
-  if (auto checked = check_signature(directory, *options.public_key_pem, listed,
-                                     signed_files(directory, listed), out.differences);
-      !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_signature(directory, *options.public_key_pem, listed,
+                         signed_files(directory, listed), out.differences));
   return "; the signature holds for this key";
 }
 
 }  // namespace
 
 core::Result<Verification> verify_run(const fs::path& directory, const VerifyOptions& options) {
-  const auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  const record::RunRecord& record = read->record;
+  TRY(const auto read, record::read_journal(directory));
+  const record::RunRecord& record = read.record;
   Verification out;
-  const auto listed = check_listed_files(directory, out.differences);
-  if (!listed) return core::fail(listed.error());
-  tell_damage(*read, *listed, out);
-  const auto signature = about_signature(directory, options, *listed, out);
-  if (!signature) return core::fail(signature.error());
-  out.notes = notes_on(*read, *listed);
-  if (!read->broken.empty()) {  // changed data may ask for any computation
+  TRY(const auto listed, check_listed_files(directory, out.differences));
+  tell_damage(read, listed, out);
+  TRY(const auto signature, about_signature(directory, options, listed, out));
+  out.notes = notes_on(read, listed);
+  if (!read.broken.empty()) {  // changed data may ask for any computation
     out.notes.emplace_back("nothing was computed from a journal that is not as it was written");
     return out;
   }
 
-  if (const auto checked = options.check ? options.check(*read) : core::Result<void>(); !checked) {
+  if (const auto checked = options.check ? options.check(read) : core::Result<void>(); !checked) {
     out.differences.push_back(checked.error().what);
     return out;
   }
@@ -371,13 +363,12 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   const std::size_t results =
       record.sealed ? compare_results(record.results, stored_results(*evaluation), exactness, out)
                     : 0;
-  const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
-  if (!names) return core::fail(names.error());
+  TRY(const auto names, compare_exports(directory, record, *evaluation, exactness, listed, out));
   out.what_was_compared = fmt::format(
       "{}: {} touches{}, {} results follow from the journal, {}; exports compared: {}{}",
       about_part(record.header, evaluation->verdict), record.touches.size(),
-      series_in_words(record), results, how_exactly(record.header, options, exactness), *names,
-      *signature);
+      series_in_words(record), results, how_exactly(record.header, options, exactness), names,
+      signature);
   return out;
 }
 

@@ -100,9 +100,8 @@ ItemReader::Read<Item> ItemReader::read_name_or_call(int depth) {
     at_ = behind;
     return name_item(name);
   }
-  auto arguments = read_arguments(depth + 1);
-  if (!arguments) return tl::unexpected(std::move(arguments.error()));
-  return call_item(name, std::move(*arguments));
+  TRY(auto arguments, read_arguments(depth + 1));
+  return call_item(name, std::move(arguments));
 }
 
 ItemReader::Read<Item> ItemReader::read_item(int depth) {
@@ -111,9 +110,8 @@ ItemReader::Read<Item> ItemReader::read_item(int depth) {
   if (c == '"') return read_string();
   if (is_digit(c) || c == '+' || c == '-' || c == '.') return read_number_item();
   if (c == '(' && manner_ == Manner::kLiberal) {
-    auto arguments = read_arguments(depth + 1);
-    if (!arguments) return tl::unexpected(std::move(arguments.error()));
-    return Item{Item::Kind::kVector, 0.0, {}, std::move(*arguments)};
+    TRY(auto arguments, read_arguments(depth + 1));
+    return Item{Item::Kind::kVector, 0.0, {}, std::move(arguments)};
   }
   return read_name_or_call(depth);
 }
@@ -126,9 +124,8 @@ ItemReader::Read<std::vector<Item>> ItemReader::read_arguments(int depth) {
   skip_spaces();
   if (take(')')) return out;
   while (true) {
-    auto item = read_item(depth);
-    if (!item) return tl::unexpected(std::move(item.error()));
-    out.push_back(std::move(*item));
+    TRY(auto item, read_item(depth));
+    out.push_back(std::move(item));
     skip_spaces();
     if (take(')')) return out;
     if (!take(',')) return fault(kIncorrectArguments, "neither comma nor closing parenthesis");
@@ -140,9 +137,8 @@ ItemReader::Read<std::vector<Item>> ItemReader::read_list() {
   std::vector<Item> out;
   while (true) {
     skip_spaces();
-    auto item = read_item(0);
-    if (!item) return tl::unexpected(std::move(item.error()));
-    out.push_back(std::move(*item));
+    TRY(auto item, read_item(0));
+    out.push_back(std::move(item));
     if (at_end()) return out;
     if (!take(',')) return fault(kIncorrectArguments, "no comma between items");
   }

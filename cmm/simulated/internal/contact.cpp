@@ -159,9 +159,8 @@ core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& 
     return core::fail(no_contact(max_travel_mm));
   }
   if (in_material(surface, start_P_mm)) return core::fail(in_contact_already());
-  const auto side = first_side_contact(surface, sweep);
-  if (!side) return core::fail(side.error());
-  std::optional<SideContact> first = *side;
+  TRY(const auto side, first_side_contact(surface, sweep));
+  std::optional<SideContact> first = side;
   const auto keep_first = [&first](const std::optional<SideContact>& other) {
     if (other && (!first || other->travel_mm < first->travel_mm)) first = other;
   };
@@ -170,9 +169,8 @@ core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& 
   const bool within_bore = start_P_mm.head<2>().norm() < surface.radius_mm &&
                            std::abs(start_P_mm.z()) < surface.half_length_mm;
   if (surface.inside && !within_bore) {
-    const auto wall = first_side_contact(block_wall(surface), sweep);
-    if (!wall) return core::fail(wall.error());
-    keep_first(*wall);
+    TRY(const auto wall, first_side_contact(block_wall(surface), sweep));
+    keep_first(wall);
   }
   return as_contact(first, sweep);
 }
@@ -198,26 +196,24 @@ core::Result<Contact> first_contact(const FaceSurface& surface, const Vector3d& 
     return Vector3d(surface.height_at(foot.x(), foot.y()) * Vector3d::UnitZ() +
                     tip_radius_mm * (normal - Vector3d::UnitZ()));
   };
-  const auto at_start =
-      settled([&](const Vector3d& shift) { return shift_at(start_P_mm - shift); });
-  if (!at_start) return core::fail(at_start.error());
-  const double gap_mm = start_P_mm.z() - at_start->z() - tip_radius_mm;
-  if (gap_mm < -kOverlap_mm && gap_mm > -tip_radius_mm && on_ring(start_P_mm - *at_start)) {
+  TRY(const auto at_start,
+      settled([&](const Vector3d& shift) { return shift_at(start_P_mm - shift); }));
+  const double gap_mm = start_P_mm.z() - at_start.z() - tip_radius_mm;
+  if (gap_mm < -kOverlap_mm && gap_mm > -tip_radius_mm && on_ring(start_P_mm - at_start)) {
     return core::fail(in_contact_already());
   }
   if (direction_P.z() >= 0.0 || gap_mm < -kOverlap_mm) return core::fail(no_contact(max_travel_mm));
   const auto travel_with = [&](const Vector3d& shift) {
     return (tip_radius_mm + shift.z() - start_P_mm.z()) / direction_P.z();
   };
-  if (travel_with(*at_start) > max_travel_mm + surface.outer_mm) {
+  if (travel_with(at_start) > max_travel_mm + surface.outer_mm) {
     return core::fail(no_contact(max_travel_mm));
   }
-  const auto shift = settled([&](const Vector3d& last) {
-    return shift_at(start_P_mm + travel_with(last) * direction_P - last);
-  });
-  if (!shift) return core::fail(shift.error());
-  const double travel_mm = travel_with(*shift);
-  Vector3d foot = start_P_mm + travel_mm * direction_P - *shift;
+  TRY(const auto shift, settled([&](const Vector3d& last) {
+        return shift_at(start_P_mm + travel_with(last) * direction_P - last);
+      }));
+  const double travel_mm = travel_with(shift);
+  Vector3d foot = start_P_mm + travel_mm * direction_P - shift;
   foot.z() = surface.height_at(foot.x(), foot.y());
   if (travel_mm > max_travel_mm || !on_ring(foot)) return core::fail(no_contact(max_travel_mm));
   return as_contact(SideContact{travel_mm, foot}, sweep);
@@ -238,26 +234,24 @@ core::Result<Contact> first_contact(const BallSurface& surface, const Vector3d& 
     const Vector3d u = toward.normalized();
     return Vector3d(surface.radius_at(u) * u + tip_radius_mm * surface.normal_at(u) - reach_mm * u);
   };
-  const auto at_start =
-      settled([&](const Vector3d& shift) { return shift_at(start_P_mm - shift); });
-  if (!at_start) return core::fail(at_start.error());
-  if ((start_P_mm - *at_start).norm() < reach_mm - kOverlap_mm) {
+  TRY(const auto at_start,
+      settled([&](const Vector3d& shift) { return shift_at(start_P_mm - shift); }));
+  if ((start_P_mm - at_start).norm() < reach_mm - kOverlap_mm) {
     return core::fail(in_contact_already());
   }
   // Where the line misses a ball moved so far, the place nearest to it stands for the contact.
   bool meets = false;
   double travel_mm = 0.0;
-  const auto shift = settled([&](const Vector3d& last) {
-    const Vector3d from = start_P_mm - last;
-    const double along = direction_P.dot(from);
-    const double depth2 = along * along - from.squaredNorm() + reach_mm * reach_mm;
-    meets = along < 0.0 && depth2 >= 0.0;
-    travel_mm = -along - std::sqrt(std::max(0.0, depth2));
-    return shift_at(from + travel_mm * direction_P);
-  });
-  if (!shift) return core::fail(shift.error());
+  TRY(const auto shift, settled([&](const Vector3d& last) {
+        const Vector3d from = start_P_mm - last;
+        const double along = direction_P.dot(from);
+        const double depth2 = along * along - from.squaredNorm() + reach_mm * reach_mm;
+        meets = along < 0.0 && depth2 >= 0.0;
+        travel_mm = -along - std::sqrt(std::max(0.0, depth2));
+        return shift_at(from + travel_mm * direction_P);
+      }));
   if (!meets || travel_mm > max_travel_mm) return core::fail(no_contact(max_travel_mm));
-  const Vector3d u = (start_P_mm + travel_mm * direction_P - *shift).normalized();
+  const Vector3d u = (start_P_mm + travel_mm * direction_P - shift).normalized();
   return as_contact(SideContact{travel_mm, surface.radius_at(u) * u}, sweep);
 }
 

@@ -95,10 +95,9 @@ core::Result<Eigen::Isometry3d> exact_motion(std::span<const StationBall> balls)
     measured.push_back(ball.measured_mm);
     weights.push_back(1.0 / (ball.measured_mm2 + ball.nominal_mm2).trace());
   }
-  const auto found = rigid_registration(nominal_places(balls), measured, weights);
-  if (!found) return core::fail(found.error());
-  if (alike_in_all_directions(balls)) return found->motion;
-  return refined_motion(found->motion, balls);
+  TRY(const auto found, rigid_registration(nominal_places(balls), measured, weights));
+  if (alike_in_all_directions(balls)) return found.motion;
+  return refined_motion(found.motion, balls);
 }
 
 Vector6 linear_errors(const Equations& at, std::span<const StationBall> balls) {

@@ -82,12 +82,9 @@ std::string IppFixture::description() const {
 }
 
 core::Result<core::Pose> IppFixture::move_to(const core::Pose& commanded) {
-  if (auto within = fixture::check_pose_range(limits_, commanded); !within) {
-    return core::fail(within.error());
-  }
-  const auto reached = machine_.align_part(alignment_of(on_grid(commanded)));
-  if (!reached) return core::fail(reached.error());
-  return on_grid(pose_of(*reached));
+  TRY_DO(fixture::check_pose_range(limits_, commanded));
+  TRY(const auto reached, machine_.align_part(alignment_of(on_grid(commanded))));
+  return on_grid(pose_of(reached));
 }
 
 IppCell::IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
@@ -99,24 +96,23 @@ IppCell::IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
 
 core::Result<std::unique_ptr<Cell>> IppCell::open(const Plan& plan, const CellOptions& options,
                                                   std::unique_ptr<fixture::Fixture> driven) {
-  auto machine = cmm::IppMachine::open(connector(*plan.machine, options.wire_log),
-                                       machine_options(plan, options));
-  if (!machine) return core::fail(machine.error());
-  if (driven && (*machine)->is_simulated()) {
+  TRY(auto machine, cmm::IppMachine::open(connector(*plan.machine, options.wire_log),
+                                          machine_options(plan, options)));
+  if (driven && machine->is_simulated()) {
     return core::fail(core::Code::kMachine,
                       "the machine is a simulation: a fixture that stands here does not turn its "
                       "part; give the fixture the driver \"ippdme\"",
                       "/fixture/driver");
   }
-  if (!driven && !(*machine)->has_rotary_table()) {
+  if (!driven && !machine->has_rotary_table()) {
     return core::fail(
         core::Code::kMachine,
         fmt::format("the machine calls itself {}: it has no rotary axes that could turn the part; "
                     "the fixture of the plan is \"ippdme\"",
-                    (*machine)->identity().machine_class),
+                    machine->identity().machine_class),
         "/fixture/driver");
   }
-  return std::unique_ptr<Cell>(new IppCell(plan, std::move(*machine), std::move(driven)));
+  return std::unique_ptr<Cell>(new IppCell(plan, std::move(machine), std::move(driven)));
 }
 
 void IppCell::mount(const FeaturePlan& feature) {
@@ -136,18 +132,16 @@ void IppCell::note_turn(const core::Pose& commanded) {
 }
 
 core::Result<core::Pose> IppCell::home_fixture() {
-  if (auto sent = send_feature(); !sent) return core::fail(sent.error());
+  TRY_DO(send_feature());
   auto reached = fixture_->home();
   if (!reached) return reached;
   turns_ = 0;
-  if (auto sent = machine_->tell_simulation("Simulation.NextTurn", 1); !sent) {
-    return core::fail(sent.error());
-  }
+  TRY_DO(machine_->tell_simulation("Simulation.NextTurn", 1));
   return reached;
 }
 
 core::Result<core::Pose> IppCell::turn_to(const core::Pose& commanded) {
-  if (auto sent = send_feature(); !sent) return core::fail(sent.error());
+  TRY_DO(send_feature());
   auto reached = fixture_->move_to(on_grid(commanded));
   if (!reached) return reached;
   note_turn(commanded);
@@ -160,22 +154,18 @@ core::Result<core::Pose> IppCell::replay_home() {
 }
 
 core::Result<core::Pose> IppCell::replay_turn(const core::Pose& commanded) {
-  if (auto within = fixture::check_pose_range(fixture_->limits(), commanded); !within) {
-    return core::fail(within.error());
-  }
+  TRY_DO(fixture::check_pose_range(fixture_->limits(), commanded));
   note_turn(commanded);
   return commanded;
 }
 
 core::Result<core::Pose> IppCell::home_again() {
-  if (auto homed = machine_->home(); !homed) return core::fail(homed.error());
-  if (auto sent = send_feature(); !sent) return core::fail(sent.error());
+  TRY_DO(machine_->home());
+  TRY_DO(send_feature());
   auto reached = fixture_->home();
   if (!reached) return reached;
   const std::int64_t next_turn = std::max<std::int64_t>(1, turns_);
-  if (auto sent = machine_->tell_simulation("Simulation.NextTurn", next_turn); !sent) {
-    return core::fail(sent.error());
-  }
+  TRY_DO(machine_->tell_simulation("Simulation.NextTurn", next_turn));
   return turns_ == 0 ? reached : fixture_->move_to(on_grid(last_turn_));
 }
 

@@ -30,18 +30,14 @@ core::Result<void> check_abilities(const Plan& plan, const cmm::Capabilities& ma
 core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOptions& options) {
   std::unique_ptr<fixture::Fixture> driven;
   if (drives_fixture(plan)) {
-    auto opened = open_fixture(*plan.fixture, options);
-    if (!opened) return core::fail(opened.error());
-    driven = *std::move(opened);
+    TRY(driven, open_fixture(*plan.fixture, options));
   }
   if (plan.machine->driver != MachinePlan::Driver::kIppdme) {
     return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed, std::move(driven));
   }
   auto cell = IppCell::open(plan, options, std::move(driven));
   if (!cell) return cell;
-  if (auto able = check_abilities(plan, (*cell)->machine().capabilities()); !able) {
-    return core::fail(able.error());
-  }
+  TRY_DO(check_abilities(plan, (*cell)->machine().capabilities()));
   return cell;
 }
 

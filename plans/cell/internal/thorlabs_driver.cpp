@@ -54,11 +54,9 @@ core::Result<std::unique_ptr<fixture::Fixture>> open_thorlabs(const FixturePlan&
   // Two readings of one pose may differ by the tolerance of the stages.
   options.limits.resolution_rad = std::max(
       {options.limits.resolution_rad, options.alpha.tolerance_rad, options.beta.tolerance_rad});
-  auto alpha = open_unit(options.alpha.serial, "/fixture/thorlabs/alpha");
-  if (!alpha) return core::fail(alpha.error());
-  auto beta = open_unit(options.beta.serial, "/fixture/thorlabs/beta");
-  if (!beta) return core::fail(beta.error());
-  auto opened = fixture::ThorlabsFixture::open(std::move(*alpha), std::move(*beta), options);
+  TRY(auto alpha, open_unit(options.alpha.serial, "/fixture/thorlabs/alpha"));
+  TRY(auto beta, open_unit(options.beta.serial, "/fixture/thorlabs/beta"));
+  auto opened = fixture::ThorlabsFixture::open(std::move(alpha), std::move(beta), options);
   if (!opened) return core::fail(opened.error().at("/fixture/thorlabs"));
   return opened;
 }

@@ -16,9 +16,7 @@ core::Result<CloudPath> FeaturePlanner::lay(const std::vector<Target>& targets,
                                             const PathGeometry& geometry,
                                             const Eigen::Isometry3d& X_WB,
                                             const Eigen::Isometry3d& X_BP) {
-  if (auto clamp = check_clamp(targets, geometry, *plan_.fixture); !clamp) {
-    return core::fail(clamp.error());
-  }
+  TRY_DO(check_clamp(targets, geometry, *plan_.fixture));
   if (ordered_ != targets || !(ordered_geometry_ == geometry)) {
     order_ = short_tour(targets, bare_cost(targets, geometry));
     ordered_ = targets;

@@ -27,15 +27,12 @@ core::Result<void> touch_balls(RunContext& context, const record::RotaryTask& ro
   const Eigen::Isometry3d X_WB =
       fixture::body_to_machine(context.cell->kinematics(), visit.reached);
   for (const std::size_t ball : wanted.balls) {
-    auto steps = ball_steps(context.plan, static_cast<std::size_t>(visit.feature), X_WB, ball);
-    if (!steps) return core::fail(steps.error());
-    for (TouchStep& step : *steps) step.row.pose = visit.id;
+    TRY(auto steps, ball_steps(context.plan, static_cast<std::size_t>(visit.feature), X_WB, ball));
+    for (TouchStep& step : steps) step.row.pose = visit.id;
     const std::string name =
         fmt::format("ball {} in pose ({:g}, {:g}) deg", rotary.balls[ball].id,
                     wanted.pose.alpha_rad / kDegree, wanted.pose.beta_rad / kDegree);
-    if (const auto tips = touch_sphere_steps(context, *steps, name); !tips) {
-      return core::fail(tips.error());
-    }
+    TRY_DO(touch_sphere_steps(context, steps, name));
   }
   return {};
 }
@@ -104,15 +101,13 @@ core::Result<void> calibrate_fixture(RunContext& context, int feature_index) {
   const auto index = static_cast<std::size_t>(feature_index);
   const FeaturePlan& feature = context.plan.features[index];
   const record::RotaryTask& rotary = *feature.rotary_axes;
-  const auto visits = rotary_visits(context.plan, index);
-  if (!visits) return core::fail(visits.error());
+  TRY(const auto visits, rotary_visits(context.plan, index));
   context.progress.feature = feature.id;
-  for (std::size_t i = 0; i < visits->size(); ++i) {
-    const auto visit = context.turn(feature_index, (*visits)[i].pose);
-    if (!visit) return core::fail(visit.error());
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    TRY(const auto visit, context.turn(feature_index, visits[i].pose));
     context.progress.pose_number = static_cast<int>(i) + 1;
-    context.progress.pose = visit->reached;
-    if (auto touched = touch_balls(context, rotary, *visit, (*visits)[i]); !touched) return touched;
+    context.progress.pose = visit.reached;
+    if (auto touched = touch_balls(context, rotary, visit, visits[i]); !touched) return touched;
   }
   return keep_truth(context, feature_index, rotary);
 }

@@ -76,10 +76,9 @@ core::Result<fit::Registration> fixture_base(const Plan& plan,
   std::vector<Vector3d> nominal;
   std::vector<Vector3d> found;
   for (std::size_t i = 0; i < tips_W_mm.size(); ++i) {
-    const auto center = center_near_nominal(plan, i, tips_W_mm[i]);
-    if (!center) return core::fail(center.error());
+    TRY(const auto center, center_near_nominal(plan, i, tips_W_mm[i]));
     nominal.push_back(vector3(datum.spheres[i].center_mm));
-    found.push_back(*center);
+    found.push_back(center);
   }
   const auto base = fit::rigid_registration(nominal, found);
   if (!base) return core::fail(base.error().at(kDatumPointer));
@@ -97,15 +96,12 @@ core::Result<fit::Registration> fixture_base(const Plan& plan,
 }
 
 core::Result<void> find_fixture_base(RunContext& context) {
-  auto steps = datum_steps(context.plan);
-  if (!steps) return core::fail(steps.error());
-  if (steps->empty()) return {};
-  const auto tips = touch_spheres(context, *steps, "sphere of the fixture");
-  if (!tips) return core::fail(tips.error());
-  const auto base = fixture_base(context.plan, *tips);
-  if (!base) return core::fail(base.error());
-  context.cell->set_base(base->motion);
-  const core::Message found = base_message(*base);
+  TRY(auto steps, datum_steps(context.plan));
+  if (steps.empty()) return {};
+  TRY(const auto tips, touch_spheres(context, steps, "sphere of the fixture"));
+  TRY(const auto base, fixture_base(context.plan, tips));
+  context.cell->set_base(base.motion);
+  const core::Message found = base_message(base);
   if (context.recorded.has_decision(found)) return {};
   return context.journal.add(record::Decision{-1, context.cell->machine().time_s(), found});
 }

@@ -101,13 +101,12 @@ bool FeatureSession::must_locate() const {
 
 core::Result<void> FeatureSession::turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets) {
-  if (const auto path = lay(targets, commanded); !path) return core::fail(path.error());
+  TRY_DO(lay(targets, commanded));
   commanded_ = commanded;
-  const auto visit = context_.turn(index_, commanded);
-  if (!visit) return core::fail(visit.error());
-  reached_ = visit->reached;
+  TRY(const auto visit, context_.turn(index_, commanded));
+  reached_ = visit.reached;
   repeat_ = 0;
-  pose_id_ = visit->id;
+  pose_id_ = visit.id;
   context_.progress.pose_number = ++visits_;
   context_.progress.pose = reached_;
   return {};
@@ -141,16 +140,13 @@ core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) 
 }
 
 core::Result<fit::Axis> FeatureSession::locate_once(const core::Pose& commanded) {
-  const auto targets = locating_targets(feature_, context_.plan.part.location_uncertainty_mm);
-  if (!targets) return core::fail(targets.error());
-  if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
-  const auto tips = touch_cloud(*targets, record::Touch::Purpose::kLocate);
-  if (!tips) return core::fail(tips.error());
-  const auto cylinder = fit::ls_cylinder(*tips, expected_axis());
-  if (!cylinder) return core::fail(cylinder.error());
-  if (auto plausible = check_location(*cylinder); !plausible) return core::fail(plausible.error());
-  follow_axis(cylinder->axis);
-  return cylinder->axis;
+  TRY(const auto targets, locating_targets(feature_, context_.plan.part.location_uncertainty_mm));
+  TRY_DO(turn(commanded, targets));
+  TRY(const auto tips, touch_cloud(targets, record::Touch::Purpose::kLocate));
+  TRY(const auto cylinder, fit::ls_cylinder(tips, expected_axis()));
+  TRY_DO(check_location(cylinder));
+  follow_axis(cylinder.axis);
+  return cylinder.axis;
 }
 
 core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
@@ -164,25 +160,24 @@ core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
 core::Result<void> FeatureSession::locate_again() {
   context_.relocation_due = false;
   geometry_ = path_geometry(context_.plan, feature_, context_.plan.part.location_uncertainty_mm);
-  if (const auto axis = locate(commanded_); !axis) return core::fail(axis.error());
+  TRY_DO(locate(commanded_));
   return {};
 }
 
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::turn_and_touch(
     const core::Pose& commanded) {
   for (;;) {
-    if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
+    TRY_DO(turn(commanded, reach_targets()));
     truth_.clear();
     auto tips = measure_cloud();
     if (tips || !context_.relocation_due || merging()) return tips;
-    if (auto located = locate_again(); !located) return core::fail(located.error());
+    TRY_DO(locate_again());
   }
 }
 
 core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
-  auto tips = turn_and_touch(commanded);
-  if (!tips) return core::fail(tips.error());
-  return Cloud{reached_, std::move(*tips)};
+  TRY(auto tips, turn_and_touch(commanded));
+  return Cloud{reached_, std::move(tips)};
 }
 
 core::Result<Cloud> FeatureSession::measure_reachable(const core::Pose& commanded) {
@@ -217,7 +212,7 @@ core::Result<void> FeatureSession::repeat(int times) {
     if (!context_.relocation_due || merging()) return core::fail(tips.error());
     // Repeats the whole final cloud: touches of two placements are never merged.
     if (auto located = locate_again(); !located) return located;
-    if (const auto anew = turn_and_touch(commanded_); !anew) return core::fail(anew.error());
+    TRY_DO(turn_and_touch(commanded_));
     if (auto kept = keep_as_final(); !kept) return kept;
     i = -1;
   }
@@ -345,23 +340,22 @@ core::Result<void> FeatureSession::visit(const CloudPath& path, record::Touch::P
 
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     const std::vector<Target>& targets, record::Touch::Purpose purpose) {
-  const auto path = lay(targets, reached_);
-  if (!path) return core::fail(path.error());
+  TRY(const auto path, lay(targets, reached_));
   const bool shows_truth = purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
   std::vector<Eigen::Vector3d> tips(targets.size());
   const auto touch = [&](TouchStep step, std::size_t k) -> core::Result<void> {
     const auto touched = context_.touch(std::move(step));
     if (!touched) {
       return context_.lost_place ? core::fail(touched.error())
-                                 : fault_at(path->target(k), touched.error());
+                                 : fault_at(path.target(k), touched.error());
     }
     if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
       truth_.push_back(*truth);
     }
-    tips[path->order()[k]] = touched->tip_mm;
+    tips[path.order()[k]] = touched->tip_mm;
     return {};
   };
-  if (auto done = visit(*path, purpose, false, touch); !done) return core::fail(done.error());
+  TRY_DO(visit(path, purpose, false, touch));
   return tips;
 }
 

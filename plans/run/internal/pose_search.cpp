@@ -116,13 +116,12 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
       continue;
     }
     session.show(f_of(*cloud, false));
-    const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, session.expected_axis());
-    if (!zone) return core::fail(zone.error());
-    NextStep next = next_step(session, *cloud, zone->axis.direction, last_rad);
+    TRY(const auto zone, fit::min_zone_cylinder(cloud->tips_W_mm, session.expected_axis()));
+    NextStep next = next_step(session, *cloud, zone.axis.direction, last_rad);
     const bool steps = next.code == core::MessageCode::kLevellingStep;
     const bool last = !steps || visit == feature.pose_search.max_poses;
     if (steps && last) next.code = core::MessageCode::kNotLevelAfterPoses;
-    auto noted = session.note(message_of(next, cloud->reached, zone->width_mm() / core::kMicrometre,
+    auto noted = session.note(message_of(next, cloud->reached, zone.width_mm() / core::kMicrometre,
                                          visit, session.limits()));
     if (!noted) return noted;
     if (last) break;
@@ -149,14 +148,13 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   };
   const auto steps =
       as_published ? plan.steps_deg : fit::halved_steps(plan.steps_deg, plan.min_step_deg);
-  const auto walk = fit::walk_poses(f, start_pose(session, feature), steps);
-  if (!walk) return core::fail(walk.error());
-  const fit::PoseStep& best = walk->visited[walk->best];
+  TRY(const auto walk, fit::walk_poses(f, start_pose(session, feature), steps));
+  const fit::PoseStep& best = walk.visited[walk.best];
   auto noted = session.note(
       message_at(best.pose, core::MessageCode::kPoseSearchEnded,
-                 {static_cast<double>(walk->visited.size()), best.f_mm / core::kMicrometre}));
+                 {static_cast<double>(walk.visited.size()), best.f_mm / core::kMicrometre}));
   if (!noted) return noted;
-  if (const auto cloud = session.measure(best.pose); !cloud) return core::fail(cloud.error());
+  TRY_DO(session.measure(best.pose));
   return finish(session, feature);
 }
 
@@ -167,9 +165,8 @@ bool is_round(record::Shape shape) {
 
 /// Measures one cloud in the start pose: no search, or a cloud that is later turned in software.
 core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
-  const auto cloud = session.measure(start_pose(session, feature));
-  if (!cloud) return core::fail(cloud.error());
-  if (is_round(feature.type)) session.show(f_of(*cloud, false));
+  TRY(const auto cloud, session.measure(start_pose(session, feature)));
+  if (is_round(feature.type)) session.show(f_of(cloud, false));
   return finish(session, feature);
 }
 
@@ -179,12 +176,11 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
   const int targets = feature.sampling.layers * feature.sampling.points_per_layer;
   for (const MeasuringPosePlan& at : feature.pose_search.poses) {
     const core::Pose pose{at.alpha_deg * core::kDegree, at.beta_deg * core::kDegree};
-    const auto cloud = session.measure_reachable(pose);
-    if (!cloud) return core::fail(cloud.error());
-    session.show(f_of(*cloud, false));
+    TRY(const auto cloud, session.measure_reachable(pose));
+    session.show(f_of(cloud, false));
     auto noted = session.note(
         message_at(pose, core::MessageCode::kTargetsReachable,
-                   {static_cast<double>(cloud->tips_W_mm.size()), static_cast<double>(targets)}));
+                   {static_cast<double>(cloud.tips_W_mm.size()), static_cast<double>(targets)}));
     if (!noted) return noted;
     if (auto done = finish(session, feature); !done) return done;
   }
@@ -199,9 +195,8 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
   // A part that needs several poses shows too little in one of them to be located; a plane, cone or
   // sphere shows no place of the part alone. Their approach is longer instead.
   if (session.must_locate() && strategy != Strategy::kMerged && is_round(feature.type)) {
-    const auto axis = session.locate(pose);
-    if (!axis) return core::fail(axis.error());
-    const core::Pose level = session.levelling(axis->direction);
+    TRY(const auto axis, session.locate(pose));
+    const core::Pose level = session.levelling(axis.direction);
     auto noted = session.note(message_at(pose, core::MessageCode::kPartLocated,
                                          {in_deg(level.alpha_rad), in_deg(level.beta_rad)}));
     if (!noted) return noted;

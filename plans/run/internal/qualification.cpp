@@ -84,9 +84,9 @@ core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
   for (std::size_t i = 0; i < steps.size(); ++i) {
     of_one.push_back(steps[i]);
     if (i + 1 < steps.size() && steps[i + 1].row.layer == steps[i].row.layer) continue;
-    auto touched = touch_sphere_steps(context, of_one, fmt::format("{} {}", name, tips.size() + 1));
-    if (!touched) return core::fail(touched.error());
-    tips.push_back(std::move(*touched));
+    TRY(auto touched,
+        touch_sphere_steps(context, of_one, fmt::format("{} {}", name, tips.size() + 1)));
+    tips.push_back(std::move(touched));
     of_one.clear();
   }
   return tips;
@@ -95,19 +95,17 @@ core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
 core::Result<Eigen::Vector3d> sphere_center(const Plan& plan,
                                             const std::vector<Eigen::Vector3d>& tips,
                                             const std::string& name) {
-  const auto found = fit::ls_sphere(tips);
-  if (!found) return core::fail(found.error());
+  TRY(const auto found, fit::ls_sphere(tips));
   const double limit_um = plan.probe->qualification.form_limit_um;
-  if (found->deviation_mm <= limit_um * core::kMicrometre) return found->center_mm;
+  if (found.deviation_mm <= limit_um * core::kMicrometre) return found.center_mm;
   return core::fail(core::Code::kCalibration,
                     fmt::format("{} has a form of {:.3f} um, the limit is {:g} um "
                                 "(form_limit_um); clean it and check that it is tight",
-                                name, found->deviation_mm / core::kMicrometre, limit_um));
+                                name, found.deviation_mm / core::kMicrometre, limit_um));
 }
 
 core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const SphereToTouch& sphere) {
-  const auto directions = qualification_directions(sphere.points);
-  if (!directions) return core::fail(directions.error());
+  TRY(const auto directions, qualification_directions(sphere.points));
   const Eigen::Vector3d& center = sphere.center_W_mm;
   PathGeometry geometry;
   geometry.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
@@ -116,11 +114,11 @@ core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const Sphere
   const double reach_mm = sphere.radius_mm + geometry.tip_radius_mm;
 
   // From park height straight down to the pole; from there around the sphere.
-  const Eigen::Vector3d pole = center + (reach_mm + geometry.approach_mm) * directions->front();
+  const Eigen::Vector3d pole = center + (reach_mm + geometry.approach_mm) * directions.front();
   const Polyline down = {{pole.x(), pole.y(), std::max(pole.z(), plan.machine->park_mm[2])}, pole};
   std::vector<TouchStep> steps;
-  for (std::size_t i = 0; i < directions->size(); ++i) {
-    const Eigen::Vector3d& outward = (*directions)[i];
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Eigen::Vector3d& outward = directions[i];
     const auto around = [&](const Eigen::Vector3d& from) {
       return path_around_sphere(center, sphere.radius_mm, geometry, from, outward);
     };
@@ -133,9 +131,9 @@ core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const Sphere
     step.row.layer = sphere.layer;
     step.row.point = static_cast<int>(i);
     step.entry_W = down;
-    step.way_W = i == 0 ? down : around((*directions)[i - 1]);
+    step.way_W = i == 0 ? down : around(directions[i - 1]);
     if (i > 0) {
-      const Polyline way = around(directions->front());
+      const Polyline way = around(directions.front());
       step.entry_W.insert(step.entry_W.end(), way.begin(), way.end());
     }
     steps.push_back(std::move(step));
@@ -172,16 +170,13 @@ core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
 }
 
 core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
-  const auto steps = qualification_steps(context.plan);
-  if (!steps) return core::fail(steps.error());
-  const auto tips = touch_sphere_steps(context, *steps, "reference sphere");
-  if (!tips) return core::fail(tips.error());
-  const auto tip =
-      fit::qualify_tip(*tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm);
-  if (!tip) return core::fail(tip.error());
-  if (auto checked = check_limits(*tip, *context.plan.probe); !checked)
+  TRY(const auto steps, qualification_steps(context.plan));
+  TRY(const auto tips, touch_sphere_steps(context, steps, "reference sphere"));
+  TRY(const auto tip,
+      fit::qualify_tip(tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm));
+  if (auto checked = check_limits(tip, *context.plan.probe); !checked)
     return core::fail(checked.error());
-  return *tip;
+  return tip;
 }
 
 }  // namespace rondure::plans

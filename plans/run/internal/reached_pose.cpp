@@ -137,16 +137,15 @@ core::Result<core::Pose> reached_pose(const Plan& plan, const fixture::Kinematic
     pairs.push_back({nominal_B[i] - middle_B, found_F[i] - middle_F});
   }
   const core::Pose found = fixture::aligning_pose(pairs, asked);
-  if (auto good = check_pose(wanted, pairs, found, asked); !good) return core::fail(good.error());
+  TRY_DO(check_pose(wanted, pairs, found, asked));
   return on_grid(found);
 }
 
 core::Result<core::Pose> measure_reached_pose(RunContext& context,
                                               const std::vector<TouchStep>& steps,
                                               const core::Pose& asked) {
-  const auto tips = touch_spheres(context, steps, "sphere on the ring");
-  if (!tips) return core::fail(tips.error());
-  return reached_pose(context.plan, context.cell->kinematics(), *tips, asked);
+  TRY(const auto tips, touch_spheres(context, steps, "sphere on the ring"));
+  return reached_pose(context.plan, context.cell->kinematics(), tips, asked);
 }
 
 }  // namespace rondure::plans

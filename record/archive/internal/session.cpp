@@ -187,12 +187,11 @@ core::Result<std::unique_ptr<ArchiveSession>> open_archive_session(const Archive
     if (place.kind == ArchivePlace::Kind::kServer) {
       open_server(*session);
     } else {
-      if (auto valid = check_file(place, access); !valid) return core::fail(valid.error());
-      const auto connection = connection_string(place.address);
-      if (!connection) return core::fail(connection.error());
-      open_file(*session, *connection);
+      TRY_DO(check_file(place, access));
+      TRY(const auto connection, connection_string(place.address));
+      open_file(*session, connection);
     }
-    if (auto valid = check_tables(*session, access); !valid) return core::fail(valid.error());
+    TRY_DO(check_tables(*session, access));
     return session;
   } catch (const std::exception& exception) {
     if (is_no_database(exception)) {

@@ -41,9 +41,8 @@ core::Result<ListedFiles> check_listed_files(const fs::path& directory,
       state = ListedFiles::State::kAbsent;
       continue;
     }
-    const auto sha256 = record::sha256_inside(directory, line.file);
-    if (!sha256) return core::fail(sha256.error());
-    state = *sha256 == line.sha256 ? ListedFiles::State::kAsWritten : ListedFiles::State::kChanged;
+    TRY(const auto sha256, record::sha256_inside(directory, line.file));
+    state = sha256 == line.sha256 ? ListedFiles::State::kAsWritten : ListedFiles::State::kChanged;
   }
   return out;
 }
@@ -57,13 +56,10 @@ core::Result<void> check_signature(const fs::path& directory, const std::string&
                     listed.list_found ? record::kSignatureName : record::kChecksumsName));
     return {};
   }
-  const auto sums = record::read_file(directory / record::kChecksumsName);
-  if (!sums) return core::fail(sums.error());
-  const auto signature = record::read_file(directory / record::kSignatureName);
-  if (!signature) return core::fail(signature.error());
-  const auto holds = record::signature_holds(*sums, *signature, public_key_pem);
-  if (!holds) return core::fail(holds.error());
-  if (!*holds) {
+  TRY(const auto sums, record::read_file(directory / record::kChecksumsName));
+  TRY(const auto signature, record::read_file(directory / record::kSignatureName));
+  TRY(const auto holds, record::signature_holds(sums, signature, public_key_pem));
+  if (!holds) {
     differences.push_back(
         fmt::format("{}: the signature does not hold: {} or the signature was changed after it was "
                     "signed, or another key signed it",
