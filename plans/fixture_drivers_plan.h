@@ -31,16 +31,9 @@ struct ThorlabsAxisPlan {
   double tolerance_deg = 0.01;
 };
 
-constexpr auto words_of(ThorlabsAxisPlan::Stage) {
-  using Stage = ThorlabsAxisPlan::Stage;
-  return std::to_array<record::Word<Stage>>(
-      {{Stage::kK10cr1, "K10CR1"}, {Stage::kPrm1Z8, "PRM1-Z8"}, {Stage::kOther, "other"}});
-}
-constexpr auto words_of(ThorlabsAxisPlan::Motor) {
-  using Motor = ThorlabsAxisPlan::Motor;
-  return std::to_array<record::Word<Motor>>(
-      {{Motor::kStepper, "stepper"}, {Motor::kDcServo, "dc-servo"}});
-}
+RONDURE_WORDS(ThorlabsAxisPlan::Stage, {kK10cr1, "K10CR1"}, {kPrm1Z8, "PRM1-Z8"},
+              {kOther, "other"});
+RONDURE_WORDS(ThorlabsAxisPlan::Motor, {kStepper, "stepper"}, {kDcServo, "dc-servo"});
 
 struct ThorlabsPlan {
   ThorlabsAxisPlan alpha;

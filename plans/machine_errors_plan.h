@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,11 +50,7 @@ struct SimulatedMachinePlan {
   double scan_dropped_percent = 0.0;
 };
 
-constexpr auto words_of(SimulatedMachinePlan::Errors) {
-  using Errors = SimulatedMachinePlan::Errors;
-  return std::to_array<record::Word<Errors>>(
-      {{Errors::kOff, "off"}, {Errors::kTypical, "typical"}});
-}
+RONDURE_WORDS(SimulatedMachinePlan::Errors, {kOff, "off"}, {kTypical, "typical"});
 
 /// A slot along the part.
 struct KeywayPlan {

@@ -95,30 +95,12 @@ struct MachinePlan {
   Point point = Point::kSurface;              ///< Named by PtMeas; kCenter: of the tip.
 };
 
-constexpr auto words_of(MachinePlan::Driver) {
-  using Driver = MachinePlan::Driver;
-  return std::to_array<record::Word<Driver>>(
-      {{Driver::kSimulated, "simulated"}, {Driver::kIppdme, "ippdme"}});
-}
-constexpr auto words_of(MachinePlan::Abort) {
-  using Abort = MachinePlan::Abort;
-  return std::to_array<record::Word<Abort>>({{Abort::kWorks, "works"}, {Abort::kBroken, "broken"}});
-}
-constexpr auto words_of(MachinePlan::Retract) {
-  using Retract = MachinePlan::Retract;
-  return std::to_array<record::Word<Retract>>(
-      {{Retract::kToApproach, "to-approach"}, {Retract::kByDistance, "by-distance"}});
-}
-constexpr auto words_of(MachinePlan::Numbers) {
-  using Numbers = MachinePlan::Numbers;
-  return std::to_array<record::Word<Numbers>>(
-      {{Numbers::kSixteenDigits, "16-digits"}, {Numbers::kSixteenCharacters, "16-characters"}});
-}
-constexpr auto words_of(MachinePlan::Point) {
-  using Point = MachinePlan::Point;
-  return std::to_array<record::Word<Point>>(
-      {{Point::kSurface, "surface"}, {Point::kCenter, "center"}});
-}
+RONDURE_WORDS(MachinePlan::Driver, {kSimulated, "simulated"}, {kIppdme, "ippdme"});
+RONDURE_WORDS(MachinePlan::Abort, {kWorks, "works"}, {kBroken, "broken"});
+RONDURE_WORDS(MachinePlan::Retract, {kToApproach, "to-approach"}, {kByDistance, "by-distance"});
+RONDURE_WORDS(MachinePlan::Numbers, {kSixteenDigits, "16-digits"},
+              {kSixteenCharacters, "16-characters"});
+RONDURE_WORDS(MachinePlan::Point, {kSurface, "surface"}, {kCenter, "center"});
 
 /// A reference sphere on the base of the fixture.
 struct DatumSpherePlan {
@@ -160,14 +142,8 @@ struct FixturePlan {
   std::optional<ReachedPosePlan> reached_pose;  ///< Needed and accepted only by "manual".
 };
 
-constexpr auto words_of(FixturePlan::Driver) {
-  using Driver = FixturePlan::Driver;
-  return std::to_array<record::Word<Driver>>({{Driver::kSimulated, "simulated"},
-                                              {Driver::kIppdme, "ippdme"},
-                                              {Driver::kZaber, "zaber"},
-                                              {Driver::kThorlabs, "thorlabs"},
-                                              {Driver::kManual, "manual"}});
-}
+RONDURE_WORDS(FixturePlan::Driver, {kSimulated, "simulated"}, {kIppdme, "ippdme"},
+              {kZaber, "zaber"}, {kThorlabs, "thorlabs"}, {kManual, "manual"});
 
 struct QualificationPlan {
   double sphere_diameter_mm = 25.0;  ///< Certified.

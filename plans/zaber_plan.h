@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "record/words.h"
@@ -13,10 +12,7 @@ namespace rondure::plans {
 /// Whether the angle of the fixture grows with the position of a stage.
 enum class StageSense { kAsCounted, kReversed };
 
-constexpr auto words_of(StageSense) {
-  return std::to_array<record::Word<StageSense>>(
-      {{StageSense::kAsCounted, "as-counted"}, {StageSense::kReversed, "reversed"}});
-}
+RONDURE_WORDS(StageSense, {kAsCounted, "as-counted"}, {kReversed, "reversed"});
 
 struct ZaberAxisPlan {
   int axis = 0;                ///< 0: 1 for alpha, 2 for beta.
@@ -40,10 +36,6 @@ struct ZaberPlan {
   double motion_limit_s = 120.0;
 };
 
-constexpr auto words_of(ZaberPlan::Connection) {
-  using Connection = ZaberPlan::Connection;
-  return std::to_array<record::Word<Connection>>(
-      {{Connection::kUsb, "usb"}, {Connection::kSerial, "serial"}});
-}
+RONDURE_WORDS(ZaberPlan::Connection, {kUsb, "usb"}, {kSerial, "serial"});
 
 }  // namespace rondure::plans

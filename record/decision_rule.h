@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,11 +17,7 @@ struct PriorTask {
   double standard_deviation_um = 0.0;
 };
 
-constexpr auto words_of(PriorTask::Distribution) {
-  using Distribution = PriorTask::Distribution;
-  return std::to_array<Word<Distribution>>(
-      {{Distribution::kGamma, "gamma"}, {Distribution::kNormal, "normal"}});
-}
+RONDURE_WORDS(PriorTask::Distribution, {kGamma, "gamma"}, {kNormal, "normal"});
 
 /// How a value and its tolerance make a verdict, as plan and journal spell it. A member initialiser
 /// is the default of its key.
@@ -48,24 +43,12 @@ struct DecisionRuleTask {
   std::string outliers;
 };
 
-constexpr auto words_of(DecisionRuleTask::Rule) {
-  using Rule = DecisionRuleTask::Rule;
-  return std::to_array<Word<Rule>>({{Rule::kSimpleAcceptance, "simple-acceptance"},
-                                    {Rule::kIso14253, "iso-14253-1"},
-                                    {Rule::kJcgm106, "jcgm-106"},
-                                    {Rule::kNToOne, "n-to-1"},
-                                    {Rule::kGuardBand, "guard-band"}});
-}
-constexpr auto words_of(DecisionRuleTask::Measurand) {
-  using Measurand = DecisionRuleTask::Measurand;
-  return std::to_array<Word<Measurand>>(
-      {{Measurand::kSampledPoints, "sampled-points"}, {Measurand::kWholeSurface, "whole-surface"}});
-}
-constexpr auto words_of(DecisionRuleTask::Judge) {
-  using Judge = DecisionRuleTask::Judge;
-  return std::to_array<Word<Judge>>(
-      {{Judge::kAsRead, "as-read"}, {Judge::kCorrected, "corrected"}});
-}
+RONDURE_WORDS(DecisionRuleTask::Rule, {kSimpleAcceptance, "simple-acceptance"},
+              {kIso14253, "iso-14253-1"}, {kJcgm106, "jcgm-106"}, {kNToOne, "n-to-1"},
+              {kGuardBand, "guard-band"});
+RONDURE_WORDS(DecisionRuleTask::Measurand, {kSampledPoints, "sampled-points"},
+              {kWholeSurface, "whole-surface"});
+RONDURE_WORDS(DecisionRuleTask::Judge, {kAsRead, "as-read"}, {kCorrected, "corrected"});
 
 template <class Visitor>
 void describe(Visitor& v, PriorTask& p) {

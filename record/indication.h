@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,91 +57,27 @@ struct Indication {
   std::optional<DecisionRuleTask> decision_rule;
 };
 
-constexpr auto words_of(Indication::Parameter) {
-  using Parameter = Indication::Parameter;
-  return std::to_array<Word<Parameter>>({{Parameter::kTotal, "total"},
-                                         {Parameter::kPeak, "peak"},
-                                         {Parameter::kValley, "valley"},
-                                         {Parameter::kRms, "rms"}});
-}
-constexpr auto words_of(Indication::Size) {
-  using Size = Indication::Size;
-  return std::to_array<Word<Size>>({{Size::kLP, "LP"},
-                                    {Size::kGG, "GG"},
-                                    {Size::kGX, "GX"},
-                                    {Size::kGN, "GN"},
-                                    {Size::kGC, "GC"},
-                                    {Size::kCC, "CC"},
-                                    {Size::kCA, "CA"},
-                                    {Size::kCV, "CV"},
-                                    {Size::kLS, "LS"}});
-}
-constexpr auto words_of(Indication::Rank) {
-  using Rank = Indication::Rank;
-  return std::to_array<Word<Rank>>({{Rank::kSX, "SX"},
-                                    {Rank::kSN, "SN"},
-                                    {Rank::kSA, "SA"},
-                                    {Rank::kSM, "SM"},
-                                    {Rank::kSD, "SD"},
-                                    {Rank::kSR, "SR"},
-                                    {Rank::kSQ, "SQ"}});
-}
-constexpr auto words_of(Indication::Section) {
-  using Section = Indication::Section;
-  return std::to_array<Word<Section>>(
-      {{Section::kAll, "all"}, {Section::kACS, "ACS"}, {Section::kSCS, "SCS"}});
-}
-constexpr auto words_of(Indication::Requirement) {
-  using Requirement = Indication::Requirement;
-  return std::to_array<Word<Requirement>>(
-      {{Requirement::kNone, "none"}, {Requirement::kEnvelope, "envelope"}});
-}
-constexpr auto words_of(Indication::Of) {
-  using Of = Indication::Of;
-  return std::to_array<Word<Of>>(
-      {{Of::kGeneratrix, "generatrix"}, {Of::kMedianLine, "median-line"}});
-}
-constexpr auto words_of(Indication::Direction) {
-  using Direction = Indication::Direction;
-  return std::to_array<Word<Direction>>({{Direction::kRadial, "radial"},
-                                         {Direction::kAxial, "axial"},
-                                         {Direction::kConical, "conical"}});
-}
-constexpr auto words_of(Indication::Association) {
-  using Association = Indication::Association;
-  return std::to_array<Word<Association>>({{Association::kOneSided, "one-sided"},
-                                           {Association::kEqualised, "equalised"},
-                                           {Association::kLs, "ls"},
-                                           {Association::kZone, "zone"}});
-}
-constexpr auto words_of(Indication::Filter) {
-  using Filter = Indication::Filter;
-  return std::to_array<Word<Filter>>({{Filter::kNone, "none"},
-                                      {Filter::kGaussian, "gaussian"},
-                                      {Filter::kRobustGaussian, "robust-gaussian"},
-                                      {Filter::kSpline, "spline"}});
-}
-constexpr auto words_of(Indication::Axis) {
-  using Axis = Indication::Axis;
-  return std::to_array<Word<Axis>>({{Axis::kAlpha, "alpha"}, {Axis::kBeta, "beta"}});
-}
-constexpr auto words_of(Indication::AxisError) {
-  using AxisError = Indication::AxisError;
-  return std::to_array<Word<AxisError>>({{AxisError::kX, "EX"},
-                                         {AxisError::kY, "EY"},
-                                         {AxisError::kZ, "EZ"},
-                                         {AxisError::kA, "EA"},
-                                         {AxisError::kB, "EB"},
-                                         {AxisError::kC, "EC"}});
-}
+RONDURE_WORDS(Indication::Parameter, {kTotal, "total"}, {kPeak, "peak"}, {kValley, "valley"},
+              {kRms, "rms"});
+RONDURE_WORDS(Indication::Size, {kLP, "LP"}, {kGG, "GG"}, {kGX, "GX"}, {kGN, "GN"}, {kGC, "GC"},
+              {kCC, "CC"}, {kCA, "CA"}, {kCV, "CV"}, {kLS, "LS"});
+RONDURE_WORDS(Indication::Rank, {kSX, "SX"}, {kSN, "SN"}, {kSA, "SA"}, {kSM, "SM"}, {kSD, "SD"},
+              {kSR, "SR"}, {kSQ, "SQ"});
+RONDURE_WORDS(Indication::Section, {kAll, "all"}, {kACS, "ACS"}, {kSCS, "SCS"});
+RONDURE_WORDS(Indication::Requirement, {kNone, "none"}, {kEnvelope, "envelope"});
+RONDURE_WORDS(Indication::Of, {kGeneratrix, "generatrix"}, {kMedianLine, "median-line"});
+RONDURE_WORDS(Indication::Direction, {kRadial, "radial"}, {kAxial, "axial"}, {kConical, "conical"});
+RONDURE_WORDS(Indication::Association, {kOneSided, "one-sided"}, {kEqualised, "equalised"},
+              {kLs, "ls"}, {kZone, "zone"});
+RONDURE_WORDS(Indication::Filter, {kNone, "none"}, {kGaussian, "gaussian"},
+              {kRobustGaussian, "robust-gaussian"}, {kSpline, "spline"});
+RONDURE_WORDS(Indication::Axis, {kAlpha, "alpha"}, {kBeta, "beta"});
+RONDURE_WORDS(Indication::AxisError, {kX, "EX"}, {kY, "EY"}, {kZ, "EZ"}, {kA, "EA"}, {kB, "EB"},
+              {kC, "EC"});
 [[nodiscard]] constexpr bool is_angle(Indication::AxisError error) {
   return error >= Indication::AxisError::kA;
 }
-constexpr auto words_of(Indication::Outliers) {
-  using Outliers = Indication::Outliers;
-  return std::to_array<Word<Outliers>>(
-      {{Outliers::kNone, "none"}, {Outliers::kFiveScales, "five-scales"}});
-}
+RONDURE_WORDS(Indication::Outliers, {kNone, "none"}, {kFiveScales, "five-scales"});
 
 /// The keys that have defaults of the feature and of the plan.
 template <class Visitor, class Keys>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "record/words.h"
 
 namespace rondure::record {
@@ -12,17 +10,8 @@ enum class Format { kHtml, kPdf, kJson, kCsv, kQif, kDmis, kCorrections };
 /// Paper of report.pdf.
 enum class Paper { kA4, kLetter };
 
-constexpr auto words_of(Format) {
-  return std::to_array<Word<Format>>({{Format::kHtml, "html"},
-                                      {Format::kPdf, "pdf"},
-                                      {Format::kJson, "json"},
-                                      {Format::kCsv, "csv"},
-                                      {Format::kQif, "qif"},
-                                      {Format::kDmis, "dmis"},
-                                      {Format::kCorrections, "corrections"}});
-}
-constexpr auto words_of(Paper) {
-  return std::to_array<Word<Paper>>({{Paper::kA4, "a4"}, {Paper::kLetter, "letter"}});
-}
+RONDURE_WORDS(Format, {kHtml, "html"}, {kPdf, "pdf"}, {kJson, "json"}, {kCsv, "csv"}, {kQif, "qif"},
+              {kDmis, "dmis"}, {kCorrections, "corrections"});
+RONDURE_WORDS(Paper, {kA4, "a4"}, {kLetter, "letter"});
 
 }  // namespace rondure::record

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -85,71 +84,30 @@ enum class Merge { kJoint, kKinematics };
 enum class SamplingMethod { kTouch, kScan };
 
 /// Spelling in plans, journals and JSON; name_of() and value_named() read these tables.
-constexpr auto words_of(Shape) {
-  return std::to_array<Word<Shape>>({{Shape::kCylinder, "cylinder"},
-                                     {Shape::kCircle, "circle"},
-                                     {Shape::kPlane, "plane"},
-                                     {Shape::kCone, "cone"},
-                                     {Shape::kSphere, "sphere"},
-                                     {Shape::kSpindle, "spindle"},
-                                     {Shape::kWheel, "wheel"},
-                                     {Shape::kContour, "contour"},
-                                     {Shape::kRotaryAxes, "rotary_axes"}});
-}
-constexpr auto words_of(Side) {
-  return std::to_array<Word<Side>>({{Side::kOutside, "outside"}, {Side::kInside, "inside"}});
-}
-constexpr auto words_of(Form) {
-  return std::to_array<Word<Form>>({{Form::kCylindricity, "cylindricity"},
-                                    {Form::kRoundness, "roundness"},
-                                    {Form::kDiameter, "diameter"},
-                                    {Form::kStraightness, "straightness"},
-                                    {Form::kGeneratrixParallelism, "generatrix-parallelism"},
-                                    {Form::kTaper, "taper"},
-                                    {Form::kFlatness, "flatness"},
-                                    {Form::kCoaxiality, "coaxiality"},
-                                    {Form::kConcentricity, "concentricity"},
-                                    {Form::kParallelism, "parallelism"},
-                                    {Form::kPerpendicularity, "perpendicularity"},
-                                    {Form::kAngularity, "angularity"},
-                                    {Form::kTotalRunOut, "total-run-out"},
-                                    {Form::kRoundnessRms, "roundness-rms"},
-                                    {Form::kHarmonicLimits, "harmonic-limits"},
-                                    {Form::kMotionTotal, "motion-total"},
-                                    {Form::kMotionSynchronous, "motion-synchronous"},
-                                    {Form::kMotionAsynchronous, "motion-asynchronous"},
-                                    {Form::kRadius, "radius"},
-                                    {Form::kRunOut, "run-out"},
-                                    {Form::kContourDeviation, "contour-deviation"},
-                                    {Form::kContourSpread, "contour-spread"},
-                                    {Form::kFixtureResidual, "fixture-residual"},
-                                    {Form::kFixtureResidualRms, "fixture-residual-rms"},
-                                    {Form::kAxisError, "axis-error"}});
-}
-constexpr auto words_of(Reference) {
-  return std::to_array<Word<Reference>>({{Reference::kMinimumZone, "mz"},
-                                         {Reference::kLeastSquares, "ls"},
-                                         {Reference::kMinimumCircumscribed, "mc"},
-                                         {Reference::kMaximumInscribed, "mi"}});
-}
-constexpr auto words_of(Strategy) {
-  return std::to_array<Word<Strategy>>({{Strategy::kGuided, "guided"},
-                                        {Strategy::kRefined, "refined"},
-                                        {Strategy::kAsPublished, "as-published"},
-                                        {Strategy::kVirtual, "virtual"},
-                                        {Strategy::kStartPose, "start-pose"},
-                                        {Strategy::kMerged, "merged"},
-                                        {Strategy::kPointsFile, "points-file"},
-                                        {Strategy::kSeries, "series"},
-                                        {Strategy::kStations, "stations"}});
-}
-constexpr auto words_of(Merge) {
-  return std::to_array<Word<Merge>>({{Merge::kJoint, "joint"}, {Merge::kKinematics, "kinematics"}});
-}
-constexpr auto words_of(SamplingMethod) {
-  return std::to_array<Word<SamplingMethod>>(
-      {{SamplingMethod::kTouch, "touch"}, {SamplingMethod::kScan, "scan"}});
-}
+RONDURE_WORDS(Shape, {kCylinder, "cylinder"}, {kCircle, "circle"}, {kPlane, "plane"},
+              {kCone, "cone"}, {kSphere, "sphere"}, {kSpindle, "spindle"}, {kWheel, "wheel"},
+              {kContour, "contour"}, {kRotaryAxes, "rotary_axes"});
+RONDURE_WORDS(Side, {kOutside, "outside"}, {kInside, "inside"});
+RONDURE_WORDS(Form, {kCylindricity, "cylindricity"}, {kRoundness, "roundness"},
+              {kDiameter, "diameter"}, {kStraightness, "straightness"},
+              {kGeneratrixParallelism, "generatrix-parallelism"}, {kTaper, "taper"},
+              {kFlatness, "flatness"}, {kCoaxiality, "coaxiality"},
+              {kConcentricity, "concentricity"}, {kParallelism, "parallelism"},
+              {kPerpendicularity, "perpendicularity"}, {kAngularity, "angularity"},
+              {kTotalRunOut, "total-run-out"}, {kRoundnessRms, "roundness-rms"},
+              {kHarmonicLimits, "harmonic-limits"}, {kMotionTotal, "motion-total"},
+              {kMotionSynchronous, "motion-synchronous"},
+              {kMotionAsynchronous, "motion-asynchronous"}, {kRadius, "radius"},
+              {kRunOut, "run-out"}, {kContourDeviation, "contour-deviation"},
+              {kContourSpread, "contour-spread"}, {kFixtureResidual, "fixture-residual"},
+              {kFixtureResidualRms, "fixture-residual-rms"}, {kAxisError, "axis-error"});
+RONDURE_WORDS(Reference, {kMinimumZone, "mz"}, {kLeastSquares, "ls"}, {kMinimumCircumscribed, "mc"},
+              {kMaximumInscribed, "mi"});
+RONDURE_WORDS(Strategy, {kGuided, "guided"}, {kRefined, "refined"}, {kAsPublished, "as-published"},
+              {kVirtual, "virtual"}, {kStartPose, "start-pose"}, {kMerged, "merged"},
+              {kPointsFile, "points-file"}, {kSeries, "series"}, {kStations, "stations"});
+RONDURE_WORDS(Merge, {kJoint, "joint"}, {kKinematics, "kinematics"});
+RONDURE_WORDS(SamplingMethod, {kTouch, "touch"}, {kScan, "scan"});
 
 /// Limit of the amplitudes of the harmonics first..last; one line of a harmonic mask.
 struct HarmonicLimit {
@@ -266,12 +224,8 @@ struct Touch {
   std::optional<double> scale_temperature_degC;
 };
 
-constexpr auto words_of(Touch::Purpose) {
-  return std::to_array<Word<Touch::Purpose>>({{Touch::Purpose::kQualification, "qualification"},
-                                              {Touch::Purpose::kLocate, "locate"},
-                                              {Touch::Purpose::kMeasure, "measure"},
-                                              {Touch::Purpose::kCheck, "check"}});
-}
+RONDURE_WORDS(Touch::Purpose, {kQualification, "qualification"}, {kLocate, "locate"},
+              {kMeasure, "measure"}, {kCheck, "check"});
 
 /// A decision of the program during the run, e.g. why the pose search stopped.
 struct Decision {
@@ -303,10 +257,7 @@ struct Series {
   [[nodiscard]] std::optional<std::vector<double>> column(std::string_view wanted) const;
 };
 
-constexpr auto words_of(Series::Role) {
-  return std::to_array<Word<Series::Role>>(
-      {{Series::Role::kData, "data"}, {Series::Role::kTruth, "truth"}});
-}
+RONDURE_WORDS(Series::Role, {kData, "data"}, {kTruth, "truth"});
 
 /// A number of the hidden truth of a simulated analysis.
 struct TruthValue {

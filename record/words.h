@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -13,8 +14,17 @@ struct Word {
   std::string_view text;
 };
 
-/// An enum with a function words_of(Enum) beside it, which returns an array with one Word for each
-/// enumerator, in the order in which the schema and the messages of plans list them.
+/// Declares the function words_of(Enum), which returns an array with one Word for each enumerator,
+/// in the order in which the schema and the messages of plans list them:
+/// RONDURE_WORDS(Side, {kOutside, "outside"}, {kInside, "inside"});
+#define RONDURE_WORDS(Enum, ...)                                        \
+  constexpr auto words_of(Enum) {                                       \
+    using enum Enum;                                                    \
+    return std::to_array<::rondure::record::Word<Enum>>({__VA_ARGS__}); \
+  }                                                                     \
+  static_assert(true)
+
+/// An enum with the function words_of(Enum).
 template <class Enum>
 concept Worded = std::is_enum_v<Enum> && requires(Enum value) {
   words_of(value);

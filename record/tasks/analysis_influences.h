@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -25,11 +24,7 @@ struct DeclaredInfluence {
   }
 };
 
-constexpr auto words_of(DeclaredInfluence::Distribution) {
-  using Distribution = DeclaredInfluence::Distribution;
-  return std::to_array<Word<Distribution>>(
-      {{Distribution::kNormal, "normal"}, {Distribution::kRectangular, "rectangular"}});
-}
+RONDURE_WORDS(DeclaredInfluence::Distribution, {kNormal, "normal"}, {kRectangular, "rectangular"});
 
 using Influence = std::optional<DeclaredInfluence>;
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,37 +51,15 @@ struct ContourTask {
   std::vector<ContourPartTask> parts;  ///< Empty: simulated.
 };
 
-constexpr auto words_of(ContourTask::Method) {
-  using Method = ContourTask::Method;
-  return std::to_array<Word<Method>>(
-      {{Method::kCorrected, "corrected"}, {Method::kAsPublished, "as-published"}});
-}
-constexpr auto words_of(ContourTask::Error) {
-  using Error = ContourTask::Error;
-  return std::to_array<Word<Error>>({{Error::kActualMinusCommand, "actual-minus-command"},
-                                     {Error::kCommandMinusActual, "command-minus-actual"}});
-}
-constexpr auto words_of(ContourTask::CAxis) {
-  using CAxis = ContourTask::CAxis;
-  return std::to_array<Word<CAxis>>(
-      {{CAxis::kWithWheel, "with-wheel"}, {CAxis::kAgainstWheel, "against-wheel"}});
-}
-constexpr auto words_of(ContourTask::Gauge) {
-  using Gauge = ContourTask::Gauge;
-  return std::to_array<Word<Gauge>>(
-      {{Gauge::kCounterClockwise, "counter-clockwise"}, {Gauge::kClockwise, "clockwise"}});
-}
-constexpr auto words_of(ContourTask::Filter) {
-  using Filter = ContourTask::Filter;
-  return std::to_array<Word<Filter>>({{Filter::kGaussian, "gaussian"},
-                                      {Filter::kNone, "none"},
-                                      {Filter::kDoneByGauge, "done-by-gauge"}});
-}
-constexpr auto words_of(ContourTask::BaseCircle) {
-  using BaseCircle = ContourTask::BaseCircle;
-  return std::to_array<Word<BaseCircle>>(
-      {{BaseCircle::kLimacon, "limacon"}, {BaseCircle::kGeometric, "geometric"}});
-}
+RONDURE_WORDS(ContourTask::Method, {kCorrected, "corrected"}, {kAsPublished, "as-published"});
+RONDURE_WORDS(ContourTask::Error, {kActualMinusCommand, "actual-minus-command"},
+              {kCommandMinusActual, "command-minus-actual"});
+RONDURE_WORDS(ContourTask::CAxis, {kWithWheel, "with-wheel"}, {kAgainstWheel, "against-wheel"});
+RONDURE_WORDS(ContourTask::Gauge, {kCounterClockwise, "counter-clockwise"},
+              {kClockwise, "clockwise"});
+RONDURE_WORDS(ContourTask::Filter, {kGaussian, "gaussian"}, {kNone, "none"},
+              {kDoneByGauge, "done-by-gauge"});
+RONDURE_WORDS(ContourTask::BaseCircle, {kLimacon, "limacon"}, {kGeometric, "geometric"});
 template <class Visitor>
 void describe(Visitor& v, ContourPartTask& p) {
   v.text("name", p.name, {.meaning = "What the part is called in the report."});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string_view>
 
@@ -40,27 +39,12 @@ struct SpindleTask {
   std::optional<double> probe_range_um;  ///< Whole range of a probe; none: not stated.
 };
 
-constexpr auto words_of(SpindleTask::Layout) {
-  using Layout = SpindleTask::Layout;
-  return std::to_array<Word<Layout>>({{Layout::kAngles, "angles"},
-                                      {Layout::kPublishedA, "published-a"},
-                                      {Layout::kPublishedB, "published-b"},
-                                      {Layout::kReference, "reference"}});
-}
-constexpr auto words_of(SpindleTask::SecondOrder) {
-  using SecondOrder = SpindleTask::SecondOrder;
-  return std::to_array<Word<SecondOrder>>(
-      {{SecondOrder::kAuto, "auto"}, {SecondOrder::kOn, "on"}, {SecondOrder::kOff, "off"}});
-}
-constexpr auto words_of(SpindleTask::Motion) {
-  using Motion = SpindleTask::Motion;
-  return std::to_array<Word<Motion>>(
-      {{Motion::kLeastSquares, "least-squares"}, {Motion::kAsPublished, "as-published"}});
-}
-constexpr auto words_of(SpindleTask::Filter) {
-  using Filter = SpindleTask::Filter;
-  return std::to_array<Word<Filter>>({{Filter::kGaussian, "gaussian"}, {Filter::kNone, "none"}});
-}
+RONDURE_WORDS(SpindleTask::Layout, {kAngles, "angles"}, {kPublishedA, "published-a"},
+              {kPublishedB, "published-b"}, {kReference, "reference"});
+RONDURE_WORDS(SpindleTask::SecondOrder, {kAuto, "auto"}, {kOn, "on"}, {kOff, "off"});
+RONDURE_WORDS(SpindleTask::Motion, {kLeastSquares, "least-squares"},
+              {kAsPublished, "as-published"});
+RONDURE_WORDS(SpindleTask::Filter, {kGaussian, "gaussian"}, {kNone, "none"});
 
 template <class Visitor>
 void describe_probe_angles(Visitor& v, SpindleTask& p) {

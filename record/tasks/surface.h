@@ -45,9 +45,7 @@ struct SurfaceSettings {
   std::vector<WindowTask> exclude;
 };
 
-constexpr auto words_of(Faces) {
-  return std::to_array<Word<Faces>>({{Faces::kUp, "up"}, {Faces::kDown, "down"}});
-}
+RONDURE_WORDS(Faces, {kUp, "up"}, {kDown, "down"});
 
 /// How the clouds of Strategy::kMerged come together; written only there.
 struct MergedPosesSettings {

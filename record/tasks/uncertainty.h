@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -71,11 +70,7 @@ struct FormSpectrumTask {
   std::vector<FormTermTask> terms;  ///< Empty: the part's own harmonics.
 };
 
-constexpr auto words_of(FormSpectrumTask::Amplitudes) {
-  using Amplitudes = FormSpectrumTask::Amplitudes;
-  return std::to_array<Word<Amplitudes>>(
-      {{Amplitudes::kRelative, "relative"}, {Amplitudes::kAbsolute, "absolute"}});
-}
+RONDURE_WORDS(FormSpectrumTask::Amplitudes, {kRelative, "relative"}, {kAbsolute, "absolute"});
 
 /// The influences declared of a measurement, as plan and journal spell it. A member initialiser is
 /// the default of its key.

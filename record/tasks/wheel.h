@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -37,16 +36,9 @@ struct GroundSurfaceTask {
   std::optional<double> touch_off_mm;
 };
 
-constexpr auto words_of(GroundSurfaceTask::Form) {
-  using Surface = GroundSurfaceTask::Form;
-  return std::to_array<Word<Surface>>({{Surface::kPolynomial, "polynomial"},
-                                       {Surface::kAsphere, "asphere"},
-                                       {Surface::kTable, "table"}});
-}
-constexpr auto words_of(GroundSurfaceTask::Radius) {
-  using Radius = GroundSurfaceTask::Radius;
-  return std::to_array<Word<Radius>>({{Radius::kMean, "mean"}, {Radius::kEffective, "effective"}});
-}
+RONDURE_WORDS(GroundSurfaceTask::Form, {kPolynomial, "polynomial"}, {kAsphere, "asphere"},
+              {kTable, "table"});
+RONDURE_WORDS(GroundSurfaceTask::Radius, {kMean, "mean"}, {kEffective, "effective"});
 
 /// Settings of the evaluation of a feature of the type "wheel" in plan and journal: a grinding
 /// wheel, from points of its edge. A member initialiser is the default of its key.
@@ -69,20 +61,9 @@ struct WheelTask {
   std::optional<double> expansion_per_K;  ///< Of the wheel; none: its radius stays as measured.
 };
 
-constexpr auto words_of(WheelTask::Mode) {
-  using Mode = WheelTask::Mode;
-  return std::to_array<Word<Mode>>({{Mode::kIndexed, "indexed"}, {Mode::kEnvelope, "envelope"}});
-}
-constexpr auto words_of(WheelTask::Center) {
-  using Center = WheelTask::Center;
-  return std::to_array<Word<Center>>(
-      {{Center::kLeastSquares, "least-squares"}, {Center::kAsPublished, "as-published"}});
-}
-constexpr auto words_of(WheelTask::ShortArc) {
-  using ShortArc = WheelTask::ShortArc;
-  return std::to_array<Word<ShortArc>>(
-      {{ShortArc::kRefused, "refused"}, {ShortArc::kAllowed, "allowed"}});
-}
+RONDURE_WORDS(WheelTask::Mode, {kIndexed, "indexed"}, {kEnvelope, "envelope"});
+RONDURE_WORDS(WheelTask::Center, {kLeastSquares, "least-squares"}, {kAsPublished, "as-published"});
+RONDURE_WORDS(WheelTask::ShortArc, {kRefused, "refused"}, {kAllowed, "allowed"});
 
 namespace wheel_specs {
 
