@@ -127,9 +127,8 @@ namespace {
 /// The wheels among the features before one, for those that take values of them.
 EarlierWheel wheel_among(std::span<const FeatureResult> earlier) {
   return [earlier](const std::string& id) -> core::Result<const WheelResult*> {
-    const auto producer = producer_of(id, earlier);
-    if (!producer) return core::fail(producer.error());
-    const auto* const wheel = std::get_if<WheelResult>(&(*producer)->analysis->found);
+    TRY(const auto producer, producer_of(id, earlier));
+    const auto* const wheel = std::get_if<WheelResult>(&producer->analysis->found);
     if (wheel != nullptr) return wheel;
     return core::fail(core::Code::kMeaning,
                       core::phrase("it takes a value of feature {}, which is no wheel", id));
@@ -139,9 +138,8 @@ EarlierWheel wheel_among(std::span<const FeatureResult> earlier) {
 /// The radii of these wheels.
 RadiusOf radius_among(std::span<const FeatureResult> earlier) {
   return [wheels = wheel_among(earlier)](const std::string& id) -> core::Result<MeasuredRadius> {
-    const auto wheel = wheels(id);
-    if (!wheel) return core::fail(wheel.error());
-    return measured_radius(**wheel, id);
+    TRY(const auto wheel, wheels(id));
+    return measured_radius(*wheel, id);
   };
 }
 

@@ -269,23 +269,19 @@ ValueOperator operator_of(const ContourResult& facts, const record::Characterist
 
 core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, int index,
                                              const RadiusOf& earlier, FeatureResult& result) {
-  const auto task = record::task_of<ContourTask>(result.feature.settings);
-  if (!task) return tl::unexpected(task.error());
+  TRY(const auto task, record::task_of<ContourTask>(result.feature.settings));
   ContourResult facts;
-  facts.options = contour_options(*task);
-  if (task->wheel_radius_from) {
-    auto radius = take_radius(task->wheel_radius_from->feature, earlier, result.gates);
-    if (!radius) return tl::unexpected(radius.error());
-    facts.options.geometry.wheel_radius_mm = radius->radius_mm;
-    facts.wheel_radius = *std::move(radius);
+  facts.options = contour_options(task);
+  if (task.wheel_radius_from) {
+    TRY(auto radius, take_radius(task.wheel_radius_from->feature, earlier, result.gates));
+    facts.options.geometry.wheel_radius_mm = radius.radius_mm;
+    facts.wheel_radius = std::move(radius);
   }
   facts.feature_id = result.feature.id;
-  facts.influences = task->uncertainty;
-  facts.sampling_ms = task->sampling_ms.value_or(0.0);
+  facts.influences = task.uncertainty;
+  facts.sampling_ms = task.sampling_ms.value_or(0.0);
   const auto parts = parts_of(record, index);
-  if (auto checked = check_traces(record, index, parts.size(), result); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  TRY_DO(check_traces(record, index, parts.size(), result));
   const auto add = [&](std::vector<Gate> gates) {
     for (Gate& gate : gates) result.gates.push_back(std::move(gate));
   };
@@ -296,7 +292,7 @@ core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, in
     return tl::unexpected(study.error());
   }
   facts.study = *std::move(study);
-  facts.names = names_of(*task, parts.size());
+  facts.names = names_of(task, parts.size());
   add(contour_gates(result.feature.characteristics, facts));
   for (const core::Error& warning : facts.study.warnings) {
     if (!is_gate(warning, facts.options)) result.warnings.push_back(warning);

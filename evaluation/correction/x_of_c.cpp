@@ -109,9 +109,8 @@ core::Result<std::vector<std::vector<double>>> changes(const ContourResult& fact
           kTwoPi * static_cast<double>(n) / static_cast<double>(errors.x_mm.size());
       errors.x_mm[n] += closed_at(correction.x_mm, sensed(facts, alpha));
     }
-    auto again = fit::following_contour(errors, facts.options);
-    if (!again) return core::fail(again.error());
-    std::vector<double> change = std::move(again->error.error_mm);
+    TRY(auto again, fit::following_contour(errors, facts.options));
+    std::vector<double> change = std::move(again.error.error_mm);
     for (std::size_t m = 0; m < change.size(); ++m) change[m] -= part.following.error_mm[m];
     out.push_back(std::move(change));
   }
@@ -126,20 +125,18 @@ core::Result<XCorrection> x_correction(const record::RunRecord& record,
   const auto& facts = std::get<ContourResult>(result.analysis->found);
   if (const auto why = barred(facts)) return core::fail(Code::kMeaning, *why);
   const UncertaintyOptions options = uncertainty_options(record);
-  const auto following_u_mm = mean_following_u(facts, options);
-  if (!following_u_mm) return core::fail(following_u_mm.error());
+  TRY(const auto following_u_mm, mean_following_u(facts, options));
   XCorrection out;
-  fill_rows(facts, *following_u_mm, out);
-  const auto change_mm = changes(facts, out);
-  if (!change_mm) return core::fail(change_mm.error());
-  for (std::size_t i = 0; i < change_mm->size(); ++i) {
+  fill_rows(facts, following_u_mm, out);
+  TRY(const auto change_mm, changes(facts, out));
+  for (std::size_t i = 0; i < change_mm.size(); ++i) {
     const fit::ContourError& total = facts.study.parts[i].pin.contour;
     std::vector<double> after = total.error_mm;
-    for (std::size_t m = 0; m < after.size(); ++m) after[m] += (*change_mm)[i][m];
+    for (std::size_t m = 0; m < after.size(); ++m) after[m] += change_mm[i][m];
     out.before_mm = std::max(out.before_mm, total.peak_to_valley_mm);
     out.after_mm = std::max(out.after_mm, fit::peak_to_valley(after));
   }
-  const UncertaintyStatus gain = gain_interval(facts, *change_mm, options);
+  const UncertaintyStatus gain = gain_interval(facts, change_mm, options);
   if (!gain.result()) return core::fail(Code::kMeaning, gain.why());
   out.gain = gain.result()->sampled;
   if (out.gain.low_mm <= 0.0) {

@@ -43,10 +43,9 @@ core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
     return core::fail(core::Code::kMeaning,
                       fmt::format("this program does not know the decision rule \"{}\"", name));
   }
-  auto task = record::task_of<DecisionRuleTask>(record.settings, "decision_rule/");
-  if (!task) return core::fail(task.error());
-  task->rule = *kind;  // the settings of a checked journal name the same
-  return rule_of(*task);
+  TRY(auto task, record::task_of<DecisionRuleTask>(record.settings, "decision_rule/"));
+  task.rule = *kind;  // the settings of a checked journal name the same
+  return rule_of(task);
 }
 
 }  // namespace rondure::evaluation

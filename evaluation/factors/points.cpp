@@ -50,20 +50,18 @@ core::Result<Points3> filtered_layer(const Points3& points, double cutoff_upr) {
                       fmt::format("needs {} points a layer, has {}", needed, points.size()));
   }
   const auto plane = across_axis(points);
-  const auto circle = fit::ls_circle(plane);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, fit::ls_circle(plane));
   fit::RoundnessOptions options;
   options.filter.cutoff_upr = cutoff_upr;
   options.references = {};
   options.highest_harmonic = 0;
-  const auto section = fit::evaluate_section(plane, options);
-  if (!section) return core::fail(section.error());
-  const Eigen::Vector3d heights = plane_heights(points, circle->center_mm);
+  TRY(const auto section, fit::evaluate_section(plane, options));
+  const Eigen::Vector3d heights = plane_heights(points, circle.center_mm);
   Points3 out;
-  out.reserve(section->r_mm.size());
-  for (std::size_t i = 0; i < section->r_mm.size(); ++i) {
-    const Eigen::Vector2d n(std::cos(section->theta_rad[i]), std::sin(section->theta_rad[i]));
-    const Eigen::Vector2d p = circle->center_mm + (circle->radius_mm + section->r_mm[i]) * n;
+  out.reserve(section.r_mm.size());
+  for (std::size_t i = 0; i < section.r_mm.size(); ++i) {
+    const Eigen::Vector2d n(std::cos(section.theta_rad[i]), std::sin(section.theta_rad[i]));
+    const Eigen::Vector2d p = circle.center_mm + (circle.radius_mm + section.r_mm[i]) * n;
     out.emplace_back(p.x(), p.y(), heights.dot(Eigen::Vector3d(1.0, n.x(), n.y())));
   }
   return out;
@@ -87,9 +85,8 @@ core::Result<double> cylindricity(const Points3& points, Reference reference) {
     return one_sided(fit::min_circumscribed_cylinder(points, near));
   if (reference == Reference::kMaximumInscribed)
     return one_sided(fit::max_inscribed_cylinder(points, near));
-  const auto zone = fit::min_zone_cylinder(points, near);
-  if (!zone) return core::fail(zone.error());
-  return zone->width_mm();
+  TRY(const auto zone, fit::min_zone_cylinder(points, near));
+  return zone.width_mm();
 }
 
 core::Result<double> roundness(const Points3& points, Reference reference) {
@@ -106,9 +103,8 @@ core::Result<double> roundness(const Points3& points, Reference reference) {
     return one_sided(fit::max_inscribed_circle(plane, {.global = false, .search = {}}));
   fit::CenterProofOptions options;
   options.global = false;
-  const auto zone = fit::min_zone_circle(plane, options);
-  if (!zone) return core::fail(zone.error());
-  return zone->width_mm();
+  TRY(const auto zone, fit::min_zone_circle(plane, options));
+  return zone.width_mm();
 }
 
 /// A point with its angle on its layer.
@@ -290,9 +286,8 @@ core::Result<FactorPoints> filtered(const FactorPoints& points, double cutoff_up
   }
   FactorPoints out{points.form, true, {}};
   for (const Points3& layer : points.layers_mm) {
-    auto of_layer = filtered_layer(layer, cutoff_upr);
-    if (!of_layer) return core::fail(of_layer.error());
-    out.layers_mm.push_back(*std::move(of_layer));
+    TRY(auto of_layer, filtered_layer(layer, cutoff_upr));
+    out.layers_mm.push_back(std::move(of_layer));
   }
   return out;
 }

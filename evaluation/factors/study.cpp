@@ -227,8 +227,7 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                   "which the study exchanges references and filters of",
                                   record::name_of(asked.form), symbol_of(asked)));
   }
-  const auto points = factor_points(feature, asked.form);
-  if (!points) return core::fail(points.error());
+  TRY(const auto points, factor_points(feature, asked.form));
   if (!characteristic.value) return core::fail(core::Code::kReferenceAbsent, characteristic.reason);
   FactorStudy out;
   out.feature = feature.feature.id;
@@ -237,11 +236,11 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
   out.value = characteristic.value->value_text();
   out.operator_words = characteristic.value->operator_text();
   out.reported_mm = characteristic.value->value_mm();
-  name_levels(*points, *about, out);
+  name_levels(points, *about, out);
   for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
     if (kStudiedReferences[r] == asked.reference) out.reported[at(Factor::kReference)] = r;
   }
-  Cells(*points, out).fill();
+  Cells(points, out).fill();
   for (const Factor factor : kFactors) out.effects[at(factor)] = effect_of(out, factor);
   out.shares = factor_shares(table_of(out), out.reported);
   return out;

@@ -65,7 +65,7 @@ core::Result<void> check_file(const FeatureResult& result) {
 core::Result<Deviation> value_of(const FeatureResult& result,
                                  const record::Characteristic& characteristic) {
   if (result.failure) return core::fail(*result.failure);
-  if (auto checked = check_file(result); !checked) return core::fail(checked.error());
+  TRY_DO(check_file(result));
   return characteristic.form == Form::kRoundness
              ? worst_section(result, characteristic.reference)
              : cylinder_deviation(result, characteristic.reference);

@@ -129,18 +129,17 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   for (const record::PoseVisit& visit : record.poses) {
     if (visit.feature == index && visit.final_cloud) visits.push_back(&visit);
   }
-  const auto said = record::task_of<MergedPosesSettings>(feature.settings);
-  if (!said) return core::fail(said.error());
-  const auto planned = static_cast<std::size_t>(said->merged_poses);
+  TRY(const auto said, record::task_of<MergedPosesSettings>(feature.settings));
+  const auto planned = static_cast<std::size_t>(said.merged_poses);
   MergedCloud out;
-  const std::vector<fit::JointPose> poses = take_poses(record, feature, *said, visits, out);
+  const std::vector<fit::JointPose> poses = take_poses(record, feature, said, visits, out);
   if (visits.size() != planned || out.points.empty()) {
     return core::fail(core::Code::kNoPoints,
                       fmt::format("{} of {} poses were measured{}", visits.size(), planned,
                                   record.failure ? ": " + record.failure->what : std::string()));
   }
   out.temperatures = temperatures_of(record, touches_in(record, visits));
-  out.merged.joint = said->merge == record::Merge::kJoint;
+  out.merged.joint = said.merge == record::Merge::kJoint;
   out.merged.touch_mm = touch_uncertainty_mm(out, probe);
   if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {
     out.merged.refusal = core::Error{core::Code::kMissingKey,

@@ -47,9 +47,9 @@ core::Result<Letters> letters_of(std::span<const MeasuredSurface> part) {
   for (const MeasuredSurface& surface : part) {
     out.emplace_back();
     if (record::is_analysis(surface.of->feature.shape)) continue;
-    const auto settings = record::task_of<record::SurfaceSettings>(surface.of->feature.settings);
-    if (!settings) return core::fail(settings.error());
-    out.back() = settings->letter;
+    TRY(const auto settings,
+        record::task_of<record::SurfaceSettings>(surface.of->feature.settings));
+    out.back() = settings.letter;
   }
   return out;
 }
@@ -109,9 +109,8 @@ bool same_points(const MeasuredSurface& a, const MeasuredSurface& b) {
 
 core::Result<NamedDatum> named_datum(std::span<const MeasuredSurface> part, const Letters& letters,
                                      std::size_t toleranced, const std::string& text) {
-  auto features = features_of(part, letters, text);
-  if (!features) return core::fail(features.error());
-  NamedDatum out{text, *std::move(features)};
+  TRY(auto features, features_of(part, letters, text));
+  NamedDatum out{text, std::move(features)};
   for (const std::size_t i : out.features) {
     const record::Feature& feature = part[i].of->feature;
     if (i == toleranced) {
@@ -268,12 +267,11 @@ class AxisAssociation {
 
  private:
   [[nodiscard]] core::Result<fit::DatumAxis> zone_cylinder() const {
-    const auto zone = fit::min_zone_cylinder(cylinders_.front().points_mm, near_);
-    if (!zone) return core::fail(zone.error());
+    TRY(const auto zone, fit::min_zone_cylinder(cylinders_.front().points_mm, near_));
     fit::DatumAxis out;
-    out.axis = zone->axis;
-    out.ending = zone->ending;
-    out.radii_mm = {0.5 * (zone->inner_radius_mm + zone->outer_radius_mm)};
+    out.axis = zone.axis;
+    out.ending = zone.ending;
+    out.radii_mm = {0.5 * (zone.inner_radius_mm + zone.outer_radius_mm)};
     return out;
   }
   /// The envelope cylinder of a single feature, by the search that passes over places from which
@@ -315,19 +313,16 @@ core::Result<DatumResult> axis_datum(const DatumPoints& datum, Proof proof) {
                                    "e.g. \"A-B\"",
                                    datum.named.name));
   }
-  if (auto round = check_surrounded(datum); !round) return core::fail(round.error());
+  TRY_DO(check_surrounded(datum));
   const AxisAssociation associated(datum);
-  const auto found = associated.find(datum.association);
-  if (!found) return core::fail(found.error());
-  DatumResult out = datum.result(found->axis, found->radii_mm);
+  TRY(const auto found, associated.find(datum.association));
+  DatumResult out = datum.result(found.axis, found.radii_mm);
   out.length_mm = datum.extent_mm(out.place.direction);
   if (datum.association != Association::kOneSided || proof == Proof::kNone) return out;
-  const auto equalised = associated.find(Association::kEqualised);
-  if (!equalised) return core::fail(equalised.error());
-  const auto rock = associated.rock();
-  if (!rock) return core::fail(rock.error());
-  out.equalised = equalised->axis;
-  out.play_mm = rock->play_mm;
+  TRY(const auto equalised, associated.find(Association::kEqualised));
+  TRY(const auto rock, associated.rock());
+  out.equalised = equalised.axis;
+  out.play_mm = rock.play_mm;
   return out;
 }
 
@@ -370,7 +365,7 @@ core::Result<DatumResult> axis_square_to(const DatumResult& primary, const Datum
                       core::phrase("datum {}: after a plane one cylinder gives the axis; name one",
                                    datum.named.name));
   }
-  if (auto round = check_surrounded(datum); !round) return core::fail(round.error());
+  TRY_DO(check_surrounded(datum));
   const PreparedSurface& surface = datum.surfaces.front();
   const fit::Plane plane{primary.place.point_mm, primary.place.direction};
   const auto frame = fit::across(plane.normal);
@@ -410,32 +405,26 @@ bool needs_datum_axis(record::Form form) {
 core::Result<std::vector<DatumResult>> datums_of(const PartState& state, std::size_t feature,
                                                  const record::Characteristic& asked, Proof proof) {
   const std::span<const MeasuredSurface> part = state.surfaces();
-  const auto letters = letters_of(part);
-  if (!letters) return core::fail(letters.error());
+  TRY(const auto letters, letters_of(part));
   std::vector<NamedDatum> named;
   for (const std::string& text : asked.indication.datum) {
-    auto datum = named_datum(part, *letters, feature, text);
-    if (!datum) return core::fail(datum.error());
-    named.push_back(*std::move(datum));
+    TRY(auto datum, named_datum(part, letters, feature, text));
+    named.push_back(std::move(datum));
   }
   // Whatever follows a primary axis fixes the turn about it, or the place along it: neither counts.
   // After a primary plane a secondary axis gives the place of what needs one.
   if (named.empty()) return std::vector<DatumResult>{};
   const Association association = asked.indication.association.value_or(Association::kOneSided);
   const FeatureResult& toleranced = *part[feature].of;
-  const auto primary = datum_points(state, named.front(), association, toleranced);
-  if (!primary) return core::fail(primary.error());
-  auto first = primary->named.plane ? plane_datum(*primary) : axis_datum(*primary, proof);
-  if (!first) return core::fail(first.error());
-  std::vector<DatumResult> out = {*std::move(first)};
+  TRY(const auto primary, datum_points(state, named.front(), association, toleranced));
+  TRY(auto first, primary.named.plane ? plane_datum(primary) : axis_datum(primary, proof));
+  std::vector<DatumResult> out = {std::move(first)};
   if (!out.front().plane || !needs_datum_axis(asked.form) || named.size() < 2 || named[1].plane) {
     return out;
   }
-  const auto secondary = datum_points(state, named[1], association, toleranced);
-  if (!secondary) return core::fail(secondary.error());
-  auto second = axis_square_to(out.front(), *secondary);
-  if (!second) return core::fail(second.error());
-  out.push_back(*std::move(second));
+  TRY(const auto secondary, datum_points(state, named[1], association, toleranced));
+  TRY(auto second, axis_square_to(out.front(), secondary));
+  out.push_back(std::move(second));
   return out;
 }
 

@@ -87,24 +87,22 @@ void note_evidence(const record::Characteristic& asked, record::Shape about,
 
 core::Result<Finding> find_cylindricity(const PreparedSurface& surface,
                                         const record::Characteristic& asked, Proof proof) {
-  const auto cylinder = associated_cylinder(surface, asked.reference, proof);
-  if (!cylinder) return core::fail(cylinder.error());
-  SurfaceForm found{.value_mm = cylinder->deviation_mm, .certified = cylinder->certified};
+  TRY(const auto cylinder, associated_cylinder(surface, asked.reference, proof));
+  SurfaceForm found{.value_mm = cylinder.deviation_mm, .certified = cylinder.certified};
   Finding out;
   out.pivots = cylinder->pivots;
   if (asked.reference == Reference::kLeastSquares) {
-    const auto form = fit::cylindricity_parameters(surface.points_mm, cylinder->axis,
-                                                   cylinder->radius_mm, surface.material.inside);
-    if (!form) return core::fail(form.error());
-    found.value_mm = value_of_parameter(*form, asked.indication.parameter);
-    add_parameters(asked, *form, out);
+    TRY(const auto form, fit::cylindricity_parameters(surface.points_mm, cylinder.axis,
+                                                      cylinder.radius_mm, surface.material.inside));
+    found.value_mm = value_of_parameter(form, asked.indication.parameter);
+    add_parameters(asked, form, out);
     std::vector<double> distances_mm;
     for (const Eigen::Vector3d& p : surface.points_mm) {
-      distances_mm.push_back(fit::distance_mm(cylinder->axis, p));
+      distances_mm.push_back(fit::distance_mm(cylinder.axis, p));
     }
     add_extreme_rows(surface, distances_mm, out);
   }
-  add_rows(surface, cylinder->contacts, out);
+  add_rows(surface, cylinder.contacts, out);
   out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
   out.reference = core::as_it_is(reference_of(asked));
   if (proof == Proof::kNone) return out;
@@ -122,9 +120,8 @@ struct SectionForm {
 core::Result<SectionForm> form_of_section(const PreparedSurface& surface,
                                           const SurfaceSection& section,
                                           const record::Characteristic& asked, Proof proof) {
-  const auto flat = projected(surface, std::span(&section, 1));
-  if (!flat) return core::fail(flat.error());
-  const auto& points_mm = flat->front().points_mm;
+  TRY(const auto flat, projected(surface, std::span(&section, 1)));
+  const auto& points_mm = flat.front().points_mm;
   const auto exact = [&] {
     return core::fail(core::Code::kTooFewPoints,
                       core::phrase("layer {}: a section of three different points has no "
@@ -158,17 +155,15 @@ core::Result<SectionForm> form_of_section(const PreparedSurface& surface,
 
 core::Result<Finding> find_roundness(const PreparedSurface& surface,
                                      const record::Characteristic& asked, Proof proof) {
-  const auto sections = asked_sections(surface, asked.indication);
-  if (!sections) return core::fail(sections.error());
+  TRY(const auto sections, asked_sections(surface, asked.indication));
   Finding out;
   SurfaceForm found;
   fit::DeviationRange range;
   bool unique = true;
   std::vector<SectionForm> forms;
-  for (const SurfaceSection& section : *sections) {
-    auto own = form_of_section(surface, section, asked, proof);
-    if (!own) return core::fail(own.error());
-    const SurfaceForm& form = own->form;
+  for (const SurfaceSection& section : sections) {
+    TRY(auto own, form_of_section(surface, section, asked, proof));
+    const SurfaceForm& form = own.form;
     out.local.push_back(
         {.layer = section.layer, .position = section.height_mm, .value_mm = form.value_mm});
     found.certified = found.certified && form.certified;
@@ -177,7 +172,7 @@ core::Result<Finding> find_roundness(const PreparedSurface& surface,
     range.low_mm = std::max(range.low_mm, least_most.low_mm);
     range.high_mm = std::max(range.high_mm, least_most.high_mm);
     unique = unique && !form.range;
-    forms.push_back(*std::move(own));
+    forms.push_back(std::move(own));
   }
   const auto worst = std::ranges::max_element(
       forms, {}, [](const SectionForm& section) { return section.form.value_mm; });
@@ -212,22 +207,19 @@ core::Result<Finding> find_flatness(const PreparedSurface& surface,
   Finding out;
   SurfaceForm found;
   if (zone_asked) {
-    const auto zone = fit::min_zone_plane(points_mm, surface.axis.direction);
-    if (!zone) return core::fail(zone.error());
-    found.value_mm = zone->width_mm;
-    found.certified = zone->certificate.kind != fit::Certificate::Kind::kNone;
-    for (const auto* contacts : {&zone->top, &zone->bottom}) {
+    TRY(const auto zone, fit::min_zone_plane(points_mm, surface.axis.direction));
+    found.value_mm = zone.width_mm;
+    found.certified = zone.certificate.kind != fit::Certificate::Kind::kNone;
+    for (const auto* contacts : {&zone.top, &zone.bottom}) {
       for (const fit::Contact& contact : *contacts) out.rows.push_back(surface.rows[contact.index]);
     }
   } else {
-    const auto plane = fit::ls_plane(points_mm, surface.axis.direction);
-    if (!plane) return core::fail(plane.error());
-    const auto form = fit::flatness_parameters(points_mm, plane->plane);
-    if (!form) return core::fail(form.error());
-    found.value_mm = value_of_parameter(*form, asked.indication.parameter);
-    add_parameters(asked, *form, out);
+    TRY(const auto plane, fit::ls_plane(points_mm, surface.axis.direction));
+    TRY(const auto form, fit::flatness_parameters(points_mm, plane.plane));
+    found.value_mm = value_of_parameter(form, asked.indication.parameter);
+    add_parameters(asked, form, out);
     std::vector<double> heights_mm;
-    for (const Eigen::Vector3d& p : points_mm) heights_mm.push_back(height_mm(plane->plane, p));
+    for (const Eigen::Vector3d& p : points_mm) heights_mm.push_back(height_mm(plane.plane, p));
     add_extreme_rows(surface, heights_mm, out);
   }
   out.judged.push_back({symbol_of(asked), found.value_mm, limits_of(asked)});
@@ -241,7 +233,7 @@ core::Result<Finding> find_flatness(const PreparedSurface& surface,
 
 core::Result<Finding> find_form(const PreparedSurface& surface, const record::Characteristic& asked,
                                 Proof proof) {
-  if (auto checked = check_parameter(asked); !checked) return core::fail(checked.error());
+  TRY_DO(check_parameter(asked));
   switch (asked.form) {
     case Form::kCylindricity:
       return find_cylindricity(surface, asked, proof);

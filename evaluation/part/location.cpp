@@ -81,25 +81,23 @@ core::Result<Finding> find_place(const PreparedSurface& surface,
                      "perpendicularity",
                      record::name_of(asked.form), record::name_of(surface.of->feature.shape)));
   }
-  const auto datum = datum_axis_of(datums, asked);
-  if (!datum) return core::fail(datum.error());
-  auto line = median_line_of(surface, asked.indication);
-  if (!line) return core::fail(line.error());
+  TRY(const auto datum, datum_axis_of(datums, asked));
+  TRY(auto line, median_line_of(surface, asked.indication));
   if (asked.form == Form::kCoaxiality) {
-    if (auto enough = check_direction(surface, *line); !enough) return core::fail(enough.error());
+    TRY_DO(check_direction(surface, line));
   }
-  const auto value = fit::coaxiality_mm(line->centers_mm, datum->place);
+  const auto value = fit::coaxiality_mm(line.centers_mm, datum.place);
   if (!value) return of_feature(surface, value.error());
-  Finding out = found_about(surface, datums, *datum);
+  Finding out = found_about(surface, datums, datum);
   add_value(asked, *value, true, out);
-  for (std::size_t i = 0; i < line->sections.size(); ++i) {
-    const SurfaceSection& section = line->sections[i];
+  for (std::size_t i = 0; i < line.sections.size(); ++i) {
+    const SurfaceSection& section = line.sections[i];
     out.local.push_back({LocalValue::Place::kLayer, section.layer, section.height_mm,
-                         2.0 * fit::distance_mm(datum->place, line->centers_mm[i])});
+                         2.0 * fit::distance_mm(datum.place, line.centers_mm[i])});
     if (out.local.back().value_mm > out.local[out.worst].value_mm) out.worst = i;
   }
-  note_unseen_centers(surface, *line, out);
-  out.centers_mm = std::move(line->centers_mm);
+  note_unseen_centers(surface, line, out);
+  out.centers_mm = std::move(line.centers_mm);
   return out;
 }
 
@@ -148,20 +146,19 @@ core::Result<Finding> find_plane(const PreparedSurface& surface,
 /// two planes where the axis is to be square to it.
 core::Result<Finding> find_axis(const PreparedSurface& surface, const record::Characteristic& asked,
                                 std::span<const DatumResult> datums, double angle_rad) {
-  auto line = median_line_of(surface, record::Indication{});
-  if (!line) return core::fail(line.error());
-  if (auto enough = check_direction(surface, *line); !enough) return core::fail(enough.error());
+  TRY(auto line, median_line_of(surface, record::Indication{}));
+  TRY_DO(check_direction(surface, line));
   const Eigen::Vector3d& to = datums.front().place.direction;
   const bool along = angle_rad < core::kSameAngle;
   const bool inclined = asked.form == Form::kAngularity && !along;
-  const auto value = along      ? fit::orientation_of_axis_mm(line->centers_mm, to)
-                     : inclined ? fit::angularity_of_axis_mm(line->centers_mm, to, angle_rad)
-                                : fit::orientation_of_plane_mm(line->centers_mm, to);
+  const auto value = along      ? fit::orientation_of_axis_mm(line.centers_mm, to)
+                     : inclined ? fit::angularity_of_axis_mm(line.centers_mm, to, angle_rad)
+                                : fit::orientation_of_plane_mm(line.centers_mm, to);
   if (!value) return of_feature(surface, value.error());
   Finding out = found_about(surface, datums, datums.front());
   add_value(asked, *value, along || inclined, out);
-  note_unseen_centers(surface, *line, out);
-  out.centers_mm = std::move(line->centers_mm);
+  note_unseen_centers(surface, line, out);
+  out.centers_mm = std::move(line.centers_mm);
   return out;
 }
 
@@ -171,10 +168,9 @@ core::Result<Finding> find_orientation(const PreparedSurface& surface,
                                        std::span<const DatumResult> datums) {
   const bool plane = surface.of->feature.shape == Shape::kPlane;
   if (!plane && !has_axis(surface)) return not_of_shape(surface, asked);
-  const auto angle = nominal_angle_rad(asked, plane == datums.front().plane);
-  if (!angle) return core::fail(angle.error());
-  return plane ? find_plane(surface, asked, datums, *angle)
-               : find_axis(surface, asked, datums, *angle);
+  TRY(const auto angle, nominal_angle_rad(asked, plane == datums.front().plane));
+  return plane ? find_plane(surface, asked, datums, angle)
+               : find_axis(surface, asked, datums, angle);
 }
 
 }  // namespace

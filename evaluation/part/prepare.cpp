@@ -153,34 +153,32 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
   out.material = {surface.of->feature.side == record::Side::kInside,
                   surface.tip_radius_mm.value_or(0.0)};
   out.tip_known = surface.tip_radius_mm.has_value();
-  auto taken = rows_without_outliers(*layout, indication, out);
-  if (!taken) return core::fail(taken.error());
+  TRY(auto taken, rows_without_outliers(*layout, indication, out));
   const auto take = [&] {
     out.rows.clear();
     out.points_mm.clear();
-    for (std::size_t row = 0; row < taken->size(); ++row) {
-      if (!(*taken)[row]) continue;
+    for (std::size_t row = 0; row < taken.size(); ++row) {
+      if (!taken[row]) continue;
       out.rows.push_back(row);
       out.points_mm.push_back(surface.tips_mm[row]);
     }
   };
   take();
   // Square to the axis of the feature, not of the portion, which may be a single layer.
-  const auto fit = fitted(*surface.of, out.points_mm, layout->axis.direction, Deviations::kSkip);
-  if (!fit) return core::fail(fit.error());
-  out.axis = fit->axis;
-  if (auto done = check_tip(out); !done) return core::fail(done.error());
-  if (auto done = restrict_rows(*layout, indication, *taken); !done)
-    return core::fail(done.error());
+  TRY(const auto fit,
+      fitted(*surface.of, out.points_mm, layout->axis.direction, Deviations::kSkip));
+  out.axis = fit.axis;
+  TRY_DO(check_tip(out));
+  if (auto done = restrict_rows(*layout, indication, taken); !done) return core::fail(done.error());
   if (indication.from_mm || indication.to_mm) take();
-  fill_sections(*layout, *taken, out);
+  fill_sections(*layout, taken, out);
   out.as_measured = is_as_measured(surface);
   const Warnings warnings = out.as_measured ? Warnings::kFind : Warnings::kSkip;
   if (warnings == Warnings::kFind) {
     out.warnings = layout->warnings;
-    name_outlying(*layout, indication, *taken, out);
+    name_outlying(*layout, indication, taken, out);
   }
-  if (auto done = filter(out, indication, warnings); !done) return core::fail(done.error());
+  TRY_DO(filter(out, indication, warnings));
   if (warnings == Warnings::kFind && !filtered) warn_of_no_filter(out);
   return out;
 }

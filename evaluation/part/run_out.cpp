@@ -85,15 +85,14 @@ core::Result<std::optional<double>> half_angle_deg(const PreparedSurface& surfac
       (asked.direction != Direction::kConical && !is_touched(surface))) {
     return std::nullopt;
   }
-  const auto settings = record::task_of<record::SurfaceSettings>(surface.of->feature.settings);
-  if (!settings) return core::fail(settings.error());
-  if (!settings->half_angle_deg && asked.direction == Direction::kConical) {
+  TRY(const auto settings, record::task_of<record::SurfaceSettings>(surface.of->feature.settings));
+  if (!settings.half_angle_deg && asked.direction == Direction::kConical) {
     return core::fail(core::Code::kMissingKey,
                       core::phrase("conical run-out needs the nominal half angle of {}: give "
                                    "nominal.half_angle_deg",
                                    surface.of->feature.id));
   }
-  return settings->half_angle_deg;
+  return settings.half_angle_deg;
 }
 
 /// Heights of the points along the axis, upwards, from their mean, and the slope of the radius over
@@ -157,13 +156,10 @@ core::Result<void> check_half_angle(const Turned& turned, double planned_deg) {
 
 core::Result<Turned> turned_about(const PreparedSurface& surface, const record::Indication& asked,
                                   const fit::Axis& datum) {
-  if (auto checked = fit::check_points(surface.points_mm); !checked) {
-    return core::fail(checked.error());
-  }
-  const auto half_deg = half_angle_deg(surface, asked);
-  if (!half_deg) return core::fail(half_deg.error());
+  TRY_DO(fit::check_points(surface.points_mm));
+  TRY(const auto half_deg, half_angle_deg(surface, asked));
   const bool normal = asked.direction == Direction::kConical;
-  const double share = normal ? std::cos(**half_deg * core::kDegree) : 1.0;
+  const double share = normal ? std::cos(*half_deg * core::kDegree) : 1.0;
   Turned out{surface, datum, asked.direction == Direction::kAxial, share, {}, {}};
   if (out.axis.direction.dot(surface.axis.direction) < 0.0) {
     out.axis.direction = -out.axis.direction;
@@ -173,10 +169,8 @@ core::Result<Turned> turned_about(const PreparedSurface& surface, const record::
     const double height = (p - surface.points_mm.front()).dot(out.axis.direction);
     out.measure.push_back(out.axial ? height : out.share * out.radius.back());
   }
-  if (*half_deg) {
-    if (auto checked = check_half_angle(out, **half_deg); !checked) {
-      return core::fail(checked.error());
-    }
+  if (half_deg) {
+    TRY_DO(check_half_angle(out, *half_deg));
     if (is_touched(surface)) out.measure = at_one_height(out);
   }
   return out;
@@ -309,36 +303,33 @@ core::Result<Finding> find_run_out(const PreparedSurface& surface,
     return core::fail(core::Code::kMissingKey, core::phrase("{} needs a datum, e.g. [\"A-B\"]",
                                                             record::name_of(asked.form)));
   }
-  if (auto checked = check_turned(surface, asked); !checked) return core::fail(checked.error());
-  const auto datum = datum_axis_of(datums, asked);
-  if (!datum) return core::fail(datum.error());
-  const auto about = turned_about(surface, asked.indication, datum->place);
-  if (!about) return core::fail(about.error());
-  Finding out = found_about(surface, datums, *datum);
+  TRY_DO(check_turned(surface, asked));
+  TRY(const auto datum, datum_axis_of(datums, asked));
+  TRY(const auto about, turned_about(surface, asked.indication, datum.place));
+  Finding out = found_about(surface, datums, datum);
   const std::string symbol(record::facts_of(asked.form).symbol);
   if (asked.form == Form::kTotalRunOut) {
     std::vector<std::size_t> all(surface.points_mm.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    add_turned_rows(*about, all, out);
-    out.judged.push_back({symbol, measured_range(*about, all).width(), limits_of(asked)});
-    note_unseen_turn(*about, surface.sections, asked, out);
+    add_turned_rows(about, all, out);
+    out.judged.push_back({symbol, measured_range(about, all).width(), limits_of(asked)});
+    note_unseen_turn(about, surface.sections, asked, out);
     return out;
   }
-  const auto found = turned_circles(*about, asked.indication);
-  if (!found) return core::fail(found.error());
+  TRY(const auto found, turned_circles(about, asked.indication));
   Sections turns;
-  for (const Circle& circle : *found) {
+  for (const Circle& circle : found) {
     turns.push_back(
         {.layer = circle.layer, .height_mm = circle.position_mm, .points = circle.points});
-    out.local.push_back({about->axial ? LocalValue::Place::kRadius : LocalValue::Place::kLayer,
+    out.local.push_back({about.axial ? LocalValue::Place::kRadius : LocalValue::Place::kLayer,
                          circle.layer, circle.position_mm,
-                         measured_range(*about, circle.points).width()});
+                         measured_range(about, circle.points).width()});
     if (out.local.back().value_mm > out.local[out.worst].value_mm) out.worst = out.local.size() - 1;
   }
-  add_turned_rows(*about, (*found)[out.worst].points, out);
+  add_turned_rows(about, found[out.worst].points, out);
   out.judged.push_back({symbol, out.local[out.worst].value_mm, limits_of(asked)});
-  note_unseen_turn(*about, turns, asked, out);
-  note_heights(*about, *found, asked, out);
+  note_unseen_turn(about, turns, asked, out);
+  note_heights(about, found, asked, out);
   return out;
 }
 

@@ -136,9 +136,8 @@ bool is_circle(const PreparedSurface& surface) {
 
 core::Result<Associated> size_of_section(const PreparedSurface& surface,
                                          const SurfaceSection& section, Size size, Proof proof) {
-  auto flat = projected(surface, std::span(&section, 1));
-  if (!flat) return core::fail(flat.error());
-  auto circle = associated_circle(flat->front().points_mm, reference_of_size(size), proof);
+  TRY(auto flat, projected(surface, std::span(&section, 1)));
+  auto circle = associated_circle(flat.front().points_mm, reference_of_size(size), proof);
   if (!circle) return core::fail(in_layer(section, circle.error()));
   for (std::size_t& contact : circle->contacts) contact = section.points[contact];
   return circle;
@@ -151,9 +150,8 @@ core::Result<Associated> whole_size(const PreparedSurface& surface, Size size, P
     return associated_sphere(surface.points_mm, reference_of_size(size));
   }
   if (!is_circle(surface)) return associated_cylinder(surface, reference_of_size(size), proof);
-  const auto sections = asked_sections(surface, {});
-  if (!sections) return core::fail(sections.error());
-  return size_of_section(surface, sections->front(), size, proof);
+  TRY(const auto sections, asked_sections(surface, {}));
+  return size_of_section(surface, sections.front(), size, proof);
 }
 
 core::Result<Finding> find_global(const PreparedSurface& surface,
@@ -165,27 +163,24 @@ core::Result<Finding> find_global(const PreparedSurface& surface,
   bool certified = true;
   std::optional<core::Phrase> unseen;
   if (asked.indication.section == Indication::Section::kAll) {
-    const auto whole = whole_size(surface, size, proof);
-    if (!whole) return core::fail(whole.error());
+    TRY(const auto whole, whole_size(surface, size, proof));
     out.judged.push_back(
-        {symbol_of_size(name), surface.material.diameter_mm(whole->radius_mm), limits_of(asked)});
-    add_rows(surface, whole->contacts, out);
-    certified = whole->certified;
-    out.pivots = whole->pivots;
+        {symbol_of_size(name), surface.material.diameter_mm(whole.radius_mm), limits_of(asked)});
+    add_rows(surface, whole.contacts, out);
+    certified = whole.certified;
+    out.pivots = whole.pivots;
     unseen = unseen_part(surface);
   } else {
-    const auto sections = asked_sections(surface, asked.indication);
-    if (!sections) return core::fail(sections.error());
+    TRY(const auto sections, asked_sections(surface, asked.indication));
     std::vector<SectionSize> sizes;
-    for (const SurfaceSection& section : *sections) {
-      const auto circle = size_of_section(surface, section, size, proof);
-      if (!circle) return core::fail(circle.error());
-      const double diameter_mm = surface.material.diameter_mm(circle->radius_mm);
-      sizes.push_back({section, diameter_mm, diameter_mm, circle->contacts, circle->contacts});
-      certified = certified && circle->certified;
+    for (const SurfaceSection& section : sections) {
+      TRY(const auto circle, size_of_section(surface, section, size, proof));
+      const double diameter_mm = surface.material.diameter_mm(circle.radius_mm);
+      sizes.push_back({section, diameter_mm, diameter_mm, circle.contacts, circle.contacts});
+      certified = certified && circle.certified;
     }
     judge_sections(surface, asked, symbol_of_size(name), symbol_of_size(name), sizes, out);
-    unseen = unseen_part(surface, *sections, surface.axis);
+    unseen = unseen_part(surface, sections, surface.axis);
   }
   if (proof == Proof::kNone) return out;
   note_uncertified(certified, name, out);
@@ -202,13 +197,12 @@ core::Result<std::vector<fit::LocalSize>> profile_sizes(const fit::ResampledProf
     return fit::two_point_sizes(profile.profile, material);
   }
   const auto highest = static_cast<int>((profile.profile.r_mm.size() - 1) / 2);
-  const auto table =
-      fit::harmonics(profile.profile, {.highest = highest, .override_sampling = true});
-  if (!table) return core::fail(table.error());
+  TRY(const auto table,
+      fit::harmonics(profile.profile, {.highest = highest, .override_sampling = true}));
   fit::UniformProfile series;
   for (std::size_t i = 0; i < kSeries; ++i) {
     series.r_mm.push_back(
-        fit::value_at(*table, core::kTwoPi * static_cast<double>(i) / double{kSeries}));
+        fit::value_at(table, core::kTwoPi * static_cast<double>(i) / double{kSeries}));
   }
   return fit::two_point_sizes(series, material);
 }
@@ -242,10 +236,9 @@ core::Result<void> add_local_sizes(const PreparedSurface& surface, const Surface
   const std::size_t before = out.sizes.size();
   const std::size_t in_windows = window_rows(surface, section).size();
   for (const SurfaceSection& pass : by_pass(surface, section)) {
-    auto flat = projected(surface, std::span(&pass, 1));
-    if (!flat) return core::fail(flat.error());
+    TRY(auto flat, projected(surface, std::span(&pass, 1)));
     if (filtered && section.dense && !section.gap) {
-      const auto profile = section_profile(flat->front());
+      const auto profile = section_profile(flat.front());
       if (!profile) return core::fail(in_layer(section, profile.error()));
       const auto sizes = profile_sizes(*profile, surface.material);
       if (!sizes) return core::fail(in_layer(section, sizes.error()));
@@ -253,7 +246,7 @@ core::Result<void> add_local_sizes(const PreparedSurface& surface, const Surface
       out.of_points = false;
       continue;
     }
-    const auto sizes = fit::two_point_sizes(*flat, surface.material);
+    const auto sizes = fit::two_point_sizes(flat, surface.material);
     const std::size_t found = sizes ? sizes->size() : 0;
     if (!sizes && sizes.error().code != core::Code::kSampling) {
       return core::fail(in_layer(section, sizes.error()));
@@ -284,9 +277,7 @@ core::Result<LocalSizeSet> local_sizes(const PreparedSurface& surface,
                                        std::span<const SurfaceSection> sections, bool filtered) {
   LocalSizeSet out;
   for (const SurfaceSection& section : sections) {
-    if (auto added = add_local_sizes(surface, section, filtered, out); !added) {
-      return core::fail(added.error());
-    }
+    TRY_DO(add_local_sizes(surface, section, filtered, out));
   }
   return out;
 }
@@ -339,10 +330,8 @@ std::vector<std::size_t> rank_rows(const LocalSizeSet& set, std::optional<Rank> 
 core::Result<Finding> find_local(const PreparedSurface& surface,
                                  const record::Characteristic& asked, Proof proof) {
   const Indication& indication = asked.indication;
-  const auto sections = asked_sections(surface, indication);
-  if (!sections) return core::fail(sections.error());
-  const auto whole = local_sizes(surface, *sections, is_filtered(indication));
-  if (!whole) return core::fail(whole.error());
+  TRY(const auto sections, asked_sections(surface, indication));
+  TRY(const auto whole, local_sizes(surface, sections, is_filtered(indication)));
   const auto symbol = [&](Rank rank) {
     return "LP " + std::string(record::name_of(indication.rank.value_or(rank)));
   };
@@ -353,33 +342,32 @@ core::Result<Finding> find_local(const PreparedSurface& surface,
   const std::string least_symbol = symbol_of_size(symbol(Rank::kSN));
   if (indication.section == Indication::Section::kACS) {
     std::vector<SectionSize> sizes;
-    for (const SurfaceSection& section : *sections) {
-      const auto own = local_sizes(surface, std::span(&section, 1), is_filtered(indication));
-      if (!own) return core::fail(own.error());
-      const fit::RankSizes ranks = fit::rank_sizes(own->sizes);
+    for (const SurfaceSection& section : sections) {
+      TRY(const auto own, local_sizes(surface, std::span(&section, 1), is_filtered(indication)));
+      const fit::RankSizes ranks = fit::rank_sizes(own.sizes);
       sizes.push_back({section, value_of_rank(ranks, indication.rank.value_or(Rank::kSX)),
                        value_of_rank(ranks, indication.rank.value_or(Rank::kSN)),
-                       rank_rows(*own, indication.rank, true),
-                       rank_rows(*own, indication.rank, false)});
+                       rank_rows(own, indication.rank, true),
+                       rank_rows(own, indication.rank, false)});
     }
     judge_sections(surface, asked, greatest_symbol, least_symbol, sizes, out);
   } else {
-    const fit::RankSizes ranks = fit::rank_sizes(whole->sizes);
+    const fit::RankSizes ranks = fit::rank_sizes(whole.sizes);
     if (indication.rank) {
       out.judged.push_back(
           {greatest_symbol, value_of_rank(ranks, *indication.rank), limits_of(asked)});
-      add_rows(surface, rank_rows(*whole, indication.rank, true), out);
+      add_rows(surface, rank_rows(whole, indication.rank, true), out);
     } else {
       judge_extremes(asked, {greatest_symbol, ranks.sx_mm, {}}, {least_symbol, ranks.sn_mm, {}},
                      out);
-      if (asked.tolerance_mm || !asked.lower_mm) add_rows(surface, pair_of(*whole, true), out);
-      if (asked.lower_mm || !asked.tolerance_mm) add_rows(surface, pair_of(*whole, false), out);
+      if (asked.tolerance_mm || !asked.lower_mm) add_rows(surface, pair_of(whole, true), out);
+      if (asked.lower_mm || !asked.tolerance_mm) add_rows(surface, pair_of(whole, false), out);
     }
   }
   const bool only_worsens = !indication.rank;
-  add_rank_numbers(*whole, only_worsens, out);
+  add_rank_numbers(whole, only_worsens, out);
   if (proof == Proof::kFull) {
-    note_unseen(unseen_part(surface, *sections, surface.axis), only_worsens, out);
+    note_unseen(unseen_part(surface, sections, surface.axis), only_worsens, out);
   }
   return out;
 }
@@ -391,16 +379,15 @@ core::Result<Finding> find_envelope(const PreparedSurface& surface,
   const Size size = mating_size(surface);
   const bool inside = surface.material.inside;
   const auto name = std::string(record::name_of(size));
-  const auto mating = whole_size(surface, size, proof);
-  if (!mating) return core::fail(mating.error());
+  TRY(const auto mating, whole_size(surface, size, proof));
   Finding out;
   out.reference = core::phrase("envelope: {} and two-point sizes as felt by the tip", name);
-  const double mating_mm = surface.material.diameter_mm(mating->radius_mm);
-  out.pivots = mating->pivots;
+  const double mating_mm = surface.material.diameter_mm(mating.radius_mm);
+  out.pivots = mating.pivots;
   const Limits upper{.lower_mm = {}, .upper_mm = asked.tolerance_mm};
   const Limits lower{.lower_mm = asked.lower_mm, .upper_mm = {}};
   out.judged.push_back({symbol_of_size(name), mating_mm, inside ? lower : upper});
-  add_rows(surface, mating->contacts, out);
+  add_rows(surface, mating.contacts, out);
   const auto sections = asked_sections(surface, {});
   const auto local = sections ? local_sizes(surface, *sections, is_filtered(asked.indication))
                               : core::Result<LocalSizeSet>(core::fail(sections.error()));
@@ -417,7 +404,7 @@ core::Result<Finding> find_envelope(const PreparedSurface& surface,
     return core::fail(local.error());
   }
   if (proof == Proof::kNone) return out;
-  note_uncertified(mating->certified, name, out);
+  note_uncertified(mating.certified, name, out);
   note_unseen(unseen_part(surface), true, out);
   return out;
 }
@@ -436,10 +423,9 @@ core::Result<void> check_calculated(const PreparedSurface& surface, const Sectio
   for (const SurfaceSection& section : sections) {
     const double open = unseen_in(surface, section);
     if (section.gap || open > 0.0) {
-      const auto flat = projected(surface, std::span(&section, 1));
-      if (!flat) return core::fail(flat.error());
+      TRY(const auto flat, projected(surface, std::span(&section, 1)));
       const double gap_rad =
-          fit::largest_gap_rad(flat->front().points_mm, flat->front().circle.center_mm);
+          fit::largest_gap_rad(flat.front().points_mm, flat.front().circle.center_mm);
       return core::fail(
           core::Code::kSampling,
           core::phrase("size {} bridges no gap: layer {} has {:.1f} deg left out; ask for size GG",
@@ -460,9 +446,8 @@ core::Result<fit::CalculatedSizes> calculated_of(const PreparedSurface& surface,
                                                  const SurfaceSection& section) {
   // Of the first pass: neighbouring points of two passes differ by their noise.
   const SurfaceSection pass = by_pass(surface, section).front();
-  const auto flat = projected(surface, std::span(&pass, 1));
-  if (!flat) return core::fail(flat.error());
-  const auto profile = section_profile(flat->front());
+  TRY(const auto flat, projected(surface, std::span(&pass, 1)));
+  const auto profile = section_profile(flat.front());
   if (!profile) return core::fail(in_layer(section, profile.error()));
   const auto sizes = fit::calculated_sizes(profile->profile, surface.material);
   if (!sizes) return core::fail(in_layer(section, sizes.error()));
@@ -480,21 +465,17 @@ core::Result<Finding> find_calculated(const PreparedSurface& surface,
                       core::phrase("size CV is of the volume between the sections; ask for "
                                    "section \"all\", or for size CA"));
   }
-  const auto sections = asked_sections(surface, indication);
-  if (!sections) return core::fail(sections.error());
-  if (auto checked = check_calculated(surface, *sections, indication); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY(const auto sections, asked_sections(surface, indication));
+  TRY_DO(check_calculated(surface, sections, indication));
   Finding out;
   out.reference = of_sections(size_words(surface, indication.size, name), indication);
   std::vector<SectionSize> sizes;
   std::vector<std::pair<double, double>> areas;  // height, area
-  for (const SurfaceSection& section : *sections) {
-    const auto size = calculated_of(surface, section);
-    if (!size) return core::fail(size.error());
-    const double diameter_mm = indication.size == Size::kCC ? size->cc_mm : size->ca_mm;
+  for (const SurfaceSection& section : sections) {
+    TRY(const auto size, calculated_of(surface, section));
+    const double diameter_mm = indication.size == Size::kCC ? size.cc_mm : size.ca_mm;
     sizes.push_back({section, diameter_mm, diameter_mm, {}, {}});
-    areas.emplace_back(section.height_mm, size->area_mm2);
+    areas.emplace_back(section.height_mm, size.area_mm2);
   }
   if (!volume) {
     judge_sections(surface, asked, symbol_of_size(name), symbol_of_size(name), sizes, out);
@@ -513,9 +494,8 @@ core::Result<Finding> find_calculated(const PreparedSurface& surface,
     heights_mm.push_back(height_mm);
     areas_mm2.push_back(area_mm2);
   }
-  const auto size = fit::volume_size_mm(heights_mm, areas_mm2);
-  if (!size) return core::fail(size.error());
-  out.judged.push_back({symbol_of_size(name), *size, limits_of(asked)});
+  TRY(const auto size, fit::volume_size_mm(heights_mm, areas_mm2));
+  out.judged.push_back({symbol_of_size(name), size, limits_of(asked)});
   return out;
 }
 
@@ -550,9 +530,7 @@ core::Result<void> check_asked_size(const PreparedSurface& surface, const Indica
 
 core::Result<Finding> find_size(const PreparedSurface& surface, const record::Characteristic& asked,
                                 Proof proof) {
-  if (auto checked = check_asked_size(surface, asked.indication); !checked) {
-    return core::fail(checked.error());
-  }
+  TRY_DO(check_asked_size(surface, asked.indication));
   if (asked.indication.requirement == Indication::Requirement::kEnvelope) {
     return find_envelope(surface, asked, proof);
   }

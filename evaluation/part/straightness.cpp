@@ -109,42 +109,38 @@ core::Result<std::vector<TouchedLine>> series_lines(const PreparedSurface& surfa
   std::vector<fit::DenseSection> dense;
   for (const SurfaceSection& section : sections) {
     const SurfaceSection pass = by_pass(surface, section).front();
-    const auto flat = projected(surface, std::span(&pass, 1));
-    if (!flat) return core::fail(flat.error());
-    auto profile = section_profile(flat->front());
+    TRY(const auto flat, projected(surface, std::span(&pass, 1)));
+    auto profile = section_profile(flat.front());
     if (!profile) return core::fail(in_layer(section, profile.error()));
-    dense.push_back({flat->front().circle.center_mm, core::mean(flat->front().heights_mm),
+    dense.push_back({flat.front().circle.center_mm, core::mean(flat.front().heights_mm),
                      std::move(profile->profile)});
   }
-  auto lines = fit::dense_generatrices(dense, kDenseLines);
-  if (!lines) return core::fail(lines.error());
+  TRY(auto lines, fit::dense_generatrices(dense, kDenseLines));
   std::vector<TouchedLine> out;
-  for (fit::Generatrix& line : *lines) out.push_back({std::move(line), {}});
+  for (fit::Generatrix& line : lines) out.push_back({std::move(line), {}});
   return out;
 }
 
 /// The generatrices of a surface with three points and more.
 /// @param opposite  Two of them are to lie in one plane.
 core::Result<std::vector<TouchedLine>> lines_of(const PreparedSurface& surface, bool opposite) {
-  const auto all = asked_sections(surface, {});
-  if (!all) return core::fail(all.error());
+  TRY(const auto all, asked_sections(surface, {}));
   std::vector<LineSection> sections;
-  for (const SurfaceSection& section : *all) sections.emplace_back(surface, section);
-  const bool dense = std::ranges::all_of(*all, &SurfaceSection::dense);
+  for (const SurfaceSection& section : all) sections.emplace_back(surface, section);
+  const bool dense = std::ranges::all_of(all, &SurfaceSection::dense);
   if (dense && std::ranges::all_of(sections, &LineSection::closed)) {
-    return series_lines(surface, *all);
+    return series_lines(surface, all);
   }
   std::vector<TouchedLine> out;
   for (const double angle : angles_of_lines(sections, dense)) {
     TouchedLine line;
     line.line.angle_rad = angle;
     for (const LineSection& section : sections) {
-      const auto place = section.at(angle);
-      if (!place) return core::fail(place.error());
-      if (!*place) continue;
-      line.line.heights_mm.push_back((*place)->height_mm);
-      line.line.distances_mm.push_back((*place)->distance_mm);
-      line.points.push_back((*place)->point);
+      TRY(const auto place, section.at(angle));
+      if (!place) continue;
+      line.line.heights_mm.push_back(place->height_mm);
+      line.line.distances_mm.push_back(place->distance_mm);
+      line.points.push_back(place->point);
     }
     if (line.line.heights_mm.size() >= kFewestOnALine) out.push_back(std::move(line));
   }
@@ -161,9 +157,7 @@ core::Result<std::vector<TouchedLine>> lines_of(const PreparedSurface& surface, 
 core::Result<std::span<const TouchedLine>> shared_lines(const PreparedSurface& surface,
                                                         bool opposite, SharedLines& shared) {
   if (!shared.found) {
-    auto lines = lines_of(surface, opposite);
-    if (!lines) return core::fail(lines.error());
-    shared.found = *std::move(lines);
+    TRY(shared.found, lines_of(surface, opposite));
   }
   return std::span<const TouchedLine>(*shared.found);
 }
@@ -249,20 +243,18 @@ void judge_worst(const PreparedSurface& surface, const record::Characteristic& a
 
 core::Result<Finding> find_generatrices(const PreparedSurface& surface,
                                         const record::Characteristic& asked, SharedLines& shared) {
-  const auto lines = shared_lines(surface, false, shared);
-  if (!lines) return core::fail(lines.error());
+  TRY(const auto lines, shared_lines(surface, false, shared));
   Finding out;
-  for (const TouchedLine& line : *lines) {
-    const auto straight =
-        fit::generatrix_straightness(line.line.heights_mm, line.line.distances_mm);
-    if (!straight) return core::fail(straight.error());
+  for (const TouchedLine& line : lines) {
+    TRY(const auto straight,
+        fit::generatrix_straightness(line.line.heights_mm, line.line.distances_mm));
     out.local.push_back({.place = LocalValue::Place::kAngle,
                          .position = stated_angle_rad(surface, line.line.angle_rad),
-                         .value_mm = value_of_line(*straight, asked, surface.material.inside)});
-    out.lines.push_back(picture_of(surface, line, *straight));
+                         .value_mm = value_of_line(straight, asked, surface.material.inside)});
+    out.lines.push_back(picture_of(surface, line, straight));
   }
   judge_worst(surface, asked, out);
-  add_rows(surface, (*lines)[out.worst].points, out);
+  add_rows(surface, lines[out.worst].points, out);
   out.reference =
       core::phrase("{} of each generatrix",
                    core::as_it_is(asked.reference == Reference::kMinimumZone ? "MZLI" : "LSLI"));
@@ -271,31 +263,27 @@ core::Result<Finding> find_generatrices(const PreparedSurface& surface,
 
 core::Result<Finding> find_median_line(const PreparedSurface& surface,
                                        const record::Characteristic& asked, Proof proof) {
-  const auto all = asked_sections(surface, {});
-  if (!all) return core::fail(all.error());
-  if (all->size() < kFewestOnALine) {
+  TRY(const auto all, asked_sections(surface, {}));
+  if (all.size() < kFewestOnALine) {
     return core::fail(core::Code::kRank,
                       core::phrase("{} sections; a median line of 2 is straight whatever the part: "
                                    "plan at least 3 layers",
-                                   all->size()));
+                                   all.size()));
   }
-  const auto sections = projected(surface, *all);
-  if (!sections) return core::fail(sections.error());
+  TRY(const auto sections, projected(surface, all));
   Finding out;
-  out.centers_mm = fit::median_line(*sections);
+  out.centers_mm = fit::median_line(sections);
   double value_mm = 0.0;
   if (asked.reference == Reference::kLeastSquares) {
-    const auto line = fit::median_line_straightness(out.centers_mm);
-    if (!line) return core::fail(line.error());
-    value_mm = line->deviation_mm;
+    TRY(const auto line, fit::median_line_straightness(out.centers_mm));
+    value_mm = line.deviation_mm;
   } else {
-    const auto line = fit::min_zone_line(out.centers_mm, proof);
-    if (!line) return core::fail(line.error());
-    value_mm = line->diameter_mm;
+    TRY(const auto line, fit::min_zone_line(out.centers_mm, proof));
+    value_mm = line.diameter_mm;
     // Centres on one line to a picometre leave a certificate nothing to hold on to.
     constexpr double kStraight = 1e-9;
     if (proof == Proof::kFull && value_mm > kStraight &&
-        line->certificate.kind == fit::Certificate::Kind::kNone) {
+        line.certificate.kind == fit::Certificate::Kind::kNone) {
       out.no_verdict =
           core::phrase("no certificate stands behind the {}",
                        core::Phrase(words_of(asked.reference, record::Shape::kCylinder)));
@@ -305,17 +293,16 @@ core::Result<Finding> find_median_line(const PreparedSurface& surface,
   const char* reference = asked.reference == Reference::kMinimumZone ? "MZLI" : "LSLI";
   out.reference = core::phrase("{} of the median line", core::as_it_is(reference));
   if (proof == Proof::kNone) return out;
-  if (!out.no_verdict) out.no_verdict = unseen_part(surface, *all, surface.axis);
+  if (!out.no_verdict) out.no_verdict = unseen_part(surface, all, surface.axis);
   return out;
 }
 
 /// Taper and parallelism of the generatrices, in every plane that holds two.
 core::Result<Finding> find_taper(const PreparedSurface& surface,
                                  const record::Characteristic& asked, SharedLines& shared) {
-  const auto lines = shared_lines(surface, true, shared);
-  if (!lines) return core::fail(lines.error());
+  TRY(const auto lines, shared_lines(surface, true, shared));
   std::vector<fit::Generatrix> generatrices;
-  for (const TouchedLine& line : *lines) generatrices.push_back(line.line);
+  for (const TouchedLine& line : lines) generatrices.push_back(line.line);
   const double length_mm = fit::extremes_of(surface.points_mm, [&](const Eigen::Vector3d& p) {
                              return (p - surface.axis.point_mm).dot(surface.axis.direction);
                            }).width();
@@ -326,8 +313,7 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
                       core::phrase("no two generatrices lie opposite each other to 0.5 deg: plan "
                                    "an even number of points a layer, or a scan"));
   }
-  const auto mean = fit::taper(surface.points_mm, surface.axis);
-  if (!mean) return core::fail(mean.error());
+  TRY(const auto mean, fit::taper(surface.points_mm, surface.axis));
   Finding out;
   for (const fit::OppositeGeneratrices& plane : *planes) {
     out.local.push_back(
@@ -336,7 +322,7 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
          .value_mm = asked.form == Form::kTaper ? plane.taper_mm : plane.parallelism_mm});
   }
   judge_worst(surface, asked, out);
-  for (const TouchedLine& line : *lines) {
+  for (const TouchedLine& line : lines) {
     const double turn = line.line.angle_rad - (*planes)[out.worst].angle_rad;
     if (std::abs(std::remainder(turn, 0.5 * core::kTwoPi)) > kOneGeneratrix) continue;
     add_rows(surface, line.points, out);
@@ -347,15 +333,15 @@ core::Result<Finding> find_taper(const PreparedSurface& surface,
   // Fewer than half of them by the points alone: what a window takes out is known.
   const bool window =
       std::ranges::any_of(surface.left_out, [](const LeftOut& l) { return !l.window.empty(); });
-  if (!window && 4 * planes->size() < lines->size()) {
+  if (!window && 4 * planes->size() < lines.size()) {
     out.no_verdict = core::phrase(
         "{} of {} generatrices have one opposite to them: the taper of the others is not known; "
         "plan an even number of points a layer, or a scan",
-        2 * planes->size(), lines->size());
+        2 * planes->size(), lines.size());
   }
   // A change of diameter over the length: of a cone twice the taper of a plane, which is judged.
-  out.numbers.push_back({"diameter change over length", mean->diameter_mm});
-  out.numbers.push_back({"cone_angle_deg", core::degrees(mean->cone_angle_rad), false});
+  out.numbers.push_back({"diameter change over length", mean.diameter_mm});
+  out.numbers.push_back({"cone_angle_deg", core::degrees(mean.cone_angle_rad), false});
   out.reference = core::phrase("{} of opposite generatrices", core::as_it_is("LSLI"));
   return out;
 }
@@ -366,7 +352,7 @@ core::Result<Finding> find_straightness(const PreparedSurface& surface,
                                         const record::Characteristic& asked, Proof proof,
                                         SharedLines& shared) {
   if (asked.form != Form::kStraightness) return find_taper(surface, asked, shared);
-  if (auto checked = check_straightness(asked); !checked) return core::fail(checked.error());
+  TRY_DO(check_straightness(asked));
   if (asked.indication.of == Indication::Of::kMedianLine) {
     return find_median_line(surface, asked, proof);
   }

@@ -75,25 +75,24 @@ struct Chart {
 };
 
 core::Result<Chart> chart_of_plane(std::span<const Vector3d> tips) {
-  const auto plane = fit::ls_plane(tips);
-  if (!plane) return core::fail(plane.error());
+  TRY(const auto plane, fit::ls_plane(tips));
   Chart out;
   out.cloud.kind = FormKind::kFlatness;
-  out.cloud.axis = {plane->plane.point_mm, plane->plane.normal};
-  const auto across = fit::across(plane->plane.normal);
+  out.cloud.axis = {plane.plane.point_mm, plane.plane.normal};
+  const auto across = fit::across(plane.plane.normal);
   double least = 0.0;
   double greatest = 0.0;
   for (const Vector3d& tip : tips) {
-    const Eigen::Vector2d place = across.transpose() * (tip - plane->plane.point_mm);
+    const Eigen::Vector2d place = across.transpose() * (tip - plane.plane.point_mm);
     FormPoint point;
     point.angle_rad = std::atan2(place.y(), place.x());
     point.height_mm = place.norm();
-    point.deviation_mm = fit::height_mm(plane->plane, tip);
+    point.deviation_mm = fit::height_mm(plane.plane, tip);
     point.time_1 = static_cast<double>(out.normals.size()) / static_cast<double>(tips.size());
     least = out.cloud.points.empty() ? point.height_mm : std::min(least, point.height_mm);
     greatest = std::max(greatest, point.height_mm);
     out.cloud.points.push_back(point);
-    out.normals.push_back(plane->plane.normal);
+    out.normals.push_back(plane.plane.normal);
   }
   out.cloud.radius_mm = greatest;
   if (greatest - least < 1e-3 * greatest) {  // one circle: its height and its tilt alone
@@ -115,9 +114,9 @@ core::Result<Chart> chart_of(const FeatureResult& result, std::span<const Vector
   if (result.ls_cylinder) direction = result.ls_cylinder->axis.direction;
   const bool circle = shape == Shape::kCircle;
   if (circle) direction = result.section_axis.direction;
-  auto cloud = form_cloud(circle ? FormKind::kRoundness : FormKind::kCylindricity, tips, direction);
-  if (!cloud) return core::fail(cloud.error());
-  Chart out{*std::move(cloud), {}};
+  TRY(auto cloud,
+      form_cloud(circle ? FormKind::kRoundness : FormKind::kCylindricity, tips, direction));
+  Chart out{std::move(cloud), {}};
   const bool cone = shape == Shape::kCone;
   const Slope slope = cone ? slope_of(out.cloud) : Slope{out.cloud.radius_mm, 0.0};
   const double cosine = 1.0 / std::hypot(1.0, slope.per_mm);
@@ -735,8 +734,7 @@ class PartTrials::Part::Run {
     const std::size_t points = part_.surfaces[s].rows.size();
     FormFinding out = finding_of(tallies, points);
     std::vector<core::Phrase> said;
-    const auto good = guard_scatter(tallies, points, out, said);
-    if (!good) return core::fail(good.error());
+    TRY_DO(guard_scatter(tallies, points, out, said));
     for (core::Phrase& note : said) {
       if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     }
@@ -752,7 +750,7 @@ class PartTrials::Part::Run {
     const double coverage = part_.options.coverage;
     const auto chains = trials(q, v);
     std::vector<double> all = joined_chains(chains);
-    if (const auto good = check_values(all); !good) return core::fail(good.error());
+    TRY_DO(check_values(all));
     out.trials = static_cast<int>(all.size());
     out.tolerance_reached = reached_;
     out.sampled = statement_of(std::move(all), coverage);
@@ -762,8 +760,7 @@ class PartTrials::Part::Run {
     for (const Values& chain : values_) {
       for (const std::vector<double>& row : chain.read_mm[q]) read.push_back(row[v]);
     }
-    const auto good = guard_reading(std::move(read), out.uncorrected_mm);
-    if (!good) return core::fail(good.error());
+    TRY_DO(guard_reading(std::move(read), out.uncorrected_mm));
     return out;
   }
 

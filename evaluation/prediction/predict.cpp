@@ -232,7 +232,7 @@ std::vector<std::string> undeclared_influences(const record::UncertaintyTask& sa
 core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
                                  const record::Characteristic& asked,
                                  const PredictionOptions& options) {
-  if (auto good = check(options); !good) return core::fail(good.error());
+  TRY_DO(check(options));
   if (feature < 0 || static_cast<std::size_t>(feature) >= expected.features.size()) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("feature {} is outside 0..{}", feature,

@@ -45,17 +45,16 @@ core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expec
     return core::fail(core::Code::kBadOption,
                       fmt::format("feature {} is no calibration of a fixture", feature));
   }
-  const auto task = record::task_of<record::RotaryTask>(
-      expected.features[static_cast<std::size_t>(feature)].settings);
-  if (!task) return core::fail(task.error());
-  if (!task->uncertainty) {
+  TRY(const auto task, record::task_of<record::RotaryTask>(
+                           expected.features[static_cast<std::size_t>(feature)].settings));
+  if (!task.uncertainty) {
     return no_residual(
         "no influence is declared: state `uncertainty` of `rotary_axes`, with `ball_um`, "
         "`repeat_urad` and `reading_urad`");
   }
   if (combined.empty()) return no_residual("no combined pose is planned");
   const auto [sigma_mm, words] = touch_scatter(expected);
-  const double radius_mm = 0.5 * task->ball_diameter_mm + expected.artefact.nominal_tip_radius_mm;
+  const double radius_mm = 0.5 * task.ball_diameter_mm + expected.artefact.nominal_tip_radius_mm;
   double cofactors = 0.0;
   for (const BallTouches& tips : combined) {
     const auto center = fit::ball_center(tips, radius_mm);
@@ -66,7 +65,7 @@ core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expec
   out.centers = combined.size();
   const auto count = static_cast<double>(combined.size());
   out.center_u_mm = std::hypot(sigma_mm * std::sqrt(cofactors / count),
-                               record::u_of(task->uncertainty->ball_um) * core::kMicrometre);
+                               record::u_of(task.uncertainty->ball_um) * core::kMicrometre);
   out.rms_u_mm = out.center_u_mm / std::sqrt(count);
   out.largest_u_mm = out.center_u_mm;
   out.repeatability = words;

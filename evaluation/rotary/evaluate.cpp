@@ -111,12 +111,11 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
         return core::fail(core::Code::kJournal,
                           fmt::format("ball {} was touched and has no name", ball));
       }
-      const auto center = center_of(points, radius_mm, record.artefact.form_limit_mm,
-                                    out.names[static_cast<std::size_t>(ball)], visit.commanded);
-      if (!center) return core::fail(center.error());
-      squares_mm2 += center->sum_squares_mm2;
+      TRY(const auto center, center_of(points, radius_mm, record.artefact.form_limit_mm,
+                                       out.names[static_cast<std::size_t>(ball)], visit.commanded));
+      squares_mm2 += center.sum_squares_mm2;
       freedoms += static_cast<int>(points.size()) - 3;
-      balls.centers[ball] = *center;
+      balls.centers[ball] = center;
     }
     out.visits.push_back(std::move(balls));
   }
@@ -231,13 +230,11 @@ core::Result<fit::RotaryStudy> study_of(const Measurement& measured, Role role,
 
 core::Result<std::shared_ptr<const fixture::StationMotion>> motion_of(
     const fit::RotaryStudy& study) {
-  const auto model = fit::RotaryModel::of(study.table);
-  if (!model) return core::fail(model.error());
+  TRY(const auto model, fit::RotaryModel::of(study.table));
   std::vector<fixture::AxisStation> stations;
   for (const fit::RotaryTableRow& row : study.table.rows) {
-    const auto errors = model->at(row.angle_rad);
-    if (!errors) return core::fail(errors.error());
-    stations.push_back({row.angle_rad, {errors->t_mm, errors->w_rad}, errors->covariance});
+    TRY(const auto errors, model.at(row.angle_rad));
+    stations.push_back({row.angle_rad, {errors.t_mm, errors.w_rad}, errors.covariance});
   }
   return fixture::StationMotion::through(std::move(stations));
 }
@@ -381,10 +378,9 @@ void verify_combined(const Measurement& measured, RotaryResult& facts) {
 
 core::Result<void> date_calibration(const record::RunRecord& record, const RotaryTask& task,
                                     fixture::Calibration& out) {
-  const auto fixture = record::task_of<record::FixtureSettings>(record.settings, "fixture/");
-  if (!fixture) return core::fail(fixture.error());
+  TRY(const auto fixture, record::task_of<record::FixtureSettings>(record.settings, "fixture/"));
   out.id = record.header.run_id;
-  out.fixture_id = fixture->id;
+  out.fixture_id = fixture.id;
   out.measured_utc = record.header.started_utc;
   const auto start = core::parse_utc(out.measured_utc);
   if (!start) {
@@ -396,8 +392,8 @@ core::Result<void> date_calibration(const record::RunRecord& record, const Rotar
   }
   out.expires_utc =
       core::utc_text(*start + static_cast<std::int64_t>(task.valid_for_days * kDay_s));
-  out.axis_point_mm = Vector3d::Map(fixture->axis_point_mm.data());
-  out.axis_offset_mm = Vector3d::Map(fixture->axis_offset_mm.data());
+  out.axis_point_mm = Vector3d::Map(fixture.axis_point_mm.data());
+  out.axis_offset_mm = Vector3d::Map(fixture.axis_offset_mm.data());
   return {};
 }
 
@@ -428,14 +424,12 @@ core::Result<void> identify(const Measurement& measured, const fixture::Kinemati
     return core::fail(alpha.error().code, fmt::format("axis alpha: {}", alpha.error().what));
   auto beta = study_of(measured, Role::kBeta, known);
   if (!beta) return core::fail(beta.error().code, fmt::format("axis beta: {}", beta.error().what));
-  auto alpha_motion = motion_of(*alpha);
-  if (!alpha_motion) return core::fail(alpha_motion.error());
-  auto beta_motion = motion_of(*beta);
-  if (!beta_motion) return core::fail(beta_motion.error());
+  TRY(auto alpha_motion, motion_of(*alpha));
+  TRY(auto beta_motion, motion_of(*beta));
   facts.alpha = *std::move(alpha);
   facts.beta = *std::move(beta);
-  facts.calibration.alpha = *std::move(alpha_motion);
-  facts.calibration.beta = *std::move(beta_motion);
+  facts.calibration.alpha = std::move(alpha_motion);
+  facts.calibration.beta = std::move(beta_motion);
   facts.calibration.common_modes = zero_pose_modes(facts, known.axis_offset_mm);
   return {};
 }
@@ -532,12 +526,10 @@ core::Result<void> weigh_combined(RotaryResult& facts) {
   facts.scale_high = field.scale_at(0.975);
   if (facts.scale_low <= 1.0) return {};
   const double factor = facts.scale * facts.scale;
-  auto alpha = scaled(*facts.calibration.alpha, factor);
-  if (!alpha) return core::fail(alpha.error());
-  auto beta = scaled(*facts.calibration.beta, factor);
-  if (!beta) return core::fail(beta.error());
-  facts.calibration.alpha = *std::move(alpha);
-  facts.calibration.beta = *std::move(beta);
+  TRY(auto alpha, scaled(*facts.calibration.alpha, factor));
+  TRY(auto beta, scaled(*facts.calibration.beta, factor));
+  facts.calibration.alpha = std::move(alpha);
+  facts.calibration.beta = std::move(beta);
   for (fixture::CommonMode& mode : facts.calibration.common_modes) {
     for (auto* const stations : {&mode.alpha, &mode.beta}) {
       for (fixture::ErrorVector& station : *stations) station *= facts.scale;
@@ -548,35 +540,33 @@ core::Result<void> weigh_combined(RotaryResult& facts) {
 
 core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, double tip_mm,
                                     std::vector<Gate>& gates) {
-  const auto task =
-      record::task_of<RotaryTask>(record.features[static_cast<std::size_t>(index)].settings);
-  if (!task) return core::fail(task.error());
-  auto measured = measure(record, index, *task, tip_mm);
-  if (!measured) return core::fail(measured.error());
+  TRY(const auto task,
+      record::task_of<RotaryTask>(record.features[static_cast<std::size_t>(index)].settings));
+  TRY(auto measured, measure(record, index, task, tip_mm));
   RotaryResult facts;
   fixture::Calibration& c = facts.calibration;
-  if (auto dated = date_calibration(record, *task, c); !dated) return core::fail(dated.error());
+  TRY_DO(date_calibration(record, task, c));
   const fixture::Kinematics nominal{c.axis_point_mm, c.axis_offset_mm};
-  if (auto done = identify(*measured, nominal, facts); !done) return core::fail(done.error());
+  TRY_DO(identify(measured, nominal, facts));
   // Once more with the errors that the other axis has where it stood: its place alone, some 25 um
   // off, turns by more than the limit of that angle allows for.
-  if (largest_off_rad(*measured) > 0.0) {
+  if (largest_off_rad(measured) > 0.0) {
     const fixture::Kinematics known = fixture::compensated(nominal, c);
-    if (auto done = identify(*measured, known, facts); !done) return core::fail(done.error());
+    TRY_DO(identify(measured, known, facts));
   }
-  facts.declared = task->uncertainty;
+  facts.declared = task.uncertainty;
   if (facts.declared && facts.declared->expansion_per_K) {
     c.expansion_1_K = record::u_of(facts.declared->expansion_per_K);
   }
-  facts.balls = measured->names;
-  facts.poses = measured->visits.size();
-  facts.touches = measured->touches;
-  facts.touch_sigma_mm = measured->touch_sigma_mm;
-  if (auto placed = check_balls(*measured, facts); !placed) return core::fail(placed.error());
-  judge_balls(*measured, facts);
-  verify_combined(*measured, facts);
-  if (auto weighed = weigh_combined(facts); !weighed) return core::fail(weighed.error());
-  gates = rotary_gates(facts, placing_of(record, *task, *measured, nominal));
+  facts.balls = measured.names;
+  facts.poses = measured.visits.size();
+  facts.touches = measured.touches;
+  facts.touch_sigma_mm = measured.touch_sigma_mm;
+  TRY_DO(check_balls(measured, facts));
+  judge_balls(measured, facts);
+  verify_combined(measured, facts);
+  TRY_DO(weigh_combined(facts));
+  gates = rotary_gates(facts, placing_of(record, task, measured, nominal));
   return facts;
 }
 
@@ -637,17 +627,16 @@ core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int 
   if (!result.tip_radius_mm) {
     return core::fail(core::Code::kCalibration, "the probe was not qualified");
   }
-  auto facts = facts_of(record, index, *result.tip_radius_mm, result.gates);
-  if (!facts) return tl::unexpected(facts.error());
-  if (auto growth = growth_gate(*facts, result)) result.gates.push_back(*std::move(growth));
+  TRY(auto facts, facts_of(record, index, *result.tip_radius_mm, result.gates));
+  if (auto growth = growth_gate(facts, result)) result.gates.push_back(*std::move(growth));
   // Those of the temperature are listed with the gates of every analysis.
-  facts->withheld = voided_by(temperature_gates(record, result));
-  if (!facts->withheld) facts->withheld = voided_by(result.gates);
+  facts.withheld = voided_by(temperature_gates(record, result));
+  if (!facts.withheld) facts.withheld = voided_by(result.gates);
   if (result.temperatures && !result.temperatures->declared) {
-    facts->calibration.temperature_degC = result.temperatures->mean_degC;
+    facts.calibration.temperature_degC = result.temperatures->mean_degC;
   }
-  warn_rotary(*facts, result.gates, result.warnings);
-  return *std::move(facts);
+  warn_rotary(facts, result.gates, result.warnings);
+  return facts;
 }
 
 }  // namespace rondure::evaluation

@@ -89,24 +89,20 @@ struct ProbeHead {
 
 core::Result<ProbeHead> head_of(const SpindleTask& task, const RadiusOf& earlier,
                                 std::vector<Gate>& gates) {
-  const auto stated = layout_of(task);
-  if (!stated) return tl::unexpected(stated.error());
+  TRY(const auto stated, layout_of(task));
   ProbeHead out{
-      {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm}, *stated, std::nullopt};
+      {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm}, stated, std::nullopt};
   if (!task.wheel_radius_from) return out;
-  auto radius = take_radius(task.wheel_radius_from->feature, earlier, gates);
-  if (!radius) return tl::unexpected(radius.error());
-  if (!radius->nominal_mm) {
+  TRY(auto radius, take_radius(task.wheel_radius_from->feature, earlier, gates));
+  if (!radius.nominal_mm) {
     return core::fail(core::Code::kMissingKey,
                       core::phrase("feature {} states no nominal radius, on which the probes were "
                                    "set",
-                                   radius->feature));
+                                   radius.feature));
   }
-  out.arm.wheel_radius_mm = radius->radius_mm;
-  auto turned = fit::turned_by_arm(*stated, out.arm, *radius->nominal_mm);
-  if (!turned) return tl::unexpected(turned.error());
-  out.layout = *turned;
-  out.wheel_radius = *std::move(radius);
+  out.arm.wheel_radius_mm = radius.radius_mm;
+  TRY(out.layout, fit::turned_by_arm(stated, out.arm, *radius.nominal_mm));
+  out.wheel_radius = std::move(radius);
   return out;
 }
 
@@ -155,8 +151,7 @@ core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
                                           const fit::SwingArm& arm, const fit::ProbeLayout& layout,
                                           const fit::ThreeProbeOptions& options, double cutoff_upr,
                                           bool inside) {
-  auto separation = fit::separate_three_probe(readings, arm, layout, options);
-  if (!separation) return core::fail(separation.error());
+  TRY(auto separation, fit::separate_three_probe(readings, arm, layout, options));
   fit::RoundnessOptions roundness;
   roundness.references = {fit::CircleReference::kLs, fit::CircleReference::kMz,
                           fit::CircleReference::kMc, fit::CircleReference::kMi};
@@ -166,54 +161,50 @@ core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
       cutoff_upr > 0.0 ? fit::ProfileFilter::kGaussian : fit::ProfileFilter::kNone;
   if (cutoff_upr > 0.0) roundness.filter.cutoff_upr = cutoff_upr;
   std::vector<double> theta;
-  for (std::size_t n = 0; n < separation->profile.r_mm.size(); ++n)
-    theta.push_back(separation->profile.angle_rad(n));
-  auto part = fit::evaluate_profile(theta, separation->profile.r_mm, roundness);
-  if (!part) return core::fail(part.error());
-  const auto x = turns_of(*separation, &fit::CentreMotion::x_mm);
-  const auto y = turns_of(*separation, &fit::CentreMotion::y_mm);
-  const auto motion_x = fit::axis_motion(separation->alpha_rad, x);
-  const auto motion_y = fit::axis_motion(separation->alpha_rad, y);
-  return SpindleResult{arm, *std::move(separation), *std::move(part), motion_x, motion_y};
+  for (std::size_t n = 0; n < separation.profile.r_mm.size(); ++n)
+    theta.push_back(separation.profile.angle_rad(n));
+  TRY(auto part, fit::evaluate_profile(theta, separation.profile.r_mm, roundness));
+  const auto x = turns_of(separation, &fit::CentreMotion::x_mm);
+  const auto y = turns_of(separation, &fit::CentreMotion::y_mm);
+  const auto motion_x = fit::axis_motion(separation.alpha_rad, x);
+  const auto motion_y = fit::axis_motion(separation.alpha_rad, y);
+  return SpindleResult{arm, std::move(separation), std::move(part), motion_x, motion_y};
 }
 
 core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, int index,
                                              const RadiusOf& earlier, FeatureResult& result) {
   const record::Feature& feature = result.feature;
-  const auto task = record::task_of<SpindleTask>(feature.settings);
-  if (!task) return tl::unexpected(task.error());
-  auto head = head_of(*task, earlier, result.gates);
-  if (!head) return tl::unexpected(head.error());
-  const double cutoff = task->filter == SpindleTask::Filter::kNone ? 0.0 : task->cutoff_upr;
+  TRY(const auto task, record::task_of<SpindleTask>(feature.settings));
+  TRY(auto head, head_of(task, earlier, result.gates));
+  const double cutoff = task.filter == SpindleTask::Filter::kNone ? 0.0 : task.cutoff_upr;
   const fit::ProbeReadings readings = probe_readings(*record.data_of(index, "data"));
-  auto facts = spindle_facts(readings, head->arm, head->layout, separation_options(*task), cutoff,
-                             feature.side == record::Side::kInside);
-  if (!facts) return tl::unexpected(facts.error());
-  facts->feature_id = feature.id;
-  facts->influences = task->uncertainty;
-  if (task->probe_range_um) facts->probe_range_mm = *task->probe_range_um * kMicrometre;
+  TRY(auto facts, spindle_facts(readings, head.arm, head.layout, separation_options(task), cutoff,
+                                feature.side == record::Side::kInside));
+  facts.feature_id = feature.id;
+  facts.influences = task.uncertainty;
+  if (task.probe_range_um) facts.probe_range_mm = *task.probe_range_um * kMicrometre;
   for (const std::vector<double>& probe : readings.h_mm) {
     for (const double h : probe) {
-      facts->greatest_reading_mm = std::max(facts->greatest_reading_mm, std::abs(h));
+      facts.greatest_reading_mm = std::max(facts.greatest_reading_mm, std::abs(h));
     }
   }
-  facts->no_interval_because = obstacle_of(*task);
-  facts->wheel_radius = std::move(head->wheel_radius);
-  const auto sources = probe_sources(facts->declares_probes() ? *task->uncertainty : usual_probes(),
-                                     facts->arm, head->layout, facts->wheel_radius);
-  facts->gain_within = gain_within(sources, facts->separation);
-  facts->greatest_gain = task->greatest_gain;
-  facts->first_harmonic = fit::observe_first_harmonic(facts->separation, covariance_of(sources));
-  for (Gate& gate : gates_of(*facts, readings, feature.characteristics)) {
-    if (gate.outcome == Gate::Outcome::kVoids && voids_all(gate) && !facts->void_because) {
-      facts->void_because = gate.reason;
+  facts.no_interval_because = obstacle_of(task);
+  facts.wheel_radius = std::move(head.wheel_radius);
+  const auto sources = probe_sources(facts.declares_probes() ? *task.uncertainty : usual_probes(),
+                                     facts.arm, head.layout, facts.wheel_radius);
+  facts.gain_within = gain_within(sources, facts.separation);
+  facts.greatest_gain = task.greatest_gain;
+  facts.first_harmonic = fit::observe_first_harmonic(facts.separation, covariance_of(sources));
+  for (Gate& gate : gates_of(facts, readings, feature.characteristics)) {
+    if (gate.outcome == Gate::Outcome::kVoids && voids_all(gate) && !facts.void_because) {
+      facts.void_because = gate.reason;
     }
     result.gates.push_back(std::move(gate));
   }
-  result.warnings = facts->separation.warnings;
-  result.warnings.insert(result.warnings.end(), facts->roundness.warnings.begin(),
-                         facts->roundness.warnings.end());
-  return *std::move(facts);
+  result.warnings = facts.separation.warnings;
+  result.warnings.insert(result.warnings.end(), facts.roundness.warnings.begin(),
+                         facts.roundness.warnings.end());
+  return facts;
 }
 
 }  // namespace rondure::evaluation

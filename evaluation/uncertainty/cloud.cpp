@@ -18,10 +18,9 @@ core::Result<FormCloud> located(FormKind kind, std::span<const Vector3d> points_
   FormCloud cloud;
   cloud.kind = kind;
   if (kind != FormKind::kRoundness) {
-    const auto cylinder = fit::ls_cylinder(points_mm, near_direction);
-    if (!cylinder) return core::fail(cylinder.error());
-    cloud.axis = cylinder->axis;
-    cloud.radius_mm = cylinder->radius_mm;
+    TRY(const auto cylinder, fit::ls_cylinder(points_mm, near_direction));
+    cloud.axis = cylinder.axis;
+    cloud.radius_mm = cylinder.radius_mm;
     return cloud;
   }
   cloud.axis.direction = near_direction.value_or(Vector3d::UnitZ()).normalized();
@@ -30,10 +29,9 @@ core::Result<FormCloud> located(FormKind kind, std::span<const Vector3d> points_
   std::vector<Eigen::Vector2d> plane;
   plane.reserve(points_mm.size());
   for (const Vector3d& p : points_mm) plane.emplace_back(across.transpose() * (p - origin));
-  const auto circle = fit::ls_circle(plane);
-  if (!circle) return core::fail(circle.error());
-  cloud.axis.point_mm = origin + across * circle->center_mm;
-  cloud.radius_mm = circle->radius_mm;
+  TRY(const auto circle, fit::ls_circle(plane));
+  cloud.axis.point_mm = origin + across * circle.center_mm;
+  cloud.radius_mm = circle.radius_mm;
   return cloud;
 }
 

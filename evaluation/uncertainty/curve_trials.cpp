@@ -361,8 +361,8 @@ core::Result<UncertaintyResult> statement_of_trials(TrialValues values,
                                                     std::vector<LinearTerm> terms,
                                                     std::vector<InfluenceStatement> declaration,
                                                     const UncertaintyOptions& options) {
-  if (auto good = check_options(options); !good) return core::fail(good.error());
-  if (auto good = check_trials(values); !good) return core::fail(good.error());
+  TRY_DO(check_options(options));
+  TRY_DO(check_trials(values));
   // The trials as drawn hold the noise twice: their upper end is a bound under any circumstances.
   const double as_drawn_mm = statement_of(values.values_mm, options.coverage).high_mm;
   const bool nothing_left = turn(values);

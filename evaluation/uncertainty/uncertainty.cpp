@@ -65,7 +65,7 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
   const std::size_t least = std::min(each(options.least_trials), most);
   const std::size_t budget = options.budget_trials > 0 ? each(options.budget_trials) : 0;
   chains.run(options.tolerance_mm > 0.0 ? least : most, budget);
-  if (const auto good = check_all_values(chains); !good) return core::fail(good.error());
+  TRY_DO(check_all_values(chains));
   while (options.tolerance_mm > 0.0) {
     const double worst = std::max(left_open(chains, &ChainValues::sampled_mm, options.coverage),
                                   left_open(chains, &ChainValues::whole_mm, options.coverage));
@@ -73,7 +73,7 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
     const std::size_t done = chains.values().front().sampled_mm.size();
     if (out.tolerance_reached || done >= most) break;
     chains.run(std::min(std::max<std::size_t>(least / 2, 1), most - done), budget);
-    if (const auto good = check_all_values(chains); !good) return core::fail(good.error());
+    TRY_DO(check_all_values(chains));
   }
   out.uncorrected_mm = chains.uncorrected_mm();
   out.sampled = statement_of(all_of(chains, &ChainValues::sampled_mm), options.coverage);
@@ -128,7 +128,7 @@ core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const 
     for (const ChainValues& chain : chains.values()) {
       changes.insert(changes.end(), chain.changes_mm[k].begin(), chain.changes_mm[k].end());
     }
-    if (auto good = check_values(changes); !good) return core::fail(good.error());
+    TRY_DO(check_values(changes));
     BudgetLine line;
     line.name = errors.names()[k];
     if (!changes.empty()) {
@@ -229,40 +229,29 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
                                                         const Influences& influences,
                                                         const std::optional<FormSpectrum>& spectrum,
                                                         const UncertaintyOptions& options) {
-  if (const auto good = check_all(cloud, influences, spectrum, options); !good) {
-    return core::fail(good.error());
-  }
+  TRY_DO(check_all(cloud, influences, spectrum, options));
   const ErrorModel errors(cloud, influences);
   const bool declared = spectrum && !spectrum->terms.empty();
   const FormModel model(cloud, errors, declared ? &*spectrum : nullptr, options.expected_spots);
   if (noise_is_unknown(errors, influences)) return only_bounds(cloud, influences, model, options);
-  if (const auto good = guard_outliers(model); !good) return core::fail(good.error());
-  const auto extent = extent_of(cloud, model, spectrum);
-  if (!extent) return core::fail(extent.error());
-  FormChains chains(cloud, errors, model, *extent, options.seed, options.chains,
+  TRY_DO(guard_outliers(model));
+  TRY(const auto extent, extent_of(cloud, model, spectrum));
+  FormChains chains(cloud, errors, model, extent, options.seed, options.chains,
                     threads_of(options));
   auto found = run_chains(chains, options, cloud.points.size());
   if (!found) return found;
   UncertaintyResult& out = *found;
   const std::vector<DrawTally> tallies = tallies_of(chains);
   out.finding = finding_of(tallies, cloud.points.size());
-  if (const auto good = guard_scatter(tallies, cloud.points.size(), out.finding, out.notes);
-      !good) {
-    return core::fail(good.error());
-  }
+  TRY_DO(guard_scatter(tallies, cloud.points.size(), out.finding, out.notes));
   // The bound holds where the value is a seminorm of the deviations.
   const bool two_sided = cloud.reference == record::Reference::kMinimumZone ||
                          cloud.reference == record::Reference::kLeastSquares;
   if (two_sided) {
-    if (const auto good = guard_correction(chains, out); !good) return core::fail(good.error());
+    TRY_DO(guard_correction(chains, out));
   }
-  if (const auto good = guard_reading(all_of(chains, &ChainValues::read_mm), out.uncorrected_mm);
-      !good) {
-    return core::fail(good.error());
-  }
-  auto budget = budget_of(chains, errors, options);
-  if (!budget) return core::fail(budget.error());
-  out.budget = *std::move(budget);
+  TRY_DO(guard_reading(all_of(chains, &ChainValues::read_mm), out.uncorrected_mm));
+  TRY(out.budget, budget_of(chains, errors, options));
   out.declaration = influence_statements(influences);
   if (spectrum) out.spectrum_source = source_of(model, *spectrum);
   return found;
@@ -272,9 +261,7 @@ core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influenc
                                         const FormSpectrum& spectrum, std::uint64_t seed) {
   FormCloud cloud = nominal;
   for (FormPoint& point : cloud.points) point.deviation_mm = 0.0;
-  if (const auto good = check_all(cloud, influences, spectrum, {}); !good) {
-    return core::fail(good.error());
-  }
+  TRY_DO(check_all(cloud, influences, spectrum, {}));
   const Eigen::MatrixXd columns = spectrum_columns(spectrum, cloud.points);
   core::KeyedNoise noise(seed, {0});
   Eigen::VectorXd deviations;

@@ -85,10 +85,9 @@ fit::WheelPathOptions path_options(const GroundSurfaceTask& task,
 core::Result<std::optional<fit::WheelPathTask>> path_task(const WheelTask& wheel) {
   if (!wheel.surface) return std::nullopt;
   const GroundSurfaceTask& task = *wheel.surface;
-  auto surface = surface_of(task);
-  if (!surface) return core::fail(surface.error());
-  const auto options = path_options(task, *surface);
-  fit::WheelPathTask out{*std::move(surface), options, fit::RadiusChoice::kMean,
+  TRY(auto surface, surface_of(task));
+  const auto options = path_options(task, surface);
+  fit::WheelPathTask out{std::move(surface), options, fit::RadiusChoice::kMean,
                          task.repeatability_um * kMicrometre, task.touch_off_mm};
   if (task.radius == GroundSurfaceTask::Radius::kEffective) {
     out.radius = fit::RadiusChoice::kEffective;
@@ -137,9 +136,8 @@ core::Result<AnalysisValue> roundness(const WheelResult& facts,
   AnalysisValue out;
   if (least_squares) {
     // Of all points: a point that the robust variant left out of the centre is form all the same.
-    const auto all = fit::ls_circle(facts.points_mm);
-    if (!all) return core::fail(all.error());
-    out.value_mm = all->deviation_mm;
+    TRY(const auto all, fit::ls_circle(facts.points_mm));
+    out.value_mm = all.deviation_mm;
   } else if (m.zone) {
     out.value_mm = m.zone->width_mm();
   } else {
@@ -251,24 +249,21 @@ core::Phrase sampling_text(const WheelResult& facts) {
 
 core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,
                                          const EarlierWheel& earlier, FeatureResult& result) {
-  const auto asked = record::task_of<WheelTask>(result.feature.settings);
-  if (!asked) return tl::unexpected(asked.error());
-  auto task = path_task(*asked);
-  if (!task) return tl::unexpected(task.error());
+  TRY(const auto asked, record::task_of<WheelTask>(result.feature.settings));
+  TRY(auto task, path_task(asked));
   WheelResult facts;
   facts.points_mm = points_of(*record.data_of(index, "data"));
-  facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
-  facts.declared = asked->uncertainty;
-  facts.expansion_1_K = asked->expansion_per_K;
+  facts.task = {wheel_options(asked, record.header.seed), std::move(task)};
+  facts.declared = asked.uncertainty;
+  facts.expansion_1_K = asked.expansion_per_K;
   if (result.temperatures) facts.above_20_K = result.temperatures->mean_degC - 20.0;
   std::optional<core::Phrase> chain;
-  if (asked->axis_from) {
-    chain = take_axis(asked->axis_from->feature, earlier, facts);
-    result.gates.push_back(chain_gate(asked->axis_from->feature, chain));
+  if (asked.axis_from) {
+    chain = take_axis(asked.axis_from->feature, earlier, facts);
+    result.gates.push_back(chain_gate(asked.axis_from->feature, chain));
   }
-  auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
-  if (!evaluation) return tl::unexpected(evaluation.error());
-  facts.evaluation = *std::move(evaluation);
+  TRY(auto evaluation, fit::evaluate_wheel(facts.points_mm, facts.task));
+  facts.evaluation = std::move(evaluation);
   if (chain) facts.evaluation.wheel.runout_absent = *chain;
   bound_runout(result.feature.characteristics, facts);
   if (const auto stale = age_fault(record, result.feature); stale && facts.evaluation.path) {

@@ -478,9 +478,8 @@ std::optional<core::Phrase> undeclared(const WheelResult& result) {
 }
 
 core::Result<Edge> edge_of(const WheelResult& result) {
-  const auto circle = fit::ls_circle(result.points_mm);
-  if (!circle) return core::fail(circle.error());
-  return Edge(result.points_mm, *circle, result.task.wheel.axis_mm);
+  TRY(const auto circle, fit::ls_circle(result.points_mm));
+  return Edge(result.points_mm, circle, result.task.wheel.axis_mm);
 }
 
 }  // namespace
@@ -537,9 +536,8 @@ core::Result<MeasuredRadius> measured_radius(const WheelResult& swept, const std
   }
   MeasuredRadius out{id, wheel.radius_mm, swept.task.wheel.nominal_radius_mm, std::nullopt};
   if (!swept.declared || !swept.declared->point_um) return out;
-  const auto edge = edge_of(swept);
-  if (!edge) return core::fail(edge.error());
-  out.errors = errors_of_radius(swept, *edge);
+  TRY(const auto edge, edge_of(swept));
+  out.errors = errors_of_radius(swept, edge);
   return out;
 }
 

@@ -71,18 +71,17 @@ core::Result<MeasuredAxis> measured_axis(const WheelResult& swept, const std::st
             "circle",
             id, wheel.correlation));
   }
-  const auto center = center_of_points(wheel, id);
-  if (!center) return core::fail(center.error());
+  TRY(const auto center, center_of_points(wheel, id));
   MeasuredAxis out;
   out.feature = id;
   out.center_mm = wheel.center_mm;
   if (!swept.declared) return out;
   if (swept.declared->point_um) {
     const double point_mm = record::u_of(swept.declared->point_um) * core::kMicrometre;
-    out.root_mm = point_mm * root_of(center->per_variance.topLeftCorner<2, 2>());
+    out.root_mm = point_mm * root_of(center.per_variance.topLeftCorner<2, 2>());
   }
   out.squareness_urad = swept.declared->squareness_urad;
-  out.per_squareness_mm = center->per_squareness_mm;
+  out.per_squareness_mm = center.per_squareness_mm;
   return out;
 }
 

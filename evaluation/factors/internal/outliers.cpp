@@ -32,38 +32,34 @@ std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rul
 /// Distances from the least-squares circle of a section.
 core::Result<std::vector<double>> section_deviations(const Points3& points) {
   const auto plane = across_axis(points);
-  const auto circle = fit::ls_circle(plane);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, fit::ls_circle(plane));
   std::vector<double> out;
   for (const Eigen::Vector2d& p : plane)
-    out.push_back((p - circle->center_mm).norm() - circle->radius_mm);
+    out.push_back((p - circle.center_mm).norm() - circle.radius_mm);
   return out;
 }
 
 core::Result<std::vector<double>> cylinder_deviations(const Points3& points) {
-  const auto cylinder = fit::ls_cylinder(points, Eigen::Vector3d::UnitZ());
-  if (!cylinder) return core::fail(cylinder.error());
+  TRY(const auto cylinder, fit::ls_cylinder(points, Eigen::Vector3d::UnitZ()));
   std::vector<double> out;
   for (const Eigen::Vector3d& p : points)
-    out.push_back(fit::distance_mm(cylinder->axis, p) - cylinder->radius_mm);
+    out.push_back(fit::distance_mm(cylinder.axis, p) - cylinder.radius_mm);
   return out;
 }
 
 /// The outlier flags of all points, layer by layer.
 core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierRule rule) {
   if (points.form == Form::kCylindricity) {
-    const auto deviations = cylinder_deviations(points.all_mm());
-    if (!deviations) return core::fail(deviations.error());
-    auto out = flagged(*deviations, rule, 5.0);
-    if (auto checked = count_of_outliers(out); !checked) return core::fail(checked.error());
+    TRY(const auto deviations, cylinder_deviations(points.all_mm()));
+    auto out = flagged(deviations, rule, 5.0);
+    TRY_DO(count_of_outliers(out));
     return out;
   }
   std::vector<bool> out;
   for (const Points3& layer : points.layers_mm) {
-    const auto deviations = section_deviations(layer);
-    if (!deviations) return core::fail(deviations.error());
-    const auto of_layer = flagged(*deviations, rule, 3.0);
-    if (auto checked = count_of_outliers(of_layer); !checked) return core::fail(checked.error());
+    TRY(const auto deviations, section_deviations(layer));
+    const auto of_layer = flagged(deviations, rule, 3.0);
+    TRY_DO(count_of_outliers(of_layer));
     out.insert(out.end(), of_layer.begin(), of_layer.end());
   }
   return out;
@@ -78,14 +74,13 @@ std::string_view name_of(OutlierRule rule) {
 
 core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, OutlierRule rule) {
   if (rule == OutlierRule::kNone) return WithoutOutliers{points, 0};
-  const auto out_of_all = outliers_of(points, rule);
-  if (!out_of_all) return core::fail(out_of_all.error());
+  TRY(const auto out_of_all, outliers_of(points, rule));
   WithoutOutliers out{{points.form, points.layers_known, {}}, 0};
   std::size_t row = 0;
   for (const Points3& layer : points.layers_mm) {
     Points3 kept;
     for (const Eigen::Vector3d& p : layer) {
-      if (!(*out_of_all)[row++]) kept.push_back(p);
+      if (!out_of_all[row++]) kept.push_back(p);
     }
     out.left_out += layer.size() - kept.size();
     if (!kept.empty()) out.points.layers_mm.push_back(std::move(kept));

@@ -148,7 +148,7 @@ core::Result<Sections> asked_sections(const PreparedSurface& surface,
                       core::phrase("the points form no sections; give the file a column layer"));
   }
   if (indication.section != Indication::Section::kSCS) return all;
-  if (auto ascend = check_ascending(surface, all); !ascend) return core::fail(ascend.error());
+  TRY_DO(check_ascending(surface, all));
   Sections out;
   for (const double number : indication.section_layers) {
     const auto found = std::ranges::find_if(
@@ -208,10 +208,9 @@ core::Result<fit::ResampledProfile> section_profile(const fit::Section& section)
     theta_rad.push_back(std::atan2(v.y(), v.x()));
     r_mm.push_back(v.norm());
   }
-  const auto profile = fit::ordered_profile(theta_rad, r_mm);
-  if (!profile) return core::fail(profile.error());
-  if (!is_uniform(profile->theta_rad)) return fit::resampled(*profile);
-  return fit::ResampledProfile{.profile = {profile->theta_rad.front(), profile->r_mm}};
+  TRY(const auto profile, fit::ordered_profile(theta_rad, r_mm));
+  if (!is_uniform(profile.theta_rad)) return fit::resampled(profile);
+  return fit::ResampledProfile{.profile = {profile.theta_rad.front(), profile.r_mm}};
 }
 
 void add_rows(const PreparedSurface& surface, std::span<const std::size_t> points, Finding& out) {

@@ -54,18 +54,16 @@ core::Result<Associated> proven_cylinder(fit::SpacePoints points_mm, Reference r
                                          const Eigen::Vector3d& direction,
                                          const fit::CylinderProofOptions& options) {
   if (reference == Reference::kMinimumZone) {
-    const auto zone = fit::min_zone_cylinder(points_mm, direction, options);
-    if (!zone) return core::fail(zone.error());
-    Associated out = of_zone(*zone);
-    out.axis = zone->axis;
+    TRY(const auto zone, fit::min_zone_cylinder(points_mm, direction, options));
+    Associated out = of_zone(zone);
+    out.axis = zone.axis;
     return out;
   }
-  const auto fit = reference == Reference::kMinimumCircumscribed
-                       ? fit::min_circumscribed_cylinder(points_mm, direction, options)
-                       : fit::max_inscribed_cylinder(points_mm, direction, options);
-  if (!fit) return core::fail(fit.error());
-  Associated out = of_one_sided(*fit);
-  out.axis = fit->axis;
+  TRY(const auto fit, reference == Reference::kMinimumCircumscribed
+                          ? fit::min_circumscribed_cylinder(points_mm, direction, options)
+                          : fit::max_inscribed_cylinder(points_mm, direction, options));
+  Associated out = of_one_sided(fit);
+  out.axis = fit.axis;
   return out;
 }
 
@@ -80,25 +78,23 @@ core::Result<Associated> next_cylinder(const PreparedSurface& surface, Reference
   const auto& known =
       reference == Reference::kMaximumInscribed ? surface.of->mi_cylinder : surface.of->mc_cylinder;
   fit::CylinderZoneFitter fitter;
-  core::Result<fit::CylinderZone> zone =
-      reference != Reference::kMinimumZone && known
-          ? fitter.fit_from(surface.points_mm, known->axis, weights, radius_mm)
-          : fitter.fit(surface.points_mm, direction, weights);
-  if (!zone) return core::fail(zone.error());
-  if (zone->ending != fit::ZoneEnding::kConverged) {
+  TRY(const auto zone, reference != Reference::kMinimumZone && known
+                           ? fitter.fit_from(surface.points_mm, known->axis, weights, radius_mm)
+                           : fitter.fit(surface.points_mm, direction, weights));
+  if (zone.ending != fit::ZoneEnding::kConverged) {
     return core::fail(core::Code::kNotConverged,
                       core::phrase("the search for the reference did not reach its optimum"));
   }
   Associated out;
-  out.radius_mm = reference == Reference::kMinimumCircumscribed ? zone->outer_radius_mm
+  out.radius_mm = reference == Reference::kMinimumCircumscribed ? zone.outer_radius_mm
                   : reference == Reference::kMaximumInscribed
-                      ? zone->inner_radius_mm
-                      : 0.5 * (zone->outer_radius_mm + zone->inner_radius_mm);
-  out.deviation_mm = zone->width_mm();
-  out.axis = zone->place;
-  out.pivots = zone->pivots;
-  add_contacts(zone->outer, out);
-  add_contacts(zone->inner, out);
+                      ? zone.inner_radius_mm
+                      : 0.5 * (zone.outer_radius_mm + zone.inner_radius_mm);
+  out.deviation_mm = zone.width_mm();
+  out.axis = zone.place;
+  out.pivots = zone.pivots;
+  add_contacts(zone.outer, out);
+  add_contacts(zone.inner, out);
   return out;
 }
 
@@ -137,20 +133,19 @@ core::Result<void> check_turn(fit::SpacePoints points_mm, const fit::Axis& axis)
 
 core::Result<Associated> associated_cylinder(const PreparedSurface& surface, Reference reference,
                                              Proof proof) {
-  if (auto checked = check_cylinder(surface); !checked) return core::fail(checked.error());
+  TRY_DO(check_cylinder(surface));
   const fit::SpacePoints points_mm = surface.points_mm;
-  const auto ls = fit::ls_cylinder(points_mm, surface.axis.direction);
-  if (!ls) return core::fail(ls.error());
-  const Eigen::Vector3d& direction = ls->axis.direction;
-  if (auto checked = check_turn(points_mm, ls->axis); !checked) return core::fail(checked.error());
+  TRY(const auto ls, fit::ls_cylinder(points_mm, surface.axis.direction));
+  const Eigen::Vector3d& direction = ls.axis.direction;
+  TRY_DO(check_turn(points_mm, ls.axis));
   if (reference == Reference::kLeastSquares) {
     Associated out;
-    out.radius_mm = ls->radius_mm;
-    out.deviation_mm = ls->deviation_mm;
-    out.axis = ls->axis;
+    out.radius_mm = ls.radius_mm;
+    out.deviation_mm = ls.deviation_mm;
+    out.axis = ls.axis;
     return out;
   }
-  if (proof == Proof::kNone) return next_cylinder(surface, reference, direction, ls->radius_mm);
+  if (proof == Proof::kNone) return next_cylinder(surface, reference, direction, ls.radius_mm);
   // As the evaluation of the feature: only layers say something of the direction of a points file.
   const fit::AxisScope cone{.kind = fit::AxisScope::Kind::kCone, .nominal = direction};
   fit::CylinderProofOptions options;
@@ -166,29 +161,26 @@ core::Result<Associated> associated_circle(fit::PlanePoints points_mm, Reference
                                            Proof proof) {
   const fit::CenterProofOptions options{.global = proof == Proof::kFull, .search = {}};
   if (reference == Reference::kLeastSquares) {
-    const auto circle = fit::ls_circle(points_mm);
-    if (!circle) return core::fail(circle.error());
+    TRY(const auto circle, fit::ls_circle(points_mm));
     Associated out;
-    out.radius_mm = circle->radius_mm;
-    out.deviation_mm = circle->deviation_mm;
-    out.center_mm = circle->center_mm;
+    out.radius_mm = circle.radius_mm;
+    out.deviation_mm = circle.deviation_mm;
+    out.center_mm = circle.center_mm;
     return out;
   }
   if (reference == Reference::kMinimumZone) {
-    const auto zone = fit::min_zone_circle(points_mm, options);
-    if (!zone) return core::fail(zone.error());
-    Associated out = of_zone(*zone);
-    out.center_mm = zone->center_mm;
-    out.exact_fit = zone->exact_fit;
+    TRY(const auto zone, fit::min_zone_circle(points_mm, options));
+    Associated out = of_zone(zone);
+    out.center_mm = zone.center_mm;
+    out.exact_fit = zone.exact_fit;
     return out;
   }
-  const auto circle = reference == Reference::kMinimumCircumscribed
-                          ? fit::min_circumscribed_circle(points_mm)
-                          : fit::max_inscribed_circle(points_mm, options);
-  if (!circle) return core::fail(circle.error());
-  Associated out = of_one_sided(*circle);
-  out.center_mm = circle->center_mm;
-  out.range = circle->range;
+  TRY(const auto circle, reference == Reference::kMinimumCircumscribed
+                             ? fit::min_circumscribed_circle(points_mm)
+                             : fit::max_inscribed_circle(points_mm, options));
+  Associated out = of_one_sided(circle);
+  out.center_mm = circle.center_mm;
+  out.range = circle.range;
   return out;
 }
 

@@ -151,37 +151,33 @@ core::Result<void> filter_section(PreparedSurface& surface, const SurfaceSection
   for (const std::size_t i : section.points) {
     points.emplace_back(frame.transpose() * (surface.points_mm[i] - surface.axis.point_mm));
   }
-  const auto profile = round_profile(points);
-  if (!profile) return core::fail(profile.error());
-  const fit::AngularProfile& measured = profile->by_angle;
+  TRY(const auto profile, round_profile(points));
+  const fit::AngularProfile& measured = profile.by_angle;
   std::vector<Eigen::Vector2d> left_out;
   for (const std::size_t row : window_rows(surface, section)) {
     left_out.emplace_back(frame.transpose() *
                           (surface.of->cloud[row].tip_mm - surface.axis.point_mm));
   }
-  const Spacing spacing = spacing_of(*profile, left_out);
+  const Spacing spacing = spacing_of(profile, left_out);
   if (auto checked = check_carries(spacing, section.layer, options.cutoff_upr); !checked) {
     return checked;
   }
   std::vector<double> filtered;
   if (section.gap) {
-    auto line = fit::filter_with_windows(measured, options.cutoff_upr);
-    if (!line) return core::fail(line.error());
-    filtered = *std::move(line);
+    TRY(filtered, fit::filter_with_windows(measured, options.cutoff_upr));
   } else {
-    auto line = fit::filter_at_angles(measured, options);
-    if (!line) return core::fail(line.error());
-    filtered = std::move(line->r_mm);
+    TRY(auto line, fit::filter_at_angles(measured, options));
+    filtered = std::move(line.r_mm);
     if (near_limit != nullptr) find_near_limit(measured, filtered, section.layer, *near_limit);
   }
   const auto move = [&](std::size_t i, double r) {
-    surface.points_mm[section.points[i]] += frame * ((r - profile->r_mm[i]) * profile->outward[i]);
+    surface.points_mm[section.points[i]] += frame * ((r - profile.r_mm[i]) * profile.outward[i]);
   };
   if (measured.merged == 0) {
     for (std::size_t k = 0; k < filtered.size(); ++k) move(measured.rows[k], filtered[k]);
   } else {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      move(i, filtered[nearest(measured.theta_rad, profile->theta_rad[i])]);
+      move(i, filtered[nearest(measured.theta_rad, profile.theta_rad[i])]);
     }
   }
   return {};
@@ -353,12 +349,11 @@ core::Result<void> filter_along(PreparedSurface& surface, double cutoff_mm) {
     if (auto checked = check_layers(surface, sections, {}, levels, cutoff_mm); !checked) {
       return checked;
     }
-    auto lines = grid_of(surface, sections, cutoff_mm);
-    if (!lines) return core::fail(lines.error());
-    if (auto checked = check_layers(surface, sections, *lines, levels, cutoff_mm); !checked) {
+    TRY(auto lines, grid_of(surface, sections, cutoff_mm));
+    if (auto checked = check_layers(surface, sections, lines, levels, cutoff_mm); !checked) {
       return checked;
     }
-    for (std::vector<GeneratrixPoint>& line : *lines) {
+    for (std::vector<GeneratrixPoint>& line : lines) {
       std::sort(line.begin(), line.end(),
                 [](const auto& a, const auto& b) { return a.height_mm < b.height_mm; });
       std::vector<double> heights;
@@ -367,14 +362,13 @@ core::Result<void> filter_along(PreparedSurface& surface, double cutoff_mm) {
         heights.push_back(point.height_mm);
         distances.push_back(point.distance_mm);
       }
-      const auto mean = fit::filter_open(heights, distances, options);
-      if (!mean) return core::fail(mean.error());
+      TRY(const auto mean, fit::filter_open(heights, distances, options));
       for (std::size_t i = 0; i < line.size(); ++i) {
         const fit::Axis& axis = surface.axis;
         Eigen::Vector3d& p = surface.points_mm[line[i].index];
         const Eigen::Vector3d v = p - axis.point_mm;
         const Eigen::Vector3d out = v - v.dot(axis.direction) * axis.direction;
-        p += (mean->r_mm[i] / line[i].distance_mm - 1.0) * out;
+        p += (mean.r_mm[i] / line[i].distance_mm - 1.0) * out;
       }
     }
   }

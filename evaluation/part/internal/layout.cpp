@@ -70,17 +70,17 @@ class LayoutBuilder {
 
   core::Result<SurfaceLayout> build() {
     for (const WindowTask& window : settings_.exclude) {
-      if (auto checked = check_window(window); !checked) return core::fail(checked.error());
+      TRY_DO(check_window(window));
     }
-    if (auto done = find_axis(); !done) return core::fail(done.error());
+    TRY_DO(find_axis());
     find_sections();
-    if (auto done = leave_out_found(); !done) return core::fail(done.error());
+    TRY_DO(leave_out_found());
     for (std::size_t row = 0; row < tips_.size(); ++row) {
       if (!out_.kept[row]) out_.windows.push_back({row, window_of_[row]});
     }
-    if (auto done = take_windows_from_sections(); !done) return core::fail(done.error());
-    if (auto done = check_thickness(); !done) return core::fail(done.error());
-    if (auto done = find_outliers(); !done) return core::fail(done.error());
+    TRY_DO(take_windows_from_sections());
+    TRY_DO(check_thickness());
+    TRY_DO(find_outliers());
     return std::move(out_);
   }
 
@@ -98,9 +98,9 @@ class LayoutBuilder {
   core::Result<fit::Axis> axis_of_kept() const {
     const bool all = std::find(out_.kept.begin(), out_.kept.end(), false) == out_.kept.end();
     if (all && feature_.ls_cylinder) return feature_.ls_cylinder->axis;
-    const auto fit = fitted(feature_, chosen_points(tips_, out_.kept), near(), Deviations::kSkip);
-    if (!fit) return core::fail(fit.error());
-    return fit->axis;
+    TRY(const auto fit,
+        fitted(feature_, chosen_points(tips_, out_.kept), near(), Deviations::kSkip));
+    return fit.axis;
   }
 
   /// Places of all points about an axis.
@@ -155,10 +155,9 @@ class LayoutBuilder {
   core::Result<void> find_axis() {
     find_heights();
     for (int round = 0; round < kMostRounds; ++round) {
-      const auto axis = axis_of_kept();
-      if (!axis) return core::fail(axis.error());
-      out_.axis = *axis;
-      place(*axis);
+      TRY(const auto axis, axis_of_kept());
+      out_.axis = axis;
+      place(axis);
       std::vector<bool> kept(tips_.size(), true);
       window_of_.assign(tips_.size(), {});
       for (const WindowTask& window : settings_.exclude) {
@@ -250,9 +249,7 @@ class LayoutBuilder {
       }
     }
     out_.kept = std::move(kept);
-    const auto axis = axis_of_kept();
-    if (!axis) return core::fail(axis.error());
-    out_.axis = *axis;
+    TRY(out_.axis, axis_of_kept());
     return {};
   }
 
@@ -270,9 +267,8 @@ class LayoutBuilder {
       r.push_back(places_[row].radius_mm);
     }
     if (std::find(inside.begin(), inside.end(), true) == inside.end()) return {};
-    const auto off = off_profile(angle, r, inside, *window.found_beyond_um * core::kMicrometre);
-    if (!off) return core::fail(off.error());
-    const auto found = std::count(off->begin(), off->end(), true);
+    TRY(const auto off, off_profile(angle, r, inside, *window.found_beyond_um * core::kMicrometre));
+    const auto found = std::count(off.begin(), off.end(), true);
     constexpr long kMostShare = 5;  // one in five
     if (kMostShare * found > static_cast<long>(rows.size())) {
       return core::fail(said(
@@ -283,7 +279,7 @@ class LayoutBuilder {
                        *window.found_beyond_um)));
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(*off)[i]) continue;
+      if (!off[i]) continue;
       kept[rows[i]] = false;
       window_of_[rows[i]] = window.name;
     }
@@ -340,20 +336,19 @@ class LayoutBuilder {
   }
 
   core::Result<void> find_outliers() {
-    const auto fit =
-        fitted(feature_, chosen_points(tips_, out_.kept), near(), Deviations::kCompute);
-    if (!fit) return core::fail(fit.error());
-    const std::vector<bool> beyond = beyond_five_scales(fit->off_mm);
+    TRY(const auto fit,
+        fitted(feature_, chosen_points(tips_, out_.kept), near(), Deviations::kCompute));
+    const std::vector<bool> beyond = beyond_five_scales(fit.off_mm);
     if (const auto count = count_of_outliers(beyond); !count) {
       out_.too_many = count.error();
       return {};
     }
-    const double middle = core::median(fit->off_mm);
+    const double middle = core::median(fit.off_mm);
     std::vector<std::pair<double, std::size_t>> far;
     std::size_t i = 0;
     for (std::size_t row = 0; row < tips_.size(); ++row) {
       if (!out_.kept[row]) continue;
-      if (beyond[i]) far.emplace_back(fit->off_mm[i] - middle, row);
+      if (beyond[i]) far.emplace_back(fit.off_mm[i] - middle, row);
       ++i;
     }
     std::stable_sort(far.begin(), far.end(), [](const auto& a, const auto& b) {
@@ -539,9 +534,8 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
   const auto from_axis = [&](const Eigen::Vector3d& p) { return fit::distance_mm(out.axis, p); };
   switch (feature.feature.shape) {
     case Shape::kCylinder: {
-      const auto cylinder = fit::ls_cylinder(points_mm, near);
-      if (!cylinder) return core::fail(cylinder.error());
-      out.axis = cylinder->axis;
+      TRY(const auto cylinder, fit::ls_cylinder(points_mm, near));
+      out.axis = cylinder.axis;
       fill(from_axis);
       return out;
     }
@@ -552,31 +546,27 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
       for (const Eigen::Vector3d& p : points_mm) {
         plane.emplace_back(frame.transpose() * (p - up.point_mm));
       }
-      const auto circle = fit::ls_circle(plane);
-      if (!circle) return core::fail(circle.error());
-      out.axis = {up.point_mm + frame * circle->center_mm, up.direction};
+      TRY(const auto circle, fit::ls_circle(plane));
+      out.axis = {up.point_mm + frame * circle.center_mm, up.direction};
       fill(from_axis);
       return out;
     }
     case Shape::kPlane: {
-      const auto plane = fit::ls_plane(points_mm, near);
-      if (!plane) return core::fail(plane.error());
-      out.axis = {plane->plane.point_mm, plane->plane.normal};
-      fill([&](const Eigen::Vector3d& p) { return fit::height_mm(plane->plane, p); });
+      TRY(const auto plane, fit::ls_plane(points_mm, near));
+      out.axis = {plane.plane.point_mm, plane.plane.normal};
+      fill([&](const Eigen::Vector3d& p) { return fit::height_mm(plane.plane, p); });
       return out;
     }
     case Shape::kSphere: {
-      const auto sphere = fit::ls_sphere(points_mm);
-      if (!sphere) return core::fail(sphere.error());
-      out.axis = {sphere->center_mm, part_from_cloud(feature).transpose().col(2)};
-      fill([&](const Eigen::Vector3d& p) { return (p - sphere->center_mm).norm(); });
+      TRY(const auto sphere, fit::ls_sphere(points_mm));
+      out.axis = {sphere.center_mm, part_from_cloud(feature).transpose().col(2)};
+      fill([&](const Eigen::Vector3d& p) { return (p - sphere.center_mm).norm(); });
       return out;
     }
     case Shape::kCone: {
-      const auto cone = fit::ls_cone(points_mm, near);
-      if (!cone) return core::fail(cone.error());
-      out.axis = cone->cone.axis;
-      fill([&](const Eigen::Vector3d& p) { return cone->cone.deviation_mm(p); });
+      TRY(const auto cone, fit::ls_cone(points_mm, near));
+      out.axis = cone.cone.axis;
+      fill([&](const Eigen::Vector3d& p) { return cone.cone.deviation_mm(p); });
       return out;
     }
     case Shape::kSpindle:

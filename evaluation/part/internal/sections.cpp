@@ -16,21 +16,18 @@ constexpr double kPointsRoundOff = 1e-9;
 }  // namespace
 
 core::Result<RoundProfile> round_profile(std::span<const Eigen::Vector2d> points) {
-  const auto circle = fit::ls_circle(points);
-  if (!circle) return core::fail(circle.error());
+  TRY(const auto circle, fit::ls_circle(points));
   RoundProfile out;
-  out.center_mm = circle->center_mm;
+  out.center_mm = circle.center_mm;
   out.outward.reserve(points.size());
   for (const Eigen::Vector2d& p : points) {
-    const Eigen::Vector2d v = p - circle->center_mm;
+    const Eigen::Vector2d v = p - circle.center_mm;
     const double r = v.norm();
     out.outward.emplace_back(v / r);
     out.theta_rad.push_back(std::atan2(v.y(), v.x()));
-    out.r_mm.push_back(r - circle->radius_mm);
+    out.r_mm.push_back(r - circle.radius_mm);
   }
-  auto sorted = fit::ordered_profile(out.theta_rad, out.r_mm);
-  if (!sorted) return core::fail(sorted.error());
-  out.by_angle = *std::move(sorted);
+  TRY(out.by_angle, fit::ordered_profile(out.theta_rad, out.r_mm));
   return out;
 }
 

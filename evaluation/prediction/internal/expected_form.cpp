@@ -120,10 +120,9 @@ core::Result<double> mean_value_mm(const TrialInspection& rehearsal, const FormS
                                    const record::Characteristic& asked) {
   double sum = 0.0;
   for (int k = 1; k <= kScalingParts; ++k) {
-    const auto part =
-        simulated_cloud(rehearsal.nominal(), Influences{}, form, static_cast<std::uint64_t>(k));
-    if (!part) return core::fail(part.error());
-    sum += rehearsal.value_mm(*part, asked);
+    TRY(const auto part,
+        simulated_cloud(rehearsal.nominal(), Influences{}, form, static_cast<std::uint64_t>(k)));
+    sum += rehearsal.value_mm(part, asked);
   }
   if (!(sum > 0.0 && std::isfinite(sum))) {
     return core::fail(core::Code::kReferenceAbsent,
@@ -154,9 +153,7 @@ core::Result<TrialInspection> TrialInspection::of(const record::RunRecord& expec
   out.result_.section_axis.direction = direction;
   out.result_.mz_cylinder.emplace();
   out.result_.mz_cylinder->axis.direction = direction;
-  auto nominal = surface_cloud(out.result_);
-  if (!nominal) return core::fail(nominal.error());
-  out.nominal_ = *std::move(nominal);
+  TRY(out.nominal_, surface_cloud(out.result_));
   return out;
 }
 
@@ -188,10 +185,9 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
                                          const record::Characteristic& asked) {
   const FormCloud& cloud = rehearsal.nominal();
   if (declared.spectrum && !declared.spectrum->terms.empty()) {
-    auto stated = spectrum_on(cloud, declared);
-    if (!stated) return core::fail(stated.error());
-    if (*stated) {
-      FormSpectrum out = **stated;
+    TRY(auto stated, spectrum_on(cloud, declared));
+    if (stated) {
+      FormSpectrum out = *stated;
       if (!out.absolute) {
         out.absolute = true;
         out.source = core::Phrase("form_spectrum of the plan, its amplitudes taken as they are");
@@ -202,8 +198,7 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
     }
   }
   FormSpectrum out = common_form(cloud);
-  const auto unit = mean_value_mm(rehearsal, out, asked);
-  if (!unit) return core::fail(unit.error());
+  TRY(const auto unit, mean_value_mm(rehearsal, out, asked));
   double wanted_mm =
       std::max(kLeastForm_mm, kTimesPointError * point_error_mm(cloud, declared.influences));
   std::string size =
@@ -212,7 +207,7 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
     wanted_mm = kShareOfTolerance * *asked.tolerance_mm;
     size = fmt::format("half the tolerance, {:.3g} um", wanted_mm / core::kMicrometre);
   }
-  scale(out, wanted_mm / *unit);
+  scale(out, wanted_mm / unit);
   out.source = core::Phrase("assumed, 2..15 undulations that fall as 1/n, of " + size);
   return out;
 }
