@@ -20,7 +20,6 @@
 #include "reports/formats/exports.h"
 #include "reports/history/earlier_results.h"
 #include "reports/verify/internal/compare_text.h"
-#include "reports/verify/internal/compare_values.h"
 #include "reports/verify/internal/files.h"
 #include "reports/verify/stored_results.h"
 

@@ -36,7 +36,7 @@ TEST(JsonDifference, NamesThePlaceAndBothValues) {
   EXPECT_EQ(first_json_difference(kReport, changed(kReport, "null", "0"), 0.0),
             "/features/0/a~1b: the file says 0, the journal gives null");
   EXPECT_EQ(first_json_difference("1", "[]", 0.0),
-            "the whole file: the file says [], the journal gives 1");
+            "the whole file: the file says null, the journal gives 1");
 }
 
 TEST(JsonDifference, NamesMissingAndAddedParts) {
@@ -45,7 +45,7 @@ TEST(JsonDifference, NamesMissingAndAddedParts) {
   EXPECT_EQ(first_json_difference(kReport, changed(kReport, R"("run")", R"("x": 1, "run")"), 0.0),
             "/x: the file says 1, the journal gives nothing there");
   EXPECT_EQ(first_json_difference(kReport, changed(kReport, ", 11]", "]"), 0.0),
-            "/features/0/contacts: the file has 2 entries, the journal gives 3");
+            "/features/0/contacts/2: missing in the file, the journal gives 11");
 }
 
 TEST(JsonDifference, SaysThatAFileIsNotJsonAnyMore) {

@@ -1,4 +1,4 @@
-#include "reports/verify/internal/compare_values.h"
+#include "reports/verify/internal/compare_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,12 +6,16 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/json_text.h"
-#include "reports/data/internal/json_parts.h"
+#include "core/numbers.h"
+#include "core/utf8.h"
 
 namespace rondure::reports {
 namespace {
+
+using SortedJson = nlohmann::json;
 
 /// A piece of a line: a number, or the text between two numbers.
 struct Token {
@@ -114,70 +118,41 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 }
 
 /// The value as JSON, at most 60 bytes of it.
-std::string shown(const Json& value) {
+std::string shown(const SortedJson& value) {
   constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = value.dump(-1, ' ', false, SortedJson::error_handler_t::replace);
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-std::string pointer_token(std::string key) {  // RFC 6901
-  for (std::size_t at = 0; (at = key.find_first_of("~/", at)) != std::string::npos; at += 2) {
-    key.replace(at, 1, key[at] == '~' ? "~0" : "~1");
-  }
-  return key;
+bool is_close(double a, double b, double tolerance) {
+  return a == b || std::abs(a - b) <= tolerance;
 }
 
-std::string place(const std::string& pointer) {
-  return pointer.empty() ? "the whole file" : pointer;
+bool same_value(const SortedJson& a, const SortedJson& b, double tolerance) {
+  if (!a.is_number() || !b.is_number()) return a == b;
+  return is_close(a.get<double>(), b.get<double>(), tolerance);
 }
 
-std::optional<std::string> value_difference(const Json& expected, const Json& found,
-                                            const std::string& pointer, double tolerance);
-
-std::optional<std::string> object_difference(const Json& expected, const Json& found,
-                                             const std::string& pointer, double tolerance) {
-  for (const auto& [key, value] : expected.items()) {
-    const std::string below = pointer + "/" + pointer_token(key);
-    const auto other = found.find(key);
-    if (other == found.end()) {
-      return fmt::format("{}: missing in the file, the journal gives {}", below, shown(value));
-    }
-    if (auto difference = value_difference(value, *other, below, tolerance)) return difference;
-  }
-  for (const auto& [key, value] : found.items()) {
-    if (expected.contains(key)) continue;
-    return fmt::format("{}/{}: the file says {}, the journal gives nothing there", pointer,
-                       pointer_token(key), shown(value));
-  }
-  return std::nullopt;
+std::string difference_at(const std::string& pointer, const SortedJson& expected,
+                          const SortedJson& found) {
+  return fmt::format("{}: the file says {}, the journal gives {}",
+                     pointer.empty() ? "the whole file" : pointer, shown(found), shown(expected));
 }
 
-std::optional<std::string> array_difference(const Json& expected, const Json& found,
-                                            const std::string& pointer, double tolerance) {
-  for (std::size_t i = 0; i < std::min(expected.size(), found.size()); ++i) {
-    const std::string below = fmt::format("{}/{}", pointer, i);
-    if (auto difference = value_difference(expected[i], found[i], below, tolerance)) {
-      return difference;
-    }
+/// Fields of a CSV line as written; a quoted field may contain commas.
+std::vector<std::string_view> csv_fields(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string_view> fields;
+  bool quoted = false;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] != ',' || quoted) continue;
+    fields.push_back(line.substr(from, i - from));
+    from = i + 1;
   }
-  if (expected.size() == found.size()) return std::nullopt;
-  return fmt::format("{}: the file has {} entries, the journal gives {}", place(pointer),
-                     found.size(), expected.size());
-}
-
-std::optional<std::string> value_difference(const Json& expected, const Json& found,
-                                            const std::string& pointer, double tolerance) {
-  if (expected.is_object() && found.is_object()) {
-    return object_difference(expected, found, pointer, tolerance);
-  }
-  if (expected.is_array() && found.is_array()) {
-    return array_difference(expected, found, pointer, tolerance);
-  }
-  const bool close = expected.is_number() && found.is_number() && tolerance > 0.0 &&
-                     std::abs(expected.get<double>() - found.get<double>()) <= tolerance;
-  if (close || expected == found) return std::nullopt;
-  return fmt::format("{}: the file says {}, the journal gives {}", place(pointer), shown(found),
-                     shown(expected));
+  fields.push_back(line.substr(from));
+  return fields;
 }
 
 /// Compares one line of a table; `names` are its columns.
@@ -198,6 +173,37 @@ std::optional<std::string> row_difference(std::string_view expected, std::string
   return fmt::format("the file has {} fields, the journal gives {}", right.size(), left.size());
 }
 
+using CsvRow = std::vector<std::string_view>;
+
+/// The rows of a table, the header line first, without comments.
+std::vector<CsvRow> rows_of(std::string_view text) {
+  std::vector<CsvRow> rows;
+  for (const std::string_view line : lines_of(text)) {
+    if (!line.empty() && line.front() != '#') rows.push_back(csv_fields(line));
+  }
+  return rows;
+}
+
+/// Indices of the columns that two header lines have in common.
+std::vector<std::pair<std::size_t, std::size_t>> common_columns(const CsvRow& expected,
+                                                                const CsvRow& found) {
+  std::vector<std::pair<std::size_t, std::size_t>> common;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto other = std::find(expected.begin(), expected.end(), found[i]);
+    if (other != expected.end()) {
+      common.emplace_back(static_cast<std::size_t>(other - expected.begin()), i);
+    }
+  }
+  return common;
+}
+
+/// Whether two fields are equal: as numbers, or as text.
+bool same_field(std::string_view a, std::string_view b, double tolerance) {
+  const auto x = core::parse_number(a);
+  const auto y = core::parse_number(b);
+  return x && y ? is_close(*x, *y, tolerance) : a == b;
+}
+
 }  // namespace
 
 std::optional<std::string> first_text_difference(std::string_view expected, std::string_view found,
@@ -215,28 +221,23 @@ std::optional<std::string> first_text_difference(std::string_view expected, std:
   return fmt::format("the file has {} lines, the journal gives {}", right.size(), left.size());
 }
 
-std::vector<std::string_view> csv_fields(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string_view> fields;
-  bool quoted = false;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') quoted = !quoted;
-    if (line[i] != ',' || quoted) continue;
-    fields.push_back(line.substr(from, i - from));
-    from = i + 1;
-  }
-  fields.push_back(line.substr(from));
-  return fields;
-}
-
 std::optional<std::string> first_json_difference(std::string_view expected, std::string_view found,
                                                  double tolerance) {
   if (expected == found) return std::nullopt;
-  const auto right = core::read_json<Json>(found, "");
-  if (!right) return right.error().what;
-  if (auto difference = value_difference(Json::parse(expected), *right, "", tolerance)) {
-    return difference;
+  const auto file = core::read_json<SortedJson>(found, "");
+  if (!file) return file.error().what;
+  const SortedJson left = SortedJson::parse(expected).flatten();
+  const SortedJson right = file->flatten();
+  for (const auto& [pointer, value] : left.items()) {
+    const auto other = right.find(pointer);
+    if (other == right.end())
+      return fmt::format("{}: missing in the file, the journal gives {}", pointer, shown(value));
+    if (!same_value(value, *other, tolerance)) return difference_at(pointer, value, *other);
+  }
+  for (const auto& [pointer, value] : right.items()) {
+    if (left.contains(pointer)) continue;
+    return fmt::format("{}: the file says {}, the journal gives nothing there", pointer,
+                       shown(value));
   }
   const auto written = first_text_difference(expected, found, tolerance);
   if (!written) return std::nullopt;
@@ -263,6 +264,45 @@ std::optional<std::string> first_csv_difference(std::string_view expected, std::
   const auto written = first_text_difference(expected, found, tolerance);
   if (!written) return std::nullopt;
   return "the fields are equal, but the line ends differ: " + *written;
+}
+
+std::optional<std::string> compare_json_values(std::string_view expected, std::string_view found,
+                                               double tolerance) {
+  const auto file = core::read_json<SortedJson>(found, "");
+  if (!file) return file.error().what;
+  const SortedJson journal = SortedJson::parse(expected);
+  const SortedJson values = file->flatten();
+  for (const auto& [pointer, value] : values.items()) {
+    const SortedJson::json_pointer place(pointer);
+    if (pointer == "/schema_version" || !journal.contains(place)) continue;
+    const SortedJson& other = journal.at(place);
+    const bool compared = value.is_number() || pointer.ends_with("/verdict");
+    if (compared && !same_value(other, value, tolerance))
+      return difference_at(pointer, other, value);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> compare_csv_values(std::string_view expected, std::string_view found,
+                                              double tolerance) {
+  const auto left = rows_of(expected);
+  const auto right = rows_of(found);
+  if (left.size() != right.size())
+    return fmt::format("the file has {} rows, the journal gives {}", right.size(), left.size());
+  if (right.empty()) return std::nullopt;
+  const auto columns = common_columns(left.front(), right.front());
+  if (columns.empty()) return "it has no column that this version writes";
+  for (std::size_t row = 1; row < right.size(); ++row) {
+    for (const auto& [l, r] : columns) {
+      const std::string_view a = l < left[row].size() ? left[row][l] : std::string_view();
+      const std::string_view b = r < right[row].size() ? right[row][r] : std::string_view();
+      if (same_field(a, b, tolerance)) continue;
+      return fmt::format("row {}, column {}: the file says {}, the journal gives {}", row,
+                         right.front()[r], core::printable(b.substr(0, 60)),
+                         core::printable(a.substr(0, 60)));
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace rondure::reports

@@ -32,7 +32,20 @@ namespace rondure::reports {
                                                                std::string_view found,
                                                                double tolerance);
 
-/// Fields of a CSV line as written; a quoted field may contain commas.
-[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
+// The same for runs written by another version of the program: its wording and layout may differ,
+// its numbers may not.
+
+/// JSON: compares the numbers and the verdicts that both have under the same JSON pointer; other
+/// words, and keys of one version only, are ignored. A number that has become null is a difference.
+/// `schema_version` is not compared. `expected` must be JSON.
+[[nodiscard]] std::optional<std::string> compare_json_values(std::string_view expected,
+                                                             std::string_view found,
+                                                             double tolerance);
+
+/// CSV with a header line: compares the columns that both have, row by row; fields that are not
+/// numbers are compared as text. Lines that begin with # are ignored.
+[[nodiscard]] std::optional<std::string> compare_csv_values(std::string_view expected,
+                                                            std::string_view found,
+                                                            double tolerance);
 
 }  // namespace rondure::reports
