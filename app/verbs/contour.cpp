@@ -67,26 +67,26 @@ std::string part_lines(const fit::ContourPartResult& part, const std::string& na
 }
 
 std::string stability_line(const char* what, const std::optional<fit::Repeatability>& found,
-                           double scale, const fit::StabilityLimits& limits) {
+                           double scale) {
   if (!found) return {};
-  const auto word = found->word(limits);
+  const auto word = found->word();
   return fmt::format("    {:<14} {:>8} {:10.4f} {:10.4f} {:10.4f} {:10.4f}  {}\n", what,
                      found->index ? fmt::format("{:.4f}", *found->index) : "-",
                      found->mean_rms * scale, found->spread * scale, found->mean_correlation,
                      found->variation, word ? fit::name_of(*word) : "");
 }
 
-std::string stability_table(const fit::ContourStudy& study, const fit::StabilityLimits& limits) {
+std::string stability_table(const fit::ContourStudy& study) {
   if (!study.total) return {};
   const double to_um = 1.0 / core::kMicrometre;
   return "  stability over the parts\n"
          "                          S   mean rms     spread  mean corr.  PV c.v.\n" +
-         stability_line("t [um]", study.total, to_um, limits) +
-         stability_line("f [um]", study.following, to_um, limits) +
-         stability_line("n [um]", study.rest, to_um, limits) +
-         stability_line("mains [um]", study.main, to_um, limits) +
-         stability_line("error C [mdeg]", study.c_error, 1e3 / core::kDegree, limits) +
-         stability_line("error X [um]", study.x_error, to_um, limits) +
+         stability_line("t [um]", study.total, to_um) +
+         stability_line("f [um]", study.following, to_um) +
+         stability_line("n [um]", study.rest, to_um) +
+         stability_line("mains [um]", study.main, to_um) +
+         stability_line("error C [mdeg]", study.c_error, 1e3 / core::kDegree) +
+         stability_line("error X [um]", study.x_error, to_um) +
          fmt::format("    rms(f) / rms(n) = {:.4f}\n", study.amplitude_ratio);
 }
 
@@ -103,8 +103,8 @@ std::string contour_table(const fit::ContourStudy& study, const fit::ContourStud
                           std::span<const std::string> names) {
   std::string out = head(study, options);
   for (std::size_t i = 0; i < study.parts.size(); ++i) out += part_lines(study.parts[i], names[i]);
-  out += stability_table(study, options.limits);
-  for (const core::Phrase& verdict : reports::contour_verdicts(study, options.limits)) {
+  out += stability_table(study);
+  for (const core::Phrase& verdict : reports::contour_verdicts(study)) {
     out += fmt::format("  {}\n", verdict.english());
   }
   for (const core::Error& w : study.warnings) {

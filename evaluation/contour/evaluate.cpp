@@ -182,7 +182,7 @@ core::Result<AnalysisValue> measured_value(const ContourResult& facts,
 /// The words of a curve: "stable" needs the lower end of the interval of the index. Without an
 /// interval there is none, and of a void curve there is no word at all.
 void word_from_interval(std::optional<fit::Repeatability>& curve, ContourNumber::Curve which,
-                        const std::vector<ContourNumber>& numbers, double stable, bool voided) {
+                        const std::vector<ContourNumber>& numbers, bool voided) {
   if (!curve) return;
   curve->no_word = voided;
   for (const ContourNumber& number : numbers) {
@@ -190,14 +190,13 @@ void word_from_interval(std::optional<fit::Repeatability>& curve, ContourNumber:
     const auto& stated = number.uncertainty.result();
     if (stated) curve->index_low = stated->sampled.low_mm;
   }
-  if (!curve->index_low && curve->index.value_or(0.0) >= stable) curve->no_word = true;
+  if (!curve->index_low && curve->index.value_or(0.0) >= fit::kStableFrom) curve->no_word = true;
 }
 
 void keep_words(ContourResult& facts) {
   using Curve = ContourNumber::Curve;
-  const double stable = facts.options.limits.stable;
   const auto keep = [&](std::optional<fit::Repeatability>& curve, Curve which, bool voided) {
-    word_from_interval(curve, which, facts.numbers, stable, voided);
+    word_from_interval(curve, which, facts.numbers, voided);
   };
   keep(facts.study.total, Curve::kTotal, facts.total_void.has_value());
   keep(facts.study.following, Curve::kFollowing, facts.following_void.has_value());

@@ -87,10 +87,10 @@ std::string_view name_of(StabilityWord word) {
   return kNames[static_cast<std::size_t>(word)];
 }
 
-std::optional<StabilityWord> Repeatability::word(const StabilityLimits& limits) const {
+std::optional<StabilityWord> Repeatability::word() const {
   if (!index || no_word || rms.size() < kPartsForAWord) return std::nullopt;
-  if (std::min(*index, index_low.value_or(*index)) >= limits.stable) return StabilityWord::kStable;
-  return *index >= limits.partly ? StabilityWord::kPartly : StabilityWord::kUnstable;
+  if (std::min(*index, index_low.value_or(*index)) >= kStableFrom) return StabilityWord::kStable;
+  return *index >= kPartlyFrom ? StabilityWord::kPartly : StabilityWord::kUnstable;
 }
 
 core::Result<Repeatability> repeatability(std::span<const std::vector<double>> curves) {

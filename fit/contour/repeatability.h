@@ -16,11 +16,9 @@ enum class StabilityWord { kStable, kPartly, kUnstable };
 /// "stable", "partly", "unstable".
 [[nodiscard]] std::string_view name_of(StabilityWord word);
 
-/// Least index for each verdict; both in [0, 1], partly <= stable.
-struct StabilityLimits {
-  double stable = 0.9;
-  double partly = 0.5;
-};
+/// Least index of "stable" and of "partly".
+inline constexpr double kStableFrom = 0.9;
+inline constexpr double kPartlyFrom = 0.5;
 
 /// The same curve of several parts, side by side.
 struct Repeatability {
@@ -42,7 +40,7 @@ struct Repeatability {
 
   /// The verdict; nothing with fewer than 4 parts, without an index, and where `no_word`. An index
   /// that reaches "stable" while the lower end of its interval does not is "partly".
-  [[nodiscard]] std::optional<StabilityWord> word(const StabilityLimits& limits = {}) const;
+  [[nodiscard]] std::optional<StabilityWord> word() const;
 };
 
 /// Compares q >= 2 curves of M >= 16 values each, one per part.

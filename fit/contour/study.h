@@ -42,7 +42,6 @@ struct ContourStudyOptions {
   double phase_offset_rad = 0.0;       ///< Gauge angle of the direction O to pin centre, pins.
   double main_phase_offset_rad = 0.0;  ///< The same for the main journals.
   int gauge_direction = 1;             ///< -1: the gauge turns against beta.
-  StabilityLimits limits;
 };
 
 /// A contour as recorded by the gauge.

@@ -80,12 +80,12 @@ Json part_json(const fit::ContourPartResult& part, const std::string& name) {
 
 /// @param scale  Factor from the unit of the curves to that of the keys.
 Json repeatability_json(const std::optional<fit::Repeatability>& found, double scale,
-                        const std::string& unit, const fit::StabilityLimits& limits) {
+                        const std::string& unit) {
   if (!found) return nullptr;
   const auto scaled = [&](const std::vector<double>& values) {
     return list_json(values, [&](double value) { return value * scale; });
   };
-  const auto word = found->word(limits);
+  const auto word = found->word();
   Json out = {{"index", optional_json(found->index)},
               {"word", word ? Json(fit::name_of(*word)) : Json(nullptr)},
               {"mean_rms_" + unit, found->mean_rms * scale},
@@ -126,14 +126,13 @@ Json settings_json(const fit::ContourStudyOptions& options) {
       {"phase_offset_deg", in_deg(options.phase_offset_rad)},
       {"main_phase_offset_deg", in_deg(options.main_phase_offset_rad)},
       {"gauge_direction", options.gauge_direction},
-      {"stable_from", options.limits.stable},
-      {"partly_from", options.limits.partly}};
+      {"stable_from", fit::kStableFrom},
+      {"partly_from", fit::kPartlyFrom}};
 }
 
 }  // namespace
 
-std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study,
-                                           const fit::StabilityLimits& limits) {
+std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study) {
   std::vector<core::Phrase> out;
   if (study.parts.size() < 4) {
     const std::size_t parts = study.parts.size();
@@ -144,7 +143,7 @@ std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study,
   }
   const auto say = [&](const core::Phrase& what, const std::optional<fit::Repeatability>& found) {
     if (!found) return;
-    const auto word = found->word(limits);
+    const auto word = found->word();
     if (word)
       out.push_back(core::phrase("{}: {} (S = {:.4f})", what, core::Phrase(fit::name_of(*word)),
                                  *found->index));
@@ -156,7 +155,7 @@ std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study,
   say(core::phrase("axis error of C"), study.c_error);
   say(core::phrase("axis error of X"), study.x_error);
   const auto word_of = [&](const std::optional<fit::Repeatability>& found) {
-    return found ? found->word(limits) : std::nullopt;
+    return found ? found->word() : std::nullopt;
   };
   if (word_of(study.following) == fit::StabilityWord::kStable) {
     out.push_back(
@@ -180,20 +179,18 @@ Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOpt
     out["parts"].push_back(part_json(study.parts[i], names[i]));
   }
   const double um = 1.0 / core::kMicrometre;
-  const fit::StabilityLimits& limits = options.limits;
-  out["stability"] = {
-      {"total", repeatability_json(study.total, um, "um", limits)},
-      {"following", repeatability_json(study.following, um, "um", limits)},
-      {"rest", repeatability_json(study.rest, um, "um", limits)},
-      {"main", repeatability_json(study.main, um, "um", limits)},
-      {"c_error", repeatability_json(study.c_error, 1e3 / core::kDegree, "mdeg", limits)},
-      {"x_error", repeatability_json(study.x_error, um, "um", limits)}};
+  out["stability"] = {{"total", repeatability_json(study.total, um, "um")},
+                      {"following", repeatability_json(study.following, um, "um")},
+                      {"rest", repeatability_json(study.rest, um, "um")},
+                      {"main", repeatability_json(study.main, um, "um")},
+                      {"c_error", repeatability_json(study.c_error, 1e3 / core::kDegree, "mdeg")},
+                      {"x_error", repeatability_json(study.x_error, um, "um")}};
   out["amplitude_ratio_following_rest"] = study.amplitude_ratio;
   out["diagnosis"] = {{"correlation_offset_deg", in_deg(study.offset.angle_rad)},
                       {"correlation_offset_u_deg", in_deg(study.offset.u_rad)},
                       {"correlation_total_following", study.sense.as_given},
                       {"correlation_total_mirrored_following", study.sense.mirrored}};
-  out["verdicts"] = contour_verdicts(study, limits);
+  out["verdicts"] = contour_verdicts(study);
   out["warnings"] = list_json(study.warnings, error_json);
   return out;
 }

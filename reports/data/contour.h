@@ -19,8 +19,7 @@ namespace rondure::reports {
 
 /// Conclusions from the stability indices, one sentence each; below 4 parts one sentence that there
 /// are too few.
-[[nodiscard]] std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study,
-                                                         const fit::StabilityLimits& limits);
+[[nodiscard]] std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study);
 
 /// The curves of all parts as CSV: beta_deg, then t, f, n (and the main journal) of each part in
 /// um.

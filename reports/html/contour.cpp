@@ -165,7 +165,7 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found,
                        Curve curve) {
     if (!found) return;
-    const auto word = found->word(facts.options.limits);
+    const auto word = found->word();
     std::string words = trf("{}mean curve {} µm rms, spread {} µm",
                             word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
                             um(found->mean_rms), um(found->spread));
@@ -265,7 +265,7 @@ std::string part_table(const evaluation::ContourResult& facts) {
 
 std::string verdict_list(const evaluation::ContourResult& facts) {
   std::string html = "<ul>";
-  for (const core::Phrase& verdict : contour_verdicts(facts.study, facts.options.limits)) {
+  for (const core::Phrase& verdict : contour_verdicts(facts.study)) {
     html += fmt::format("<li>{}</li>", in_sentence(verdict));
   }
   return html + "</ul>";

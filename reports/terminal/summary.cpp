@@ -115,7 +115,7 @@ std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
              peak_to_valley_of(facts, Curve::kFollowing, i, part.following.peak_to_valley_mm),
              peak_to_valley_of(facts, Curve::kRest, i, fit::peak_to_valley(part.direct.rest_mm)))});
   }
-  for (const core::Phrase& verdict : contour_verdicts(facts.study, facts.options.limits)) {
+  for (const core::Phrase& verdict : contour_verdicts(facts.study)) {
     out.push_back({out.size() == facts.study.parts.size() ? "stability" : "", verdict});
   }
   return out;
