@@ -14,6 +14,7 @@
 #include "app/verbs/verbs.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "evaluation/contour/result.h"
 #include "fit/contour/study.h"
 #include "record/files.h"
 #include "reports/data/contour.h"
@@ -115,25 +116,9 @@ std::string contour_table(const fit::ContourStudy& study, const fit::ContourStud
 }
 
 fit::ContourStudyOptions options_of(const ContourArguments& arguments) {
-  fit::ContourStudyOptions out;
-  out.geometry = {arguments.crank_radius_mm, arguments.wheel_radius_mm, arguments.pin_radius_mm};
-  out.main_radius_mm = arguments.main_radius_mm;
-  out.method = arguments.method == record::ContourTask::Method::kAsPublished
-                   ? fit::ContourMethod::kAsPublished
-                   : fit::ContourMethod::kCorrected;
-  out.axes.error_sign = arguments.error_sign;
-  out.axes.c_direction = arguments.c_direction;
-  out.samples = arguments.samples;
-  out.error.filter.cutoff_upr = arguments.cutoff_upr;
-  out.error.base = arguments.base == record::ContourTask::BaseCircle::kGeometric
-                       ? fit::BaseCircle::kGeometric
-                       : fit::BaseCircle::kLimacon;
-  out.prefiltered = arguments.prefiltered;
-  out.phase_offset_rad = arguments.phase_offset_deg * core::kDegree;
-  out.main_phase_offset_rad =
-      arguments.main_phase_offset_deg.value_or(arguments.phase_offset_deg) * core::kDegree;
-  out.gauge_direction = arguments.gauge_direction;
-  return out;
+  record::ContourTask task = arguments.task;
+  task.main_phase_offset_deg = arguments.main_phase_offset_deg.value_or(task.phase_offset_deg);
+  return evaluation::contour_options(task);
 }
 
 core::Result<std::vector<ContourColumn>> mapping_of(const ContourArguments& arguments) {

@@ -43,70 +43,86 @@ void add_contour_files(CLI::App& verb, ContourArguments& arguments) {
 }
 
 void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
-  const auto one_of_signs = CLI::IsMember({1, -1});
-  verb.add_option("--crank-radius-mm", arguments.crank_radius_mm, "R (default: 49)");
-  verb.add_option("--wheel-radius-mm", arguments.wheel_radius_mm, "Rgw (default: 299.88)");
-  verb.add_option("--pin-radius-mm", arguments.pin_radius_mm, "r (default: 24.56)");
-  verb.add_option("--main-radius-mm", arguments.main_radius_mm, "Main journal (default: 30)");
-  verb.add_option("--cutoff-upr", arguments.cutoff_upr, "Gaussian low pass (default: 50)");
-  verb.add_option("--samples", arguments.samples, "Points of a contour (default: 1440)");
-  verb.add_option("--phase-offset-deg", arguments.phase_offset_deg,
+  using record::ContourTask;
+  ContourTask& task = arguments.task;
+  // An option of which -1 stands for a word of the plan.
+  const auto add_sign = [&](const char* name, auto& value, auto reversed, const char* meaning) {
+    verb.add_option_function<int>(
+            name,
+            [&value, reversed](int sign) {
+              if (sign < 0) value = reversed;
+            },
+            meaning)
+        ->check(CLI::IsMember({1, -1}));
+  };
+  verb.add_option("--crank-radius-mm", task.crank_radius_mm, "R (default: 49)");
+  verb.add_option("--wheel-radius-mm", task.wheel_radius_mm, "Rgw (default: 299.88)");
+  verb.add_option("--pin-radius-mm", task.pin_radius_mm, "r (default: 24.56)");
+  verb.add_option("--main-radius-mm", task.main_radius_mm, "Main journal (default: 30)");
+  verb.add_option("--cutoff-upr", task.cutoff_upr, "Gaussian low pass (default: 50)");
+  verb.add_option("--samples", task.samples, "Points of a contour (default: 1440)")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--phase-offset-deg", task.phase_offset_deg,
                   "Gauge angle of the direction from the crankshaft's to the pin's axis");
   verb.add_option("--main-phase-offset-deg", arguments.main_phase_offset_deg,
                   "The same of the main journals (default: as the pins)");
-  verb.add_option("--gauge-direction", arguments.gauge_direction,
-                  "1 (default), or -1: the gauge turns the other way")
-      ->check(one_of_signs);
-  verb.add_option("--c-direction", arguments.c_direction,
-                  "1 (default), or -1: C turns the crank counter-clockwise under the wheel")
-      ->check(one_of_signs);
-  verb.add_option("--error-sign", arguments.error_sign,
-                  "1 (default): actual minus command; -1: command minus actual, as a following "
-                  "error of most controls")
-      ->check(one_of_signs);
-  add_words<record::ContourTask::BaseCircle>(verb, "--base", arguments.base,
-                                             "Base circle: limacon (default) or geometric");
-  add_words<record::ContourTask::Method>(
-      verb, "--method", arguments.method,
+  add_sign("--gauge-direction", task.gauge, ContourTask::Gauge::kClockwise,
+           "1 (default), or -1: the gauge turns the other way");
+  add_sign("--c-direction", task.c_axis, ContourTask::CAxis::kAgainstWheel,
+           "1 (default), or -1: C turns the crank counter-clockwise under the wheel");
+  add_sign("--error-sign", task.error, ContourTask::Error::kCommandMinusActual,
+           "1 (default): actual minus command; -1: command minus actual, as a following error of "
+           "most controls");
+  add_words<ContourTask::BaseCircle>(verb, "--base", task.base_circle,
+                                     "Base circle: limacon (default) or geometric");
+  add_words<ContourTask::Method>(
+      verb, "--method", task.method,
       "corrected (default), or as-published: each f is turned onto its t");
-  verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
+  verb.add_flag_callback(
+      "--prefiltered", [&task] { task.filter = ContourTask::Filter::kDoneByGauge; },
+      "The gauge has filtered the contours");
 }
 
 void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {
   using Layout = record::SpindleTask::Layout;
-  add_words<Layout>(verb, "--layout", a.layout, "published-a, published-b or reference",
+  add_words<Layout>(verb, "--layout", a.task.layout, "published-a, published-b or reference",
                     {Layout::kAngles});
-  verb.add_option("--p1-to-p2", a.p1_to_p2_deg,
+  verb.add_option("--p1-to-p2", a.task.p1_to_p2_deg,
                   "deg from probe 1 to probe 2, against the rotation of the work");
-  verb.add_option("--p2-to-p3", a.p2_to_p3_deg, "deg from probe 2 to probe 3 (a difference)");
-  verb.add_option("--p1-to-p3", a.p1_to_p3_deg, "deg from probe 1 to probe 3 (cumulative)");
-  verb.add_option("--crank-radius", a.crank_radius_mm,
+  verb.add_option("--p2-to-p3", a.task.p2_to_p3_deg, "deg from probe 2 to probe 3 (a difference)");
+  verb.add_option("--p1-to-p3", a.task.p1_to_p3_deg, "deg from probe 1 to probe 3 (cumulative)");
+  verb.add_option("--crank-radius", a.task.crank_radius_mm,
                   "mm; the probes follow a crank pin (default: 0, an ordinary shaft)");
-  verb.add_option("--wheel-radius", a.wheel_radius_mm, "mm; the pivot of the arm is its centre");
-  verb.add_option("--pin-radius", a.pin_radius_mm, "mm; of the part that is measured");
+  verb.add_option("--wheel-radius", a.task.wheel_radius_mm,
+                  "mm; the pivot of the arm is its centre");
+  verb.add_option("--pin-radius", a.task.pin_radius_mm, "mm; of the part that is measured");
 }
 
 void add_measuring(CLI::App& verb, WheelArguments& arguments) {
   using record::WheelTask;
   add_words<WheelTask::Mode>(
-      verb, "--mode", arguments.mode,
+      verb, "--mode", arguments.task.mode,
       "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
       "speed, points of the circle it sweeps. It decides what the result means")
       ->required();
   add_list(verb, "--axis-mm", arguments.axis_mm,
            "Spindle axis (indexed): gives run-out and the effective radius", "X,Z")
       ->expected(2);
-  verb.add_option("--nominal-radius-mm", arguments.nominal_radius_mm,
+  verb.add_option("--nominal-radius-mm", arguments.task.nominal_radius_mm,
                   "R must be within 5 % of it; also the path without compensation");
   add_words<WheelTask::Center>(
-      verb, "--center", arguments.center,
+      verb, "--center", arguments.task.center,
       "least-squares (default), or as-published: the mean of four-point centres");
   verb.add_option("--seed", arguments.seed,
                   "Of quadruples drawn of more than 20 points (default: 1)");
-  verb.add_option("--kappa-limit", arguments.kappa_limit,
+  verb.add_option("--kappa-limit", arguments.task.kappa_limit,
                   "Worst conditioning accepted (default: 5, or twice the best)");
-  verb.add_flag("--robust", arguments.robust, "Drop isolated points beyond 5 scales first");
-  verb.add_flag("--override-arc", arguments.override_arc, "Evaluate less than 20 deg, too");
+  verb.add_flag_callback(
+      "--robust", [&arguments] { arguments.task.robust = record::Switch::kOn; },
+      "Drop isolated points beyond 5 scales first");
+  verb.add_flag_callback(
+      "--override-arc", [&arguments] { arguments.task.short_arc = WheelTask::ShortArc::kAllowed; },
+      "Evaluate less than 20 deg, too");
 }
 
 void add_grinding(CLI::App& verb, WheelArguments& arguments) {
@@ -258,19 +274,23 @@ void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
                    "wrapped")
       ->required();
   add_spindle_geometry(*verb, a);
-  verb->add_option("--samples", a.samples, "Of a revolution (default: 1024; 0: as recorded)");
-  verb->add_option("--highest-order", a.highest_order, "Highest harmonic recovered (default: 50)");
-  verb->add_option("--greatest-gain", a.greatest_gain,
+  verb->add_option("--samples", a.task.samples, "Of a revolution (default: 1024; 0: as recorded)");
+  verb->add_option("--highest-order", a.task.highest_order,
+                   "Highest harmonic recovered (default: 50)");
+  verb->add_option("--greatest-gain", a.task.greatest_gain,
                    "Harmonics with a higher noise gain are not recovered (default: 100)");
-  verb->add_option("--probe-noise", a.probe_noise_um,
+  verb->add_option("--probe-noise", a.task.probe_noise_um,
                    "um, standard deviation of a reading (default: estimated)");
-  add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.second_order,
+  add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.task.second_order,
                                               "auto (default), on or off");
-  verb->add_option("--cutoff-upr", a.cutoff_upr,
+  verb->add_option("--cutoff-upr", a.task.cutoff_upr,
                    "Gaussian low pass of the profile (default: 50; 0: none)");
-  verb->add_flag("--no-resampling", a.no_resampling,
-                 "Readings count as uniform in the angle on the part; wrong for a crank pin");
-  verb->add_flag("--as-published", a.as_published, "RY by the printed formula, which is wrong");
+  verb->add_flag_callback(
+      "--no-resampling", [&a] { a.task.resampling = record::Switch::kOff; },
+      "Readings count as uniform in the angle on the part; wrong for a crank pin");
+  verb->add_flag_callback(
+      "--as-published", [&a] { a.task.motion = record::SpindleTask::Motion::kAsPublished; },
+      "RY by the printed formula, which is wrong");
   verb->add_flag("--inside", a.inside, "A bore: peaks point to the centre");
   verb->add_flag("--json", a.json, "JSON instead of text");
   verb->footer(

@@ -168,49 +168,30 @@ using core::kMicrometre;
 constexpr std::array<record::WantedColumn, 5> kColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
 
-/// The layout from one complete set of angles.
-core::Result<fit::ProbeLayout> layout_of(const SpindleArguments& a) {
-  const int own = (a.p1_to_p2_deg ? 1 : 0) + (a.p2_to_p3_deg ? 1 : 0) + (a.p1_to_p3_deg ? 1 : 0);
-  if (a.layout && own > 0) {
+/// Checks that the layout is known by one complete set of angles.
+core::Result<void> check_layout(const record::SpindleTask& task) {
+  const int own =
+      (task.p1_to_p2_deg ? 1 : 0) + (task.p2_to_p3_deg ? 1 : 0) + (task.p1_to_p3_deg ? 1 : 0);
+  const bool known = task.layout != record::SpindleTask::Layout::kAngles;
+  if (known && own > 0) {
     return core::fail(Code::kBadOption, "give --layout or angles of your own, not both");
   }
-  using Layout = record::SpindleTask::Layout;
-  if (a.layout == Layout::kPublishedA) return fit::published_layout_a();
-  if (a.layout == Layout::kPublishedB) return fit::published_layout_b();
-  if (a.layout == Layout::kReference) return fit::reference_layout();
-  if (own != 2 || !a.p1_to_p2_deg) {
-    return core::fail(Code::kBadOption,
-                      "the probe angles are not stated: give --p1-to-p2 and either --p2-to-p3 (a "
-                      "difference) or --p1-to-p3 (cumulative), or a --layout");
-  }
-  const double p2 = *a.p1_to_p2_deg;
-  const double p3 = a.p2_to_p3_deg ? *a.p2_to_p3_deg : *a.p1_to_p3_deg - p2;
-  return fit::ProbeLayout::of(p2 * kDegree, p3 * kDegree);
-}
-
-fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
-  using Options = fit::ThreeProbeOptions;
-  Options out;
-  out.samples = a.samples;
-  out.highest = a.highest_order;
-  out.greatest_gain = a.greatest_gain;
-  if (a.probe_noise_um) out.noise_mm = *a.probe_noise_um * kMicrometre;
-  out.resample = !a.no_resampling;
-  using SecondOrder = record::SpindleTask::SecondOrder;
-  if (a.second_order == SecondOrder::kOn) out.second_order = Options::SecondOrder::kOn;
-  if (a.second_order == SecondOrder::kOff) out.second_order = Options::SecondOrder::kOff;
-  if (a.as_published) out.motion = Options::Motion::kAsPublished;
-  return out;
+  if (known || (own == 2 && task.p1_to_p2_deg)) return {};
+  return core::fail(Code::kBadOption,
+                    "the probe angles are not stated: give --p1-to-p2 and either --p2-to-p3 (a "
+                    "difference) or --p1-to-p3 (cumulative), or a --layout");
 }
 
 core::Result<evaluation::SpindleResult> separate(const SpindleArguments& a) {
-  TRY(const auto layout, layout_of(a));
+  TRY_DO(check_layout(a.task));
+  TRY(const auto layout, evaluation::probe_layout(a.task));
   TRY(const auto bytes, record::read_file(a.file, record::kMostPointsBytes));
   const std::string name = std::filesystem::path(a.file).filename().string();
   TRY(const auto series, record::parse_series_csv(bytes, name, kColumns));
-  auto result = evaluation::spindle_facts(evaluation::probe_readings(series),
-                                          {a.crank_radius_mm, a.wheel_radius_mm, a.pin_radius_mm},
-                                          layout, options_of(a), a.cutoff_upr, a.inside);
+  auto result = evaluation::spindle_facts(
+      evaluation::probe_readings(series),
+      {a.task.crank_radius_mm, a.task.wheel_radius_mm, a.task.pin_radius_mm}, layout,
+      evaluation::separation_options(a.task), a.task.cutoff_upr, a.inside);
   if (!result && result.error().where.empty()) return core::fail(result.error().at(name));
   return result;
 }

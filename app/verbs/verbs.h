@@ -126,35 +126,18 @@ struct ContourArguments {
   std::vector<std::string> main;
   std::string mapping;
   std::vector<std::string> columns;
-  double crank_radius_mm = record::ContourTask().crank_radius_mm;
-  double wheel_radius_mm = record::ContourTask().wheel_radius_mm;
-  double pin_radius_mm = record::ContourTask().pin_radius_mm;
-  double main_radius_mm = record::ContourTask().main_radius_mm;
-  double cutoff_upr = record::ContourTask().cutoff_upr;
-  std::size_t samples = static_cast<std::size_t>(record::ContourTask().samples);
-  double phase_offset_deg = record::ContourTask().phase_offset_deg;
+  record::ContourTask task;
   std::optional<double> main_phase_offset_deg;  ///< Absent: as of the pins.
-  int gauge_direction = 1;
-  int c_direction = 1;
-  int error_sign = 1;
-  record::ContourTask::BaseCircle base = record::ContourTask().base_circle;
-  record::ContourTask::Method method = record::ContourTask().method;
-  bool prefiltered = false;
-  std::string curves;  ///< File for the curves; empty: none.
+  std::string curves;                           ///< File for the curves; empty: none.
   bool json = false;
 };
 [[nodiscard]] int contour(const ContourArguments& arguments);
 
 struct WheelArguments {
   std::string file;
-  record::WheelTask::Mode mode = record::WheelTask().mode;  ///< Must be given.
-  std::vector<double> axis_mm;                              ///< x, z; empty: not known.
-  std::optional<double> nominal_radius_mm;
-  record::WheelTask::Center center = record::WheelTask().center;
+  record::WheelTask task;       ///< Its mode must be given.
+  std::vector<double> axis_mm;  ///< x, z; empty: not known.
   std::uint64_t seed = 1;
-  std::optional<double> kappa_limit;
-  bool robust = false;
-  bool override_arc = false;
   std::string surface;
   std::string removal;
   std::vector<double> range_mm;          ///< Contacts; empty: the table's range.
@@ -190,21 +173,7 @@ struct RotaryAxesArguments {
 
 struct SpindleArguments {
   std::string file;
-  std::optional<record::SpindleTask::Layout> layout;  ///< None: by the angles.
-  std::optional<double> p1_to_p2_deg;
-  std::optional<double> p2_to_p3_deg;
-  std::optional<double> p1_to_p3_deg;
-  double crank_radius_mm = record::SpindleTask().crank_radius_mm;
-  double wheel_radius_mm = record::SpindleTask().wheel_radius_mm;
-  double pin_radius_mm = record::SpindleTask().pin_radius_mm;
-  int samples = record::SpindleTask().samples;
-  int highest_order = record::SpindleTask().highest_order;
-  double greatest_gain = record::SpindleTask().greatest_gain;
-  std::optional<double> probe_noise_um;
-  record::SpindleTask::SecondOrder second_order = record::SpindleTask().second_order;
-  double cutoff_upr = record::SpindleTask().cutoff_upr;
-  bool no_resampling = false;
-  bool as_published = false;
+  record::SpindleTask task;  ///< A cut-off of 0: no filter.
   bool inside = false;
   bool json = false;
 };

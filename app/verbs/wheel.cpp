@@ -16,6 +16,7 @@
 #include "core/numbers.h"
 #include "core/result.h"
 #include "core/units.h"
+#include "evaluation/wheel/result.h"
 #include "fit/wheel/evaluation.h"
 #include "fit/wheel/surface.h"
 #include "record/csv/series.h"
@@ -284,18 +285,8 @@ core::Result<Points> load_wheel(const std::string& file) {
   return out;
 }
 
-using Center = record::WheelTask::Center;
-
 fit::WheelOptions measuring_options(const WheelArguments& a) {
-  fit::WheelOptions out;
-  out.mode = a.mode == record::WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
-                                                          : fit::WheelMode::kIndexed;
-  if (a.center == Center::kAsPublished) out.mean = fit::WheelMean::kAsPublished;
-  out.quadruples.seed = a.seed;
-  out.quadruples.kappa_limit = a.kappa_limit;
-  out.robust = a.robust;
-  out.allow_short_arc = a.override_arc;
-  out.nominal_radius_mm = a.nominal_radius_mm;
+  fit::WheelOptions out = evaluation::wheel_options(a.task, a.seed);
   if (!a.axis_mm.empty()) out.axis_mm = Eigen::Vector2d(a.axis_mm[0], a.axis_mm[1]);
   return out;
 }

@@ -25,29 +25,6 @@ using core::kMicrometre;
 using record::ContourTask;
 using record::Form;
 
-fit::ContourStudyOptions contour_options(const ContourTask& task) {
-  fit::ContourStudyOptions out;
-  out.geometry = {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm};
-  out.main_radius_mm = task.main_radius_mm;
-  out.method = task.method == ContourTask::Method::kAsPublished ? fit::ContourMethod::kAsPublished
-                                                                : fit::ContourMethod::kCorrected;
-  out.axes.error_sign = task.error == ContourTask::Error::kCommandMinusActual ? -1 : 1;
-  out.axes.c_direction = task.c_axis == ContourTask::CAxis::kAgainstWheel ? -1 : 1;
-  out.gauge_direction = task.gauge == ContourTask::Gauge::kClockwise ? -1 : 1;
-  out.samples = static_cast<std::size_t>(task.samples);
-  out.phase_offset_rad = task.phase_offset_deg * kDegree;
-  out.main_phase_offset_rad = task.main_phase_offset_deg * kDegree;
-  out.error.filter.cutoff_upr = task.cutoff_upr;
-  if (task.filter == ContourTask::Filter::kNone) {
-    out.error.filter.filter = fit::ProfileFilter::kNone;
-  }
-  out.prefiltered = task.filter == ContourTask::Filter::kDoneByGauge;
-  out.error.base = task.base_circle == ContourTask::BaseCircle::kGeometric
-                       ? fit::BaseCircle::kGeometric
-                       : fit::BaseCircle::kLimacon;
-  return out;
-}
-
 std::vector<double> scaled(const record::Series& series, std::string_view column, double unit) {
   std::vector<double> values = series.column(column).value_or(std::vector<double>());
   for (double& value : values) value *= unit;
@@ -223,6 +200,29 @@ core::Result<void> check_traces(const record::RunRecord& record, int index, std:
 }
 
 }  // namespace
+
+fit::ContourStudyOptions contour_options(const ContourTask& task) {
+  fit::ContourStudyOptions out;
+  out.geometry = {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm};
+  out.main_radius_mm = task.main_radius_mm;
+  out.method = task.method == ContourTask::Method::kAsPublished ? fit::ContourMethod::kAsPublished
+                                                                : fit::ContourMethod::kCorrected;
+  out.axes.error_sign = task.error == ContourTask::Error::kCommandMinusActual ? -1 : 1;
+  out.axes.c_direction = task.c_axis == ContourTask::CAxis::kAgainstWheel ? -1 : 1;
+  out.gauge_direction = task.gauge == ContourTask::Gauge::kClockwise ? -1 : 1;
+  out.samples = static_cast<std::size_t>(task.samples);
+  out.phase_offset_rad = task.phase_offset_deg * kDegree;
+  out.main_phase_offset_rad = task.main_phase_offset_deg * kDegree;
+  out.error.filter.cutoff_upr = task.cutoff_upr;
+  if (task.filter == ContourTask::Filter::kNone) {
+    out.error.filter.filter = fit::ProfileFilter::kNone;
+  }
+  out.prefiltered = task.filter == ContourTask::Filter::kDoneByGauge;
+  out.error.base = task.base_circle == ContourTask::BaseCircle::kGeometric
+                       ? fit::BaseCircle::kGeometric
+                       : fit::BaseCircle::kLimacon;
+  return out;
+}
 
 core::Result<AnalysisValue> value_of(const ContourResult& facts,
                                      const record::Characteristic& asked) {

@@ -10,6 +10,7 @@
 #include "evaluation/results/measured_radius.h"
 #include "fit/contour/study.h"
 #include "record/tasks/analysis_influences.h"
+#include "record/tasks/contour.h"
 
 namespace rondure::evaluation {
 
@@ -47,6 +48,9 @@ struct ContourResult {
   bool indirect_is_bound = false;  ///< Pins and mains differ: f from the main is only a bound.
   std::vector<ContourNumber> numbers;
 };
+
+/// The settings of a study as a plan or the command line spells them.
+[[nodiscard]] fit::ContourStudyOptions contour_options(const record::ContourTask& task);
 
 /// Evaluates feature `index` of a record.
 /// @param earlier  Asked where another feature gives the wheel radius.

@@ -17,22 +17,6 @@ using core::kDegree;
 using core::kMicrometre;
 using record::SpindleTask;
 
-core::Result<fit::ProbeLayout> layout_of(const SpindleTask& task) {
-  switch (task.layout) {
-    case SpindleTask::Layout::kPublishedA:
-      return fit::published_layout_a();
-    case SpindleTask::Layout::kPublishedB:
-      return fit::published_layout_b();
-    case SpindleTask::Layout::kReference:
-      return fit::reference_layout();
-    case SpindleTask::Layout::kAngles:
-      break;
-  }
-  const double p2 = task.p1_to_p2_deg.value_or(0.0);
-  const double p3 = task.p2_to_p3_deg.value_or(task.p1_to_p3_deg.value_or(0.0) - p2);
-  return fit::ProbeLayout::of(p2 * kDegree, p3 * kDegree);
-}
-
 fit::ThreeProbeOptions::SecondOrder second_order_of(SpindleTask::SecondOrder asked) {
   using SecondOrder = fit::ThreeProbeOptions::SecondOrder;
   switch (asked) {
@@ -44,27 +28,6 @@ fit::ThreeProbeOptions::SecondOrder second_order_of(SpindleTask::SecondOrder ask
       return SecondOrder::kOff;
   }
   return SecondOrder::kAuto;
-}
-
-fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
-  using Options = fit::ThreeProbeOptions;
-  Options out;
-  out.samples = task.samples;
-  out.highest = task.highest_order;
-  out.greatest_gain = task.greatest_gain;
-  if (task.probe_noise_um) out.noise_mm = *task.probe_noise_um * kMicrometre;
-  if (task.uncertainty) {
-    const auto& declared = *task.uncertainty;
-    if (declared.noise_um) {
-      out.noise_mm = declared.noise_um->standard_uncertainty() * kMicrometre;
-    }
-    // Declared gains and angles take the place of the bare noise: see gates.cpp.
-    out.judge_first_harmonic = !(declared.gain_1 && declared.angle_deg);
-  }
-  out.resample = task.resampling == record::Switch::kOn;
-  out.second_order = second_order_of(task.second_order);
-  if (task.motion == SpindleTask::Motion::kAsPublished) out.motion = Options::Motion::kAsPublished;
-  return out;
 }
 
 /// Why the settings allow no interval of part and motion.
@@ -89,7 +52,7 @@ struct ProbeHead {
 
 core::Result<ProbeHead> head_of(const SpindleTask& task, const RadiusOf& earlier,
                                 std::vector<Gate>& gates) {
-  TRY(const auto stated, layout_of(task));
+  TRY(const auto stated, probe_layout(task));
   ProbeHead out{
       {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm}, stated, std::nullopt};
   if (!task.wheel_radius_from) return out;
@@ -134,6 +97,43 @@ std::vector<std::vector<double>> turns_of(const fit::ThreeProbeResult& result,
 }
 
 }  // namespace
+
+core::Result<fit::ProbeLayout> probe_layout(const SpindleTask& task) {
+  switch (task.layout) {
+    case SpindleTask::Layout::kPublishedA:
+      return fit::published_layout_a();
+    case SpindleTask::Layout::kPublishedB:
+      return fit::published_layout_b();
+    case SpindleTask::Layout::kReference:
+      return fit::reference_layout();
+    case SpindleTask::Layout::kAngles:
+      break;
+  }
+  const double p2 = task.p1_to_p2_deg.value_or(0.0);
+  const double p3 = task.p2_to_p3_deg.value_or(task.p1_to_p3_deg.value_or(0.0) - p2);
+  return fit::ProbeLayout::of(p2 * kDegree, p3 * kDegree);
+}
+
+fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
+  using Options = fit::ThreeProbeOptions;
+  Options out;
+  out.samples = task.samples;
+  out.highest = task.highest_order;
+  out.greatest_gain = task.greatest_gain;
+  if (task.probe_noise_um) out.noise_mm = *task.probe_noise_um * kMicrometre;
+  if (task.uncertainty) {
+    const auto& declared = *task.uncertainty;
+    if (declared.noise_um) {
+      out.noise_mm = declared.noise_um->standard_uncertainty() * kMicrometre;
+    }
+    // Declared gains and angles take the place of the bare noise: see gates.cpp.
+    out.judge_first_harmonic = !(declared.gain_1 && declared.angle_deg);
+  }
+  out.resample = task.resampling == record::Switch::kOn;
+  out.second_order = second_order_of(task.second_order);
+  if (task.motion == SpindleTask::Motion::kAsPublished) out.motion = Options::Motion::kAsPublished;
+  return out;
+}
 
 fit::ProbeReadings probe_readings(const record::Series& series) {
   const auto scaled = [&](std::string_view column, double unit) {

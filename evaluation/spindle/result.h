@@ -15,6 +15,7 @@
 #include "fit/spindle/first_harmonic.h"
 #include "fit/spindle/three_probe.h"
 #include "record/tasks/analysis_influences.h"
+#include "record/tasks/spindle.h"
 
 namespace rondure::evaluation {
 
@@ -84,6 +85,10 @@ constexpr double kWeakShare = 0.25;
                                          std::span<const record::Characteristic> characteristics);
 /// Whether a gate of gates_of() that voids, voids every value, not those of some characteristics.
 [[nodiscard]] bool voids_all(const Gate& gate);
+
+/// Layout and settings of a separation as a plan or the command line spells them.
+[[nodiscard]] core::Result<fit::ProbeLayout> probe_layout(const record::SpindleTask& task);
+[[nodiscard]] fit::ThreeProbeOptions separation_options(const record::SpindleTask& task);
 
 /// Evaluates feature `index` of a record.
 /// @param earlier  Asked where another feature gives the wheel radius.

@@ -27,24 +27,6 @@ fit::WheelPointErrors point_errors(const record::WheelInfluencesTask& said) {
           record::u_of(said.threshold_um) * kMicrometre, record::u_of(said.wear_um) * kMicrometre};
 }
 
-fit::WheelOptions wheel_options(const WheelTask& task, std::uint64_t seed) {
-  fit::WheelOptions out;
-  out.mode = task.mode == WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
-                                                     : fit::WheelMode::kIndexed;
-  out.mean = task.center == WheelTask::Center::kAsPublished ? fit::WheelMean::kAsPublished
-                                                            : fit::WheelMean::kLeastSquares;
-  out.quadruples.seed = seed;
-  out.quadruples.kappa_limit = task.kappa_limit;
-  out.robust = task.robust == record::Switch::kOn;
-  out.allow_short_arc = task.short_arc == WheelTask::ShortArc::kAllowed;
-  out.nominal_radius_mm = task.nominal_radius_mm;
-  if (task.axis_x_mm && task.axis_z_mm) {
-    out.axis_mm = Eigen::Vector2d(*task.axis_x_mm, *task.axis_z_mm);
-  }
-  if (task.uncertainty && task.uncertainty->point_um) out.errors = point_errors(*task.uncertainty);
-  return out;
-}
-
 core::Result<fit::WheelSurface> formula_or_table(const GroundSurfaceTask& task) {
   switch (task.form) {
     case GroundSurfaceTask::Form::kTable:
@@ -193,6 +175,24 @@ void bound_runout(std::span<const record::Characteristic> characteristics, Wheel
 }
 
 }  // namespace
+
+fit::WheelOptions wheel_options(const WheelTask& task, std::uint64_t seed) {
+  fit::WheelOptions out;
+  out.mode = task.mode == WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
+                                                     : fit::WheelMode::kIndexed;
+  out.mean = task.center == WheelTask::Center::kAsPublished ? fit::WheelMean::kAsPublished
+                                                            : fit::WheelMean::kLeastSquares;
+  out.quadruples.seed = seed;
+  out.quadruples.kappa_limit = task.kappa_limit;
+  out.robust = task.robust == record::Switch::kOn;
+  out.allow_short_arc = task.short_arc == WheelTask::ShortArc::kAllowed;
+  out.nominal_radius_mm = task.nominal_radius_mm;
+  if (task.axis_x_mm && task.axis_z_mm) {
+    out.axis_mm = Eigen::Vector2d(*task.axis_x_mm, *task.axis_z_mm);
+  }
+  if (task.uncertainty && task.uncertainty->point_um) out.errors = point_errors(*task.uncertainty);
+  return out;
+}
 
 core::Result<AnalysisValue> value_of(const WheelResult& facts,
                                      const record::Characteristic& characteristic) {

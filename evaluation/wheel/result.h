@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include "evaluation/results/measured_radius.h"
 #include "fit/wheel/evaluation.h"
 #include "record/tasks/analysis_influences.h"
+#include "record/tasks/wheel.h"
 
 namespace rondure::evaluation {
 
@@ -59,6 +61,9 @@ struct WheelResult {
 /// Finds the result of an earlier wheel by the id of its feature; or says why nothing can be taken
 /// from it: there is none, it is void, it is no wheel.
 using EarlierWheel = std::function<core::Result<const WheelResult*>(const std::string& id)>;
+
+/// The settings of a measurement as a plan or the command line spells them.
+[[nodiscard]] fit::WheelOptions wheel_options(const record::WheelTask& task, std::uint64_t seed);
 
 /// Evaluates feature `index` of a record.
 /// @param earlier  Asked where another feature gives the axis.

@@ -80,16 +80,16 @@ std::string try_spindle(std::string_view bytes) {
   Choices choices(bytes);
   app::SpindleArguments arguments;
   using Layout = record::SpindleTask::Layout;
-  arguments.layout = choices.yes() ? Layout::kReference : Layout::kPublishedA;
+  arguments.task.layout = choices.yes() ? Layout::kReference : Layout::kPublishedA;
   if (choices.yes()) {
-    arguments.crank_radius_mm = 49.0;
-    arguments.wheel_radius_mm = 299.88;
-    arguments.pin_radius_mm = 24.56;
+    arguments.task.crank_radius_mm = 49.0;
+    arguments.task.wheel_radius_mm = 299.88;
+    arguments.task.pin_radius_mm = 24.56;
   }
-  arguments.samples = choices.yes() ? 128 : 0;
-  arguments.highest_order = 20;
-  arguments.cutoff_upr = choices.yes() ? 15.0 : 0.0;
-  arguments.no_resampling = choices.yes();
+  arguments.task.samples = choices.yes() ? 128 : 0;
+  arguments.task.highest_order = 20;
+  arguments.task.cutoff_upr = choices.yes() ? 15.0 : 0.0;
+  if (choices.yes()) arguments.task.resampling = record::Switch::kOff;
   arguments.json = choices.yes();
   arguments.file = file_of(bytes);
   return wrong_with_answer([&] { return app::spindle(arguments); });
@@ -118,12 +118,12 @@ std::string try_wheel(std::string_view bytes) {
   app::WheelArguments arguments;
   using Mode = record::WheelTask::Mode;
   using Center = record::WheelTask::Center;
-  arguments.mode = choices.yes() ? Mode::kEnvelope : Mode::kIndexed;
-  if (arguments.mode == Mode::kIndexed && choices.yes()) arguments.axis_mm = {12.02, -7.0};
+  arguments.task.mode = choices.yes() ? Mode::kEnvelope : Mode::kIndexed;
+  if (arguments.task.mode == Mode::kIndexed && choices.yes()) arguments.axis_mm = {12.02, -7.0};
   const std::array<Center, 2> centers = {Center::kLeastSquares, Center::kAsPublished};
-  arguments.center = centers[choices.below(centers.size())];
-  arguments.robust = choices.yes();
-  arguments.override_arc = choices.yes();
+  arguments.task.center = centers[choices.below(centers.size())];
+  if (choices.yes()) arguments.task.robust = record::Switch::kOn;
+  if (choices.yes()) arguments.task.short_arc = record::WheelTask::ShortArc::kAllowed;
   arguments.json = choices.yes();
   const std::string file = file_of(bytes);
   const bool points = bytes.find("depth") == std::string_view::npos &&
@@ -146,13 +146,13 @@ std::string try_contour(std::string_view bytes) {
   if (bytes.empty()) return {};
   Choices choices(bytes);
   app::ContourArguments arguments;
-  arguments.samples = 360;
-  arguments.cutoff_upr = 15.0;
+  arguments.task.samples = 360;
+  arguments.task.cutoff_upr = 15.0;
   using Method = record::ContourTask::Method;
   using BaseCircle = record::ContourTask::BaseCircle;
-  arguments.method = choices.yes() ? Method::kAsPublished : Method::kCorrected;
-  arguments.base = choices.yes() ? BaseCircle::kGeometric : BaseCircle::kLimacon;
-  arguments.prefiltered = choices.yes();
+  arguments.task.method = choices.yes() ? Method::kAsPublished : Method::kCorrected;
+  arguments.task.base_circle = choices.yes() ? BaseCircle::kGeometric : BaseCircle::kLimacon;
+  if (choices.yes()) arguments.task.filter = record::ContourTask::Filter::kDoneByGauge;
   arguments.json = choices.yes();
   const std::string axes = whole("axes.csv", contour_tables()[0]);
   const std::string pin = whole("pin.csv", contour_tables()[1]);
