@@ -22,8 +22,7 @@ Vector3d radius_of(const ScanCircleCommand& command) {
 
 core::Result<void> check_scan(const ScanCircleCommand& command) {
   const auto refuse = [&](const std::string& why) {
-    return core::machine_fault(
-        fmt::format("scan from point {}: {}; no motion", command.first_id, why));
+    return core::machine_fault("scan from point {}: {}; no motion", command.first_id, why);
   };
   const bool finite = command.center_W_mm.allFinite() && command.axis_W.allFinite() &&
                       command.start_tip_W_mm.allFinite() && std::isfinite(command.sweep_rad) &&

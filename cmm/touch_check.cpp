@@ -46,7 +46,7 @@ constexpr std::string_view kThenResume =
     "look at machine and server (frame, active tool, report), then resume";
 
 core::Result<void> answers_otherwise(std::string what) {
-  return core::machine_fault(fmt::format("{}; {}", what, kThenResume));
+  return core::machine_fault("{}; {}", what, kThenResume);
 }
 
 /// Largest angle between two neighbours of a scan [rad].
@@ -251,10 +251,10 @@ core::Result<void> check_stands(std::string_view doing, const Vector3d& target_W
 
 core::Result<void> check_temperature(std::string_view name, double temperature_degC) {
   if (temperature_degC >= kColdest_degC && temperature_degC <= kWarmest_degC) return {};
-  return core::machine_fault(fmt::format(
-      "the machine gives {} as {:.7g} degC, outside {:g}..{:g} degC where one measures: "
-      "kelvin, degrees Fahrenheit, or no sensor; set the machine to degC, then resume",
-      name, temperature_degC, kColdest_degC, kWarmest_degC));
+  return core::machine_fault(
+      "the machine gives {} as {:.7g} degC, outside {:g}..{:g} degC where one measures: kelvin, "
+      "degrees Fahrenheit, or no sensor; set the machine to degC, then resume",
+      name, temperature_degC, kColdest_degC, kWarmest_degC);
 }
 
 core::Result<void> check_tip_radius(double radius_mm, double known_mm, double limit_mm) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tl/expected.hpp>
 
 #include "core/error.h"
@@ -20,6 +21,13 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(Error{code, std::move(what), std::move(where)});
 }
 
+/// The same with a sentence made of a format and its arguments, as fmt::format() makes it.
+template <class... Args>
+[[nodiscard]] tl::unexpected<Error> fail_with(Code code, fmt::format_string<Args...> what,
+                                              Args&&... args) {
+  return fail(code, fmt::format(what, std::forward<Args>(args)...));
+}
+
 /// The same with a sentence that is data.
 [[nodiscard]] inline tl::unexpected<Error> fail(Code code, Phrase said, std::string where = {}) {
   return tl::unexpected<Error>(error_of(code, std::move(said), std::move(where)));
@@ -33,6 +41,11 @@ using Result = tl::expected<T, Error>;
 /// Makes the error for a fault of a machine, of a fixture or of the connection to it (kMachine).
 [[nodiscard]] inline tl::unexpected<Error> machine_fault(std::string what) {
   return fail(Code::kMachine, std::move(what));
+}
+template <class... Args>
+[[nodiscard]] tl::unexpected<Error> machine_fault(fmt::format_string<Args...> what,
+                                                  Args&&... args) {
+  return fail(Code::kMachine, fmt::format(what, std::forward<Args>(args)...));
 }
 
 }  // namespace rondure::core

@@ -121,8 +121,8 @@ core::Result<void> run_program(const ProgramCall& call) {
   const std::string name = call.program.string();
   pid_t pid = -1;
   if (const int error = spawn(call, pid); error != 0) {
-    return core::fail(core::Code::kFile,
-                      fmt::format("{} cannot be started: {}", name, system_reason(error)));
+    return core::fail_with(core::Code::kFile, "{} cannot be started: {}", name,
+                           system_reason(error));
   }
   const bool in_time = ended_by(pid, Clock::now() + call.time_limit);
   ::kill(-pid, SIGKILL);  // before waitpid(): until then no other process has this number
@@ -139,7 +139,7 @@ core::Result<void> run_program(const ProgramCall& call) {
   } else {
     why = fmt::format("ended with status {}", WEXITSTATUS(state));
   }
-  return core::fail(core::Code::kFile, fmt::format("{} {}{}", name, why, last_words(call.said)));
+  return core::fail_with(core::Code::kFile, "{} {}{}", name, why, last_words(call.said));
 }
 
 }  // namespace rondure::record

@@ -228,9 +228,9 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const fs::path& device,
                                                       const SerialSettings& settings) {
   const auto speed = speed_of(settings.baud);
   if (!speed) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("{} baud is no usual speed of a serial line: 1200..230400", settings.baud));
+    return core::fail_with(core::Code::kBadOption,
+                           "{} baud is no usual speed of a serial line: 1200..230400",
+                           settings.baud);
   }
   Descriptor file(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (file.number() < 0) return core::machine_fault(why_not_opened(device, errno));
@@ -240,14 +240,13 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const fs::path& device,
     return core::machine_fault(why_not_opened(device, errno));
   termios line = {};
   if (::tcgetattr(file.number(), &line) != 0) {
-    return core::machine_fault(fmt::format("{} is no serial device", device.string()));
+    return core::machine_fault("{} is no serial device", device.string());
   }
   (void)::ioctl(file.number(), TIOCEXCL);
   const termios wanted = with_settings(line, on(device, settings), *speed);
   if (::tcsetattr(file.number(), TCSANOW, &wanted) != 0) {
-    return core::machine_fault(fmt::format("{} refuses {} baud, {} data bits: {}", device.string(),
-                                           settings.baud, settings.data_bits,
-                                           std::strerror(errno)));
+    return core::machine_fault("{} refuses {} baud, {} data bits: {}", device.string(),
+                               settings.baud, settings.data_bits, std::strerror(errno));
   }
   (void)::tcflush(file.number(), TCIOFLUSH);
   return std::make_unique<SerialPort>(std::move(file), device.string(), settings.write_limit);

@@ -157,19 +157,16 @@ core::Result<std::unique_ptr<LineTransport>> connect_tcp(const std::string& host
   });
   const std::string where = place(host, port);
   if (!in_time && result) {
-    return core::machine_fault(
-        fmt::format("{} does not answer within {} ms; check address, cable and firewall", where,
-                    options.connect_limit.count()));
+    return core::machine_fault("{} does not answer within {} ms; check address, cable and firewall",
+                               where, options.connect_limit.count());
   }
   if (result && !resolved) {
-    return core::machine_fault(
-        fmt::format("the computer {} is not known here: {}", host, result.message()));
+    return core::machine_fault("the computer {} is not known here: {}", host, result.message());
   }
   if (result) {
     return core::machine_fault(
-        fmt::format("no connection to {}: {}; check that the server runs and listens on "
-                    "port {}",
-                    where, result.message(), port));
+        "no connection to {}: {}; check that the server runs and listens on port {}", where,
+        result.message(), port);
   }
   return lines_of(std::move(io), std::move(socket), options);
 }
@@ -191,8 +188,7 @@ core::Result<TcpListener> TcpListener::open(const std::string& address, std::uin
   socket->options = options;
   asio::error_code error;
   const auto ip = asio::ip::make_address(address, error);
-  if (error)
-    return core::machine_fault(fmt::format("{} is not an IP address, e.g. 127.0.0.1", address));
+  if (error) return core::machine_fault("{} is not an IP address, e.g. 127.0.0.1", address);
   const Tcp::endpoint end(ip, port);
   Tcp::acceptor& acceptor = socket->acceptor;
   acceptor.open(end.protocol(), error);
@@ -200,8 +196,8 @@ core::Result<TcpListener> TcpListener::open(const std::string& address, std::uin
   if (!error) acceptor.bind(end, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error) {
-    return core::machine_fault(fmt::format("cannot listen on {}: {}; choose another port",
-                                           place(address, port), error.message()));
+    return core::machine_fault("cannot listen on {}: {}; choose another port", place(address, port),
+                               error.message());
   }
   return TcpListener(std::move(socket));
 }
@@ -222,8 +218,7 @@ core::Result<std::unique_ptr<LineTransport>> TcpListener::accept(milliseconds ti
     socket_->acceptor.cancel(ignored);
   });
   if (result == asio::error::operation_aborted) return std::unique_ptr<LineTransport>{};
-  if (result)
-    return core::machine_fault(fmt::format("no client could be accepted: {}", result.message()));
+  if (result) return core::machine_fault("no client could be accepted: {}", result.message());
   return lines_of(std::move(io), std::move(client), socket_->options);
 }
 

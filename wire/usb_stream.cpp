@@ -226,8 +226,8 @@ core::Result<std::unique_ptr<ByteStream>> open_cdc_acm(std::unique_ptr<UsbDevice
                                                        const SerialSettings& settings) {
   const auto ends = find_ends(device->interfaces());
   if (!ends) {
-    return core::machine_fault(fmt::format("the USB device {} has no serial line (class CDC-ACM)",
-                                           device->info().place()));
+    return core::machine_fault("the USB device {} has no serial line (class CDC-ACM)",
+                               device->info().place());
   }
   auto stream = std::make_unique<CdcAcm>(std::move(device), *ends, settings.write_limit);
   if (auto ready = stream->prepare(settings); !ready) return core::fail(ready.error().error());
@@ -248,8 +248,8 @@ core::Result<std::unique_ptr<ByteStream>> open_ftdi(std::unique_ptr<UsbDevice> d
   const auto in = bulk_end(*device, true);
   const auto out = bulk_end(*device, false);
   if (!in || !out) {
-    return core::machine_fault(fmt::format("the USB device {} has no serial line of an FTDI bridge",
-                                           device->info().place()));
+    return core::machine_fault("the USB device {} has no serial line of an FTDI bridge",
+                               device->info().place());
   }
   auto stream = std::make_unique<FtdiStream>(std::move(device), *in, *out,
                                              clock != nullptr ? *clock : system_clock());

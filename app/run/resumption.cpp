@@ -46,17 +46,16 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
   const bool by_directory = names_directory(arguments);
   out.directory = by_directory ? arguments.plan : arguments.out;
   if (out.directory.empty()) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("--resume does not say which run goes on, {} is not a directory; "
-                                  "name the run: rondure run RUN_DIR --resume, or --out DIR beside "
-                                  "the plan",
-                                  arguments.plan));
+    return core::fail_with(core::Code::kBadOption,
+                           "--resume does not say which run goes on, {} is not a directory; name "
+                           "the run: rondure run RUN_DIR --resume, or --out DIR beside the plan",
+                           arguments.plan);
   }
   if (by_directory && !arguments.out.empty() &&
       fs::absolute(arguments.out) != fs::absolute(arguments.plan)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("two run directories are named, {} and {}; name one",
-                                  arguments.plan, arguments.out));
+    return core::fail_with(core::Code::kBadOption,
+                           "two run directories are named, {} and {}; name one", arguments.plan,
+                           arguments.out);
   }
   if (!by_directory) {
     TRY(const auto unstarted, record::clear_unstarted_run(out.directory));

@@ -38,8 +38,7 @@ std::string answer() {
 
 core::Result<void> StepPrompt::check_terminal(std::string_view what) {
   if (::isatty(STDIN_FILENO) == 1) return {};
-  return core::fail(core::Code::kBadOption,
-                    fmt::format("{}, but standard input is no terminal", what));
+  return core::fail_with(core::Code::kBadOption, "{}, but standard input is no terminal", what);
 }
 
 core::Result<void> StepPrompt::ask(const plans::NextMove& move) {
@@ -52,8 +51,7 @@ core::Result<void> StepPrompt::ask(const plans::NextMove& move) {
     if (word == "c") asking_ = false;
     if (word.empty() || word == "c") return {};
   }
-  return core::fail(core::Code::kStopped,
-                    fmt::format("stopped by the operator before: {}", line_of(move)));
+  return core::fail_with(core::Code::kStopped, "stopped by the operator before: {}", line_of(move));
 }
 
 core::Result<void> ask_to_do(const std::string& what) {
@@ -64,7 +62,7 @@ core::Result<void> ask_to_do(const std::string& what) {
     if (word.empty()) return {};
     if (word == "q") break;
   }
-  return core::fail(core::Code::kStopped, fmt::format("stopped by the operator before: {}", what));
+  return core::fail_with(core::Code::kStopped, "stopped by the operator before: {}", what);
 }
 
 core::Result<void> ask_to_set(const core::Pose& pose) {

@@ -57,10 +57,10 @@ int refuse_file(const core::Error& error, const std::string& file) {
 core::Result<void> check_finite(const Json& found) {
   const std::string pointer = not_finite_in(found, {});
   if (pointer.empty()) return {};
-  return core::fail(core::Code::kNotFinite,
-                    fmt::format("{} came out as no finite number: these data do not determine it, "
-                                "and nothing of the result is given",
-                                pointer));
+  return core::fail_with(core::Code::kNotFinite,
+                         "{} came out as no finite number: these data do not determine it, and "
+                         "nothing of the result is given",
+                         pointer);
 }
 
 Json warnings_json(const std::vector<core::Error>& warnings) {

@@ -140,11 +140,10 @@ core::Result<void> check_counts(const ContourArguments& arguments) {
   if (arguments.pin.size() == parts && (arguments.main.empty() || arguments.main.size() == parts)) {
     return {};
   }
-  return core::fail(
-      core::Code::kBadOption,
-      fmt::format("{} files for --axes, {} for --pin and {} for --main; one of each a "
-                  "part, or no main journals",
-                  parts, arguments.pin.size(), arguments.main.size()));
+  return core::fail_with(core::Code::kBadOption,
+                         "{} files for --axes, {} for --pin and {} for --main; one of each a part, "
+                         "or no main journals",
+                         parts, arguments.pin.size(), arguments.main.size());
 }
 
 /// All parts of the command line.

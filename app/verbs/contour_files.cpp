@@ -192,26 +192,23 @@ std::string names_of(const List& list) {
 core::Result<void> check(const ContourColumn& column) {
   const ContourQuantity* const quantity = quantity_named(column.quantity);
   if (quantity == nullptr) {
-    return core::fail(Code::kBadOption, fmt::format("there is no quantity \"{}\"; they are {}",
-                                                    column.quantity, names_of(kQuantities)));
+    return core::fail_with(Code::kBadOption, "there is no quantity \"{}\"; they are {}",
+                           column.quantity, names_of(kQuantities));
   }
   if (column.column.empty()) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("the column of {} has no name", column.quantity));
+    return core::fail_with(Code::kBadOption, "the column of {} has no name", column.quantity);
   }
   if (column.sign != 1.0 && column.sign != -1.0) {
-    return core::fail(Code::kBadOption, fmt::format("the sign of {} is {}; it is 1 or -1",
-                                                    column.quantity, column.sign));
+    return core::fail_with(Code::kBadOption, "the sign of {} is {}; it is 1 or -1", column.quantity,
+                           column.sign);
   }
   if (column.unit.empty()) return {};
   const Unit* const unit = unit_named(column.unit);
   if (unit != nullptr && unit->angle == unit_of(*quantity).angle) return {};
-  return core::fail(
-      Code::kBadOption,
-      fmt::format("{} has the unit \"{}\"; it is {} (of {})", column.quantity, column.unit,
-                  unit == nullptr ? "none that is known"
-                                  : (unit->angle ? "one of angles" : "one of lengths"),
-                  names_of(kUnits)));
+  return core::fail_with(
+      Code::kBadOption, "{} has the unit \"{}\"; it is {} (of {})", column.quantity, column.unit,
+      unit == nullptr ? "none that is known" : (unit->angle ? "one of angles" : "one of lengths"),
+      names_of(kUnits));
 }
 
 core::Result<ContourColumn> column_of(const plans::JsonMember& member, const std::string& file) {
@@ -261,10 +258,10 @@ core::Result<ContourImport> read_contour_part(const ContourFiles& files,
 core::Result<ContourColumn> parse_contour_column(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("--column {}: quantity=column[:unit[:sign]] is expected, e.g. "
-                                  "x_error=X_FOLLOW:um:-1",
-                                  text));
+    return core::fail_with(
+        Code::kBadOption,
+        "--column {}: quantity=column[:unit[:sign]] is expected, e.g. x_error=X_FOLLOW:um:-1",
+        text);
   }
   ContourColumn out;
   out.quantity = text.substr(0, equals);

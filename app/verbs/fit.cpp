@@ -373,12 +373,11 @@ core::Result<FitOutcome> fit_plane(const FitArguments& arguments, Space points,
   const Eigen::Vector3d& normal = ls.plane.normal;
   constexpr double kLeastRise = 0.1;  // 6 deg out of the plane
   if (outward && !(outward->normalized().dot(normal) > kLeastRise)) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("--outward {:g},{:g},{:g} does not lead out of the plane, whose "
-                    "normal is {:.3f},{:.3f},{:.3f}: give a direction out of the "
-                    "material",
-                    outward->x(), outward->y(), outward->z(), normal.x(), normal.y(), normal.z()));
+    return core::fail_with(core::Code::kBadOption,
+                           "--outward {:g},{:g},{:g} does not lead out of the plane, whose normal "
+                           "is {:.3f},{:.3f},{:.3f}: give a direction out of the material",
+                           outward->x(), outward->y(), outward->z(), normal.x(), normal.y(),
+                           normal.z());
   }
   if (!outward) {
     collector.warn(core::Code::kMeaning,

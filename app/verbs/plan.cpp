@@ -37,9 +37,8 @@ std::string_view trimmed(std::string_view text) {
 ///          form.
 core::Result<double> length_from(std::string_view word) {
   const auto refuse = [&](const char* why) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("\"{}\" {}; write a length as 1um, 0.001mm or 1000nm", word, why));
+    return core::fail_with(core::Code::kBadOption,
+                           "\"{}\" {}; write a length as 1um, 0.001mm or 1000nm", word, why);
   };
   constexpr std::array<std::pair<std::string_view, double>, 3> kLengthUnits = {
       {{"um", 1e-3}, {"mm", 1.0}, {"nm", 1e-6}}};
@@ -80,8 +79,8 @@ core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast
                         const PlanArguments& arguments) {
   std::error_code ignored;  // a picture that does not exist yet cannot be the plan
   if (std::filesystem::equivalent(arguments.svg, arguments.plan, ignored)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("--svg {} is the plan itself; name another file", arguments.svg));
+    return core::fail_with(core::Code::kBadOption, "--svg {} is the plan itself; name another file",
+                           arguments.svg);
   }
   TRY(const auto stage, drawn_stage(plan, forecast, arguments.feature));
   return record::write_file(arguments.svg, plans::forecast_picture(plan, *stage));

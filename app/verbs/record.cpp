@@ -89,8 +89,8 @@ OpenProbe open_indicator(const std::string& word, bool inches) {
   if (kind == "itn") return open_itn(rest, inches);
   auto settings = cmm::ascii_probe_settings(kind);
   if (!settings || rest.empty()) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("\"{}\" is no indicator; give {}", word, indicator_words()));
+    return core::fail_with(core::Code::kBadOption, "\"{}\" is no indicator; give {}", word,
+                           indicator_words());
   }
   if (inches) settings->unit_mm = cmm::kInch_mm;
   TRY(auto line, wire::open_serial(rest, settings->line));

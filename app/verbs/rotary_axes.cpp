@@ -284,14 +284,14 @@ core::Result<Vector3d> direction_of(std::string_view text) {
     const std::size_t comma = k < 2 ? rest.find(',') : rest.size();
     const auto number = core::parse_number(rest.substr(0, comma));
     if (!number || comma == std::string_view::npos) {
-      return core::fail(Code::kBadOption,
-                        fmt::format("--axis {} is neither x, y, z nor three numbers a,b,c", text));
+      return core::fail_with(Code::kBadOption,
+                             "--axis {} is neither x, y, z nor three numbers a,b,c", text);
     }
     out(k) = *number;
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   if (!(out.norm() > 1e-9)) {
-    return core::fail(Code::kBadOption, fmt::format("--axis {} has no direction", text));
+    return core::fail_with(Code::kBadOption, "--axis {} has no direction", text);
   }
   return Vector3d(out.normalized());
 }
@@ -304,9 +304,8 @@ core::Result<fit::RotaryMeasurement> empty_axis(const std::string& name,
   } else if (const auto known = direction_by_name(name)) {
     out.axis.direction = *known;
   } else {
-    return core::fail(
-        Code::kBadOption,
-        fmt::format("the direction of axis {} is not known by its name; give --axis", name));
+    return core::fail_with(Code::kBadOption,
+                           "the direction of axis {} is not known by its name; give --axis", name);
   }
   if (!a.origin_mm.empty()) {
     if (a.origin_mm.size() != 3) {
@@ -355,9 +354,8 @@ core::Result<void> add_row(const record::BallRow& row, const RotaryAxesArguments
                          [&](const NamedAxis& axis) { return axis.name == row.axis; });
   if (at == axes.end()) {
     if (!axes.empty() && !arguments.axis.empty()) {
-      return core::fail(Code::kBadOption,
-                        fmt::format("--axis is for one axis, the files hold {} and {}",
-                                    axes.front().name, row.axis));
+      return core::fail_with(Code::kBadOption, "--axis is for one axis, the files hold {} and {}",
+                             axes.front().name, row.axis);
     }
     TRY(auto measurement, empty_axis(row.axis, arguments));
     axes.push_back({row.axis, std::move(measurement)});

@@ -213,10 +213,10 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
   }
   const std::size_t needed = out.filter.pass == PassBand::kBand ? 2 : 1;
   if (arguments.cutoff_upr.size() != needed) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("--cutoff-upr holds {} numbers, --pass {} needs {}",
-                                  arguments.cutoff_upr.size(), arguments.pass,
-                                  needed == 2 ? "two: --cutoff-upr 15,150" : "one"));
+    return core::fail_with(core::Code::kBadOption,
+                           "--cutoff-upr holds {} numbers, --pass {} needs {}",
+                           arguments.cutoff_upr.size(), arguments.pass,
+                           needed == 2 ? "two: --cutoff-upr 15,150" : "one");
   }
   out.filter.cutoff_upr = arguments.cutoff_upr.front();
   out.filter.upper_cutoff_upr = arguments.cutoff_upr.back();
@@ -233,10 +233,9 @@ core::Result<void> check_angle_unit(const std::vector<double>& theta_deg) {
   const auto [low, high] = std::minmax_element(theta_deg.begin(), theta_deg.end());
   const double span = *high - *low;
   if (span < 5.5 || span > core::kTwoPi * 1.001) return {};
-  return core::fail(core::Code::kUnits,
-                    fmt::format("the angles run over {:.4f} deg; that is one turn in radians, "
-                                "theta_deg is in degrees",
-                                span));
+  return core::fail_with(
+      core::Code::kUnits,
+      "the angles run over {:.4f} deg; that is one turn in radians, theta_deg is in degrees", span);
 }
 
 core::Result<fit::RoundnessEvaluation> evaluate_polar(const record::ProfileTable& table,

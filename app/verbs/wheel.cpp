@@ -163,9 +163,8 @@ std::vector<std::string_view> split(std::string_view text) {
 
 core::Result<double> number(std::string_view text, std::string_view of) {
   if (const auto value = core::parse_number(text)) return *value;
-  return core::fail(
-      core::Code::kBadOption,
-      fmt::format("--surface: {} is \"{}\"; a number such as 12.5 is expected", of, text));
+  return core::fail_with(core::Code::kBadOption,
+                         "--surface: {} is \"{}\"; a number such as 12.5 is expected", of, text);
 }
 
 core::Result<fit::WheelSurface> read_polynomial(std::string_view words) {
@@ -196,10 +195,10 @@ core::Result<void> set_term(std::string_view name, double value, fit::Asphere& o
     out.even_terms.resize(std::max(out.even_terms.size(), *term + 1));
     out.even_terms[*term] = value;
   } else {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("--surface: an asphere has R (not 0) or c, K, A2, A4, ... A{}; "
-                                  "there is \"{}={}\"",
-                                  2 * kMostEvenTerms, name, core::shortest(value)));
+    return core::fail_with(
+        core::Code::kBadOption,
+        "--surface: an asphere has R (not 0) or c, K, A2, A4, ... A{}; there is \"{}={}\"",
+        2 * kMostEvenTerms, name, core::shortest(value));
   }
   return {};
 }
@@ -209,9 +208,8 @@ core::Result<fit::WheelSurface> read_asphere(std::string_view words) {
   for (const std::string_view word : split(words)) {
     const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos) {
-      return core::fail(
-          core::Code::kBadOption,
-          fmt::format("--surface: \"{}\" has no =; write asphere:R=120,K=-1,A4=2e-8", word));
+      return core::fail_with(core::Code::kBadOption,
+                             "--surface: \"{}\" has no =; write asphere:R=120,K=-1,A4=2e-8", word);
     }
     TRY(const auto value, number(word.substr(equals + 1), word.substr(0, equals)));
     TRY_DO(set_term(word.substr(0, equals), value, out));
@@ -242,10 +240,10 @@ core::Result<fit::WheelSurface> read_surface(const std::string& word) {
   if (kind == "polynomial") return read_polynomial(rest);
   if (kind == "asphere") return read_asphere(rest);
   if (kind != "table") {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("--surface is \"{}\"; polynomial:a0,a1,..., asphere:R=..,K=..,"
-                                  "A4=.. or table:FILE.csv are known",
-                                  word));
+    return core::fail_with(core::Code::kBadOption,
+                           "--surface is \"{}\"; polynomial:a0,a1,..., asphere:R=..,K=..,A4=.. or "
+                           "table:FILE.csv are known",
+                           word);
   }
   const std::string file(rest);
   TRY(const auto table, read_table(file, std::array<record::WantedColumn, 2>{{{"x"}, {"z"}}}));

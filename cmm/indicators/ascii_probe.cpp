@@ -118,10 +118,9 @@ class AsciiProbe final : public DisplacementProbe {
     if (number && unit_mm) return *number * *unit_mm;
     late_ = true;
     const bool says_error = reply->starts_with("ERR");
-    return core::machine_fault(
-        fmt::format("{} answered \"{}\", {}", description(), *reply,
-                    says_error ? "an error of the instrument; see its manual"
-                               : "which is no reading; check kind and line settings"));
+    return core::machine_fault("{} answered \"{}\", {}", description(), *reply,
+                               says_error ? "an error of the instrument; see its manual"
+                                          : "which is no reading; check kind and line settings");
   }
 
  private:
@@ -132,8 +131,8 @@ class AsciiProbe final : public DisplacementProbe {
       TRY(const auto old, stream_->read_some(late_ ? settings_.answer_limit : milliseconds(0)));
       if (old.empty()) break;
       if (clock_.now() < end) continue;
-      return core::machine_fault(
-          fmt::format("{} does not stop sending; end its continuous output", description()));
+      return core::machine_fault("{} does not stop sending; end its continuous output",
+                                 description());
     }
     buffer_.clear();
     late_ = false;
@@ -157,9 +156,8 @@ class AsciiProbe final : public DisplacementProbe {
       buffer_ += printable(part);
     }
     return core::machine_fault(
-        fmt::format("{}: no reading within {} ms; check that it is on, its cable, "
-                    "and its line settings",
-                    description(), settings_.answer_limit.count()));
+        "{}: no reading within {} ms; check that it is on, its cable, and its line settings",
+        description(), settings_.answer_limit.count());
   }
 
   /// Replaces non-printing bytes, except line ends, by question marks.
@@ -201,9 +199,9 @@ core::Result<std::unique_ptr<DisplacementProbe>> open_ascii_probe(
   auto probe = std::make_unique<AsciiProbe>(std::move(stream), settings,
                                             clock != nullptr ? *clock : wire::system_clock());
   if (!probe->prepare()) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("\"{}\" is no regular expression with a group for the number", settings.reply));
+    return core::fail_with(core::Code::kBadOption,
+                           "\"{}\" is no regular expression with a group for the number",
+                           settings.reply);
   }
   return probe;
 }

@@ -105,9 +105,9 @@ class MitutoyoItn final : public DisplacementProbe {
       if (message.size() > kLongestMessage) break;
     }
     return core::machine_fault(
-        fmt::format("{}: no reading within {} ms; check that the gauge is on and its "
-                    "cable plugged in at both ends",
-                    description(), kAnswerLimit.count()));
+        "{}: no reading within {} ms; check that the gauge is on and its cable plugged in at both "
+        "ends",
+        description(), kAnswerLimit.count());
   }
 
   std::unique_ptr<wire::UsbDevice> device_;
@@ -135,8 +135,8 @@ core::Result<std::unique_ptr<DisplacementProbe>> open_mitutoyo_itn(
     wire::Clock* clock) {
   const auto in = interrupt_end(*device);
   if (!in) {
-    return core::machine_fault(fmt::format(
-        "the USB device {} has no endpoint that readings could come from", device->info().place()));
+    return core::machine_fault("the USB device {} has no endpoint that readings could come from",
+                               device->info().place());
   }
   auto probe = std::make_unique<MitutoyoItn>(std::move(device), *in, options,
                                              clock != nullptr ? *clock : wire::system_clock());
@@ -147,9 +147,8 @@ core::Result<std::unique_ptr<DisplacementProbe>> open_mitutoyo_itn(
 core::Result<double> digimatic_reading(std::string_view message) {
   if (message.starts_with('9')) {
     return core::machine_fault(
-        fmt::format("the gauge interface says \"{}\": no gauge is connected, or it is "
-                    "off or gives no data",
-                    shown(message)));
+        "the gauge interface says \"{}\": no gauge is connected, or it is off or gives no data",
+        shown(message));
   }
   const bool reading = message.size() == kLength && message.starts_with(kHead) &&
                        (message[3] == '+' || message[3] == '-');
@@ -157,8 +156,8 @@ core::Result<double> digimatic_reading(std::string_view message) {
   const bool plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
   const auto value = plain ? core::parse_number(digits) : std::nullopt;
   if (!value) {
-    return core::machine_fault(
-        fmt::format("\"{}\" is no reading of a gauge (01A+0000.123 is one)", shown(message)));
+    return core::machine_fault("\"{}\" is no reading of a gauge (01A+0000.123 is one)",
+                               shown(message));
   }
   return message[3] == '-' ? -*value : *value;
 }

@@ -87,8 +87,8 @@ std::optional<Response::Kind> kind_of(char c) {
 }
 
 tl::unexpected<core::Error> bad(std::string_view why, std::string_view line) {
-  return core::fail(core::Code::kSyntax,
-                    fmt::format("the machine sent a line with {}: \"{}\"", why, excerpt(line, 60)));
+  return core::fail_with(core::Code::kSyntax, "the machine sent a line with {}: \"{}\"", why,
+                         excerpt(line, 60));
 }
 
 }  // namespace

@@ -143,9 +143,8 @@ core::Result<void> IppMachine::check_ready() {
   if (is_stop_wanted()) return core::fail(stopped_before(""));
   if (!dialogue_->fault().empty()) {
     return core::machine_fault(
-        fmt::format("the machine is in its error state: {}; put that right at the machine, "
-                    "then resume",
-                    dialogue_->fault()));
+        "the machine is in its error state: {}; put that right at the machine, then resume",
+        dialogue_->fault());
   }
   if (!homed_) return core::machine_fault("the machine is not homed; home it first, no motion");
   return {};

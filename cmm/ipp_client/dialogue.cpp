@@ -89,8 +89,8 @@ core::Result<Eigen::Vector3d> find_point(const Reply& reply) {
   const auto y = find_number(reply, "Y");
   const auto z = find_number(reply, "Z");
   if (x && y && z) return Eigen::Vector3d(*x, *y, *z);
-  return core::machine_fault(fmt::format("the machine was asked for X, Y and Z and answered \"{}\"",
-                                         fault_text(reply).substr(0, 80)));
+  return core::machine_fault("the machine was asked for X, Y and Z and answered \"{}\"",
+                             fault_text(reply).substr(0, 80));
 }
 
 std::vector<Eigen::Vector3d> find_vectors(const Reply& reply) {
@@ -117,8 +117,8 @@ core::Result<std::vector<Eigen::Vector3d>> scan_points(const Reply& reply) {
       return item.kind == Item::Kind::kNumber;
     });
     if (!bare || line.data.empty() || line.data.size() % 3 != 0) {
-      return core::machine_fault(fmt::format(
-          "a line of the scan does not hold groups of X, Y, Z: \"{}\"", line.raw.substr(0, 80)));
+      return core::machine_fault("a line of the scan does not hold groups of X, Y, Z: \"{}\"",
+                                 line.raw.substr(0, 80));
     }
     for (std::size_t i = 0; i < line.data.size(); i += 3) {
       out.emplace_back(line.data[i].number, line.data[i + 1].number, line.data[i + 2].number);
@@ -216,9 +216,8 @@ core::Result<void> Dialogue::check_state() {
   const auto more = session_.call("GetXtdErrStatus", {}, limit_);
   fault_ = more ? fault_text(*more) : more.error().what;
   return core::machine_fault(
-      fmt::format("the machine is in its error state: {}; put that right at the "
-                  "machine, then start again",
-                  fault_));
+      "the machine is in its error state: {}; put that right at the machine, then start again",
+      fault_);
 }
 
 core::Result<std::string> Dialogue::version() {
@@ -227,9 +226,9 @@ core::Result<std::string> Dialogue::version() {
   const std::string version = word_of(*reply);
   if (version.starts_with("1.") || version.starts_with("2.")) return version;
   return core::machine_fault(
-      fmt::format("the server at {} speaks I++ DME version \"{}\", this program speaks "
-                  "1.x and 2.x; connect another server",
-                  session_.peer(), version));
+      "the server at {} speaks I++ DME version \"{}\", this program speaks 1.x and 2.x; connect "
+      "another server",
+      session_.peer(), version);
 }
 
 core::Result<void> Dialogue::choose_reports(Identity& identity) {
@@ -345,10 +344,9 @@ core::Result<void> Dialogue::set(std::span<const std::pair<std::string_view, dou
   if (!reply) return core::fail(error_of(reply.error(), fmt::format("setting {}", text)));
   for (const ErrorReport& warning : reply->warnings) {
     if (warning.number != kOutOfRange) continue;
-    return core::fail(
-        core::Code::kOutOfRange,
-        fmt::format("setting {}: the machine says {}; choose values within its limits", text,
-                    in_words(warning)));
+    return core::fail_with(core::Code::kOutOfRange,
+                           "setting {}: the machine says {}; choose values within its limits", text,
+                           in_words(warning));
   }
   for (const auto& [name, value] : values) known_.insert_or_assign(std::string(name), value);
   return {};

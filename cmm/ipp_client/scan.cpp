@@ -49,7 +49,7 @@ core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircle
   TRY_DO(check_ready());
   TRY_DO(check_scan(given));
   if (const Capabilities can = capabilities(); !can.scans_circles) {
-    return core::machine_fault(fmt::format("the machine does not scan circles: {}", can.no_scans));
+    return core::machine_fault("the machine does not scan circles: {}", can.no_scans);
   }
   const ScanCircleCommand command = on_grid(given);
   const TouchCommand first = scan_point(command, 0);
@@ -115,9 +115,9 @@ core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& targ
   const std::vector<Vector3d> reached = ipp::client::find_vectors(reply);
   if (reached.size() != 2) {
     return core::machine_fault(
-        fmt::format("turning the part: the machine answered with {} vectors instead of 2; "
-                    "it needs two rotary axes (AlignPart with 14 numbers)",
-                    reached.size()));
+        "turning the part: the machine answered with {} vectors instead of 2; it needs two rotary "
+        "axes (AlignPart with 14 numbers)",
+        reached.size());
   }
   if (auto sane = check_turned({target.first_W, target.second_W}, {reached[0], reached[1]});
       !sane) {

@@ -101,11 +101,11 @@ class Surveyor {
     if (failure.kind != Failure::Kind::kServer) return core::machine_fault(failure.what);
     const bool open =
         failure.report.number == kProtocolError || failure.report.number == kIllegalCommand;
-    return core::machine_fault(fmt::format(
+    return core::machine_fault(
         "{} begins no session: {}{}", session_.peer(), failure.what,
         open ? "; a session is open there: of another client, or of one that ended without a word; "
                "end that program, or let the controller end its session"
-             : "; see what the controller reports and put it right"));
+             : "; see what the controller reports and put it right");
   }
 
   void ask_state() {

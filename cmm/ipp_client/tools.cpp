@@ -40,8 +40,7 @@ core::Result<void> IppMachine::check_named(const std::string& tool) const {
   const bool named =
       tool.empty() || tools.empty() || std::find(tools.begin(), tools.end(), tool) != tools.end();
   if (named) return {};
-  return core::machine_fault(
-      fmt::format("the machine has no tool {}; its tools: {}", tool, listed(tools)));
+  return core::machine_fault("the machine has no tool {}; its tools: {}", tool, listed(tools));
 }
 
 core::Result<void> IppMachine::take_tool(const std::string& name) {
@@ -50,8 +49,8 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
   if (auto changed =
           run("ChangeTool", {ipp::string_item(name)}, 0.0, fmt::format("taking tool {}", name));
       !changed) {
-    return core::fail(changed.error().code,
-                      fmt::format("{}; its tools: {}", changed.error().what, listed(tools)));
+    return core::fail_with(changed.error().code, "{}; its tools: {}", changed.error().what,
+                           listed(tools));
   }
   dialogue_->forget_properties();
   last_touch_.reset();
@@ -59,9 +58,8 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
   TRY(tool_, dialogue_->active_tool());
   if (tool_ != name) {
     return core::machine_fault(
-        fmt::format("tool {} was asked for, the machine says that {} is active; see which "
-                    "tool is in its head",
-                    name, tool_.empty() ? "none" : tool_));
+        "tool {} was asked for, the machine says that {} is active; see which tool is in its head",
+        name, tool_.empty() ? "none" : tool_);
   }
   const auto stands = dialogue_->position_W_mm();  // another tip has another position
   if (!stands) return core::fail(stands.error());
@@ -73,19 +71,18 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
 core::Result<void> IppMachine::check_tool() {
   if (tool_.empty()) {
     return core::machine_fault(
-        fmt::format("the machine has no tool active; name one of its tools (machine.tool): "
-                    "{}",
-                    listed(identity_.tools)));
+        "the machine has no tool active; name one of its tools (machine.tool): {}",
+        listed(identity_.tools));
   }
   if (options_.tip_radius_mm == 0.0 ||
       std::abs(tool_radius_mm_ - options_.tip_radius_mm) <= options_.tip_tolerance_mm) {
     return {};
   }
   return core::machine_fault(
-      fmt::format("tool {} has an effective radius of {:.4f} mm, the tip of the plan has "
-                  "{:.4f} mm, at most {:g} mm off: name another tool (machine.tool), "
-                  "correct tip_diameter_mm, or qualify the tool on the machine",
-                  tool_, tool_radius_mm_, options_.tip_radius_mm, options_.tip_tolerance_mm));
+      "tool {} has an effective radius of {:.4f} mm, the tip of the plan has {:.4f} mm, at most "
+      "{:g} mm off: name another tool (machine.tool), correct tip_diameter_mm, or qualify the tool "
+      "on the machine",
+      tool_, tool_radius_mm_, options_.tip_radius_mm, options_.tip_tolerance_mm);
 }
 
 core::Result<void> IppMachine::read_tool_radius() {
@@ -148,9 +145,9 @@ core::Result<void> IppMachine::set_speeds(const Speeds& speeds) {
     const double least = least_.*speed.member;
     const double greatest = greatest_.*speed.member;
     if (std::isfinite(value) && value > 0.0 && value >= least && value <= greatest) continue;
-    return core::fail(core::Code::kOutOfRange,
-                      fmt::format("{} of {:g} mm/s is outside {:g}..{:g} mm/s of the machine",
-                                  speed.name, value, least, greatest));
+    return core::fail_with(core::Code::kOutOfRange,
+                           "{} of {:g} mm/s is outside {:g}..{:g} mm/s of the machine", speed.name,
+                           value, least, greatest);
   }
   options_.speeds = speeds;
   return send_speeds();

@@ -76,17 +76,17 @@ core::Result<MachineStatus> SimulatedMachine::status() {
 
 core::Result<void> SimulatedMachine::select_tool(const std::string& name) {
   if (name == options_.tool) return {};
-  return core::machine_fault(
-      fmt::format("there is no tool \"{}\"; the machine has \"{}\"", name, options_.tool));
+  return core::machine_fault("there is no tool \"{}\"; the machine has \"{}\"", name,
+                             options_.tool);
 }
 
 core::Result<void> SimulatedMachine::set_speeds(const Speeds& speeds) {
   const auto check = [](const char* what, double value, double least, double greatest) {
     if (value >= least && value <= greatest) return core::Result<void>{};
-    return core::Result<void>(core::fail(
-        core::Code::kOutOfRange, fmt::format("a {} speed of {:.7g} mm/s is outside {:.7g}..{:.7g} "
-                                             "mm/s; no speed was changed",
-                                             what, value, least, greatest)));
+    return core::Result<void>(core::fail_with(
+        core::Code::kOutOfRange,
+        "a {} speed of {:.7g} mm/s is outside {:.7g}..{:.7g} mm/s; no speed was changed", what,
+        value, least, greatest));
   };
   auto fits = check("travel", speeds.travel_mm_s, kSlowest.travel_mm_s, kFastest.travel_mm_s);
   if (fits) fits = check("touch", speeds.touch_mm_s, kSlowest.touch_mm_s, kFastest.touch_mm_s);
@@ -119,7 +119,7 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
     const SimulatedPart* part, const Vector3d& start_W_mm, const Vector3d& direction_W,
     double tip_radius_mm, double max_travel_mm) const {
   auto first = core::Result<Obstacle>(
-      core::fail(core::Code::kNoTouch, fmt::format("nothing within {:.3f} mm", max_travel_mm)));
+      core::fail_with(core::Code::kNoTouch, "nothing within {:.3f} mm", max_travel_mm));
   const std::size_t surfaces = part != nullptr ? part->surfaces.size() : 0;
   for (std::size_t i = 0; i < surfaces; ++i) {
     const Eigen::Isometry3d X_WS = X_WP_ * part->surfaces[i].X_PS;
@@ -161,10 +161,10 @@ core::Result<void> SimulatedMachine::move_to(const Vector3d& target_W_mm) {
                                        tip_radius_mm() - kGraze_mm, length_mm);
   if (obstacle) return core::fail(stop_before(*obstacle, direction, tip_W_mm));
   if (obstacle.error().code == core::Code::kCollision) {
-    return core::fail(core::Code::kCollision,
-                      fmt::format("the tip is in contact at {} before the move to {} starts; the "
-                                  "machine did not move",
-                                  in_words(position_W_mm_), in_words(tip_W_mm)));
+    return core::fail_with(
+        core::Code::kCollision,
+        "the tip is in contact at {} before the move to {} starts; the machine did not move",
+        in_words(position_W_mm_), in_words(tip_W_mm));
   }
   if (obstacle.error().code != core::Code::kNoTouch) return core::fail(obstacle.error());
   position_W_mm_ = tip_W_mm;
@@ -202,10 +202,9 @@ core::Result<void> SimulatedMachine::check_ready() const {
 
 core::Result<void> SimulatedMachine::check_volume(const Vector3d& tip_W_mm) const {
   if (tip_W_mm.cwiseAbs().maxCoeff() <= kHalfVolume_mm) return {};
-  return core::fail(core::Code::kUnreachable,
-                    fmt::format("{} is outside the volume of the machine, {:.7g}..{:.7g} mm; no "
-                                "motion",
-                                in_words(tip_W_mm), -kHalfVolume_mm, kHalfVolume_mm));
+  return core::fail_with(core::Code::kUnreachable,
+                         "{} is outside the volume of the machine, {:.7g}..{:.7g} mm; no motion",
+                         in_words(tip_W_mm), -kHalfVolume_mm, kHalfVolume_mm);
 }
 
 core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) const {
@@ -316,8 +315,8 @@ core::Result<std::vector<SimulatedMachine::Found>> SimulatedMachine::find_circle
   out.reserve(points.size());
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     if (stopped_) {
-      return core::fail(core::Code::kStopped,
-                        fmt::format("the machine was stopped at point {} of a scan", i + 1));
+      return core::fail_with(core::Code::kStopped, "the machine was stopped at point {} of a scan",
+                             i + 1);
     }
     const auto found = find_contact(points[static_cast<std::size_t>(i)], scan_time_s(command, i));
     if (!found) return core::fail(scan_failed(found.error(), command, i));

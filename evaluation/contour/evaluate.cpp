@@ -152,7 +152,7 @@ core::Result<AnalysisValue> measured_value(const ContourResult& facts,
     case Form::kHarmonicLimits:
       return mask_value(facts, asked);
     default:
-      return core::fail(Code::kMeaning, fmt::format("a contour has no {}", name_of(asked.form)));
+      return core::fail_with(Code::kMeaning, "a contour has no {}", name_of(asked.form));
   }
 }
 

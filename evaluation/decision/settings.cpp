@@ -40,8 +40,8 @@ core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
   if (name.empty()) return DecisionRule();
   const auto kind = record::value_named<DecisionRule::Kind>(name);
   if (!kind) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("this program does not know the decision rule \"{}\"", name));
+    return core::fail_with(core::Code::kMeaning,
+                           "this program does not know the decision rule \"{}\"", name);
   }
   TRY(auto task, record::task_of<DecisionRuleTask>(record.settings, "decision_rule/"));
   task.rule = *kind;  // the settings of a checked journal name the same

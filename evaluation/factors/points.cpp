@@ -46,8 +46,8 @@ Eigen::Vector3d plane_heights(const Points3& points, const Eigen::Vector2d& cent
 core::Result<Points3> filtered_layer(const Points3& points, double cutoff_upr) {
   const auto needed = static_cast<std::size_t>(std::ceil(kPointsPerUndulation * cutoff_upr));
   if (points.size() < needed) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("needs {} points a layer, has {}", needed, points.size()));
+    return core::fail_with(core::Code::kSampling, "needs {} points a layer, has {}", needed,
+                           points.size());
   }
   const auto plane = across_axis(points);
   TRY(const auto circle, fit::ls_circle(plane));
@@ -75,9 +75,8 @@ core::Result<double> one_sided(const core::Result<Fit>& fit) {
 
 core::Result<double> cylindricity(const Points3& points, Reference reference) {
   if (points.size() < 6) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} points prove nothing: any 5 lie on a cylinder", points.size()));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} points prove nothing: any 5 lie on a cylinder", points.size());
   }
   const Eigen::Vector3d near = Eigen::Vector3d::UnitZ();
   if (reference == Reference::kLeastSquares) return one_sided(fit::ls_cylinder(points, near));
@@ -91,9 +90,8 @@ core::Result<double> cylindricity(const Points3& points, Reference reference) {
 
 core::Result<double> roundness(const Points3& points, Reference reference) {
   if (points.size() < 4) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} points a layer prove nothing: any 3 lie on a circle", points.size()));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} points a layer prove nothing: any 3 lie on a circle", points.size());
   }
   const auto plane = across_axis(points);
   if (reference == Reference::kLeastSquares) return one_sided(fit::ls_circle(plane));

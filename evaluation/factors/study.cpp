@@ -218,14 +218,14 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
     return core::fail(core::Code::kMeaning, std::string(why_no_factors(asked.form)));
   }
   if (!about) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("{} has no reference to exchange", record::name_of(asked.form)));
+    return core::fail_with(core::Code::kMeaning, "{} has no reference to exchange",
+                           record::name_of(asked.form));
   }
   if (characteristic.finding) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("{} ({}) is not the peak-to-valley value of all points as read, "
-                                  "which the study exchanges references and filters of",
-                                  record::name_of(asked.form), symbol_of(asked)));
+    return core::fail_with(core::Code::kMeaning,
+                           "{} ({}) is not the peak-to-valley value of all points as read, which "
+                           "the study exchanges references and filters of",
+                           record::name_of(asked.form), symbol_of(asked));
   }
   TRY(const auto points, factor_points(feature, asked.form));
   if (!characteristic.value) return core::fail(core::Code::kReferenceAbsent, characteristic.reason);

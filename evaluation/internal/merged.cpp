@@ -134,9 +134,8 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   MergedCloud out;
   const std::vector<fit::JointPose> poses = take_poses(record, feature, said, visits, out);
   if (visits.size() != planned || out.points.empty()) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("{} of {} poses were measured{}", visits.size(), planned,
-                                  record.failure ? ": " + record.failure->what : std::string()));
+    return core::fail_with(core::Code::kNoPoints, "{} of {} poses were measured{}", visits.size(),
+                           planned, record.failure ? ": " + record.failure->what : std::string());
   }
   out.temperatures = temperatures_of(record, touches_in(record, visits));
   out.merged.joint = said.merge == record::Merge::kJoint;

@@ -25,7 +25,7 @@ constexpr int kLeastTrials = 200;
 
 core::Result<void> check(const PredictionOptions& options) {
   const auto bad = [](const char* name, auto value, const char* limit) {
-    return core::fail(core::Code::kBadOption, fmt::format("{} {} is not {}", name, value, limit));
+    return core::fail_with(core::Code::kBadOption, "{} {} is not {}", name, value, limit);
   };
   if (options.least_inspections < kLeastInspections) {
     return bad("least_inspections", options.least_inspections, ">= 8");
@@ -234,9 +234,8 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
                                  const PredictionOptions& options) {
   TRY_DO(check(options));
   if (feature < 0 || static_cast<std::size_t>(feature) >= expected.features.size()) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("feature {} is outside 0..{}", feature,
-                                  static_cast<int>(expected.features.size()) - 1));
+    return core::fail_with(core::Code::kBadOption, "feature {} is outside 0..{}", feature,
+                           static_cast<int>(expected.features.size()) - 1);
   }
   const record::Feature& of = expected.features[static_cast<std::size_t>(feature)];
   if (record::is_analysis(of.shape)) {

@@ -71,8 +71,7 @@ core::Result<std::vector<AnalysisPrediction>> predict_analysis(const record::Run
   const record::Feature* of =
       exists ? &simulated.features[static_cast<std::size_t>(feature)] : nullptr;
   if (of == nullptr || !record::is_analysis(of->shape) || of->shape == record::Shape::kRotaryAxes) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("feature {} is no analysis of series", feature));
+    return core::fail_with(core::Code::kBadOption, "feature {} is no analysis of series", feature);
   }
   std::vector<FeatureResult> wheels;  // no other feature gives a value to a later one
   for (int i = 0; i < feature; ++i) {

@@ -42,8 +42,8 @@ core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expec
   const bool exists = feature >= 0 && static_cast<std::size_t>(feature) < expected.features.size();
   if (!exists ||
       expected.features[static_cast<std::size_t>(feature)].shape != record::Shape::kRotaryAxes) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("feature {} is no calibration of a fixture", feature));
+    return core::fail_with(core::Code::kBadOption, "feature {} is no calibration of a fixture",
+                           feature);
   }
   TRY(const auto task, record::task_of<record::RotaryTask>(
                            expected.features[static_cast<std::size_t>(feature)].settings));

@@ -72,14 +72,13 @@ core::Result<fit::BallCenter> center_of(const std::vector<Vector3d>& tips, doubl
                                         pose.alpha_rad / kDegree, pose.beta_rad / kDegree);
   auto center = fit::ball_center(tips, radius_mm);
   if (!center) {
-    return core::fail(center.error().code, fmt::format("{}: {}", place, center.error().what));
+    return core::fail_with(center.error().code, "{}: {}", place, center.error().what);
   }
   if (center->deviation_mm > form_limit_mm) {
-    return core::fail(
-        core::Code::kCalibration,
-        fmt::format("{} has a form of {:.3f} um, the limit is {:g} um (form_limit_um); clean it "
-                    "and check that it is tight",
-                    place, center->deviation_mm / kMicrometre, form_limit_mm / kMicrometre));
+    return core::fail_with(core::Code::kCalibration,
+                           "{} has a form of {:.3f} um, the limit is {:g} um (form_limit_um); "
+                           "clean it and check that it is tight",
+                           place, center->deviation_mm / kMicrometre, form_limit_mm / kMicrometre);
   }
   return center;
 }
@@ -108,8 +107,7 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
     VisitBalls balls{visit.commanded, visit.reached, {}};
     for (const auto& [ball, points] : tips) {
       if (ball < 0 || static_cast<std::size_t>(ball) >= out.names.size()) {
-        return core::fail(core::Code::kJournal,
-                          fmt::format("ball {} was touched and has no name", ball));
+        return core::fail_with(core::Code::kJournal, "ball {} was touched and has no name", ball);
       }
       TRY(const auto center, center_of(points, radius_mm, record.artefact.form_limit_mm,
                                        out.names[static_cast<std::size_t>(ball)], visit.commanded));
@@ -297,8 +295,8 @@ core::Result<void> check_balls(const Measurement& measured, const RotaryResult& 
       const bool known = std::any_of(reference.begin(), reference.end(),
                                      [&](const fit::BallCentre& at) { return at.ball == name; });
       if (known) continue;
-      return core::fail(core::Code::kInconsistent,
-                        fmt::format("ball {} was touched in no zero pose", name));
+      return core::fail_with(core::Code::kInconsistent, "ball {} was touched in no zero pose",
+                             name);
     }
   }
   return {};
@@ -384,11 +382,10 @@ core::Result<void> date_calibration(const record::RunRecord& record, const Rotar
   out.measured_utc = record.header.started_utc;
   const auto start = core::parse_utc(out.measured_utc);
   if (!start) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kMeaning,
-        fmt::format("the run states no time, but \"{}\": a calibration without a date "
-                    "cannot expire",
-                    out.measured_utc));
+        "the run states no time, but \"{}\": a calibration without a date cannot expire",
+        out.measured_utc);
   }
   out.expires_utc =
       core::utc_text(*start + static_cast<std::int64_t>(task.valid_for_days * kDay_s));
@@ -420,10 +417,9 @@ void judge_balls(const Measurement& measured, RotaryResult& facts) {
 core::Result<void> identify(const Measurement& measured, const fixture::Kinematics& known,
                             RotaryResult& facts) {
   auto alpha = study_of(measured, Role::kAlpha, known);
-  if (!alpha)
-    return core::fail(alpha.error().code, fmt::format("axis alpha: {}", alpha.error().what));
+  if (!alpha) return core::fail_with(alpha.error().code, "axis alpha: {}", alpha.error().what);
   auto beta = study_of(measured, Role::kBeta, known);
-  if (!beta) return core::fail(beta.error().code, fmt::format("axis beta: {}", beta.error().what));
+  if (!beta) return core::fail_with(beta.error().code, "axis beta: {}", beta.error().what);
   TRY(auto alpha_motion, motion_of(*alpha));
   TRY(auto beta_motion, motion_of(*beta));
   facts.alpha = *std::move(alpha);

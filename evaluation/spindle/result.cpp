@@ -175,7 +175,7 @@ core::Result<AnalysisValue> measured_value(const SpindleResult& facts,
     case Form::kMotionAsynchronous:
       return motion_value(facts, asked);
     default:
-      return core::fail(Code::kMeaning, fmt::format("a spindle has no {}", name_of(asked.form)));
+      return core::fail_with(Code::kMeaning, "a spindle has no {}", name_of(asked.form));
   }
 }
 

@@ -287,12 +287,12 @@ constexpr double kNotLinear = 0.3;   // difference of the two propagations over 
 core::Result<void> check_trials(const TrialValues& trials) {
   const std::size_t count = trials.values_mm.size();
   if (count < kLeastTrials) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("{} trials; an interval needs {} at least", count, kLeastTrials));
+    return core::fail_with(Code::kBadOption, "{} trials; an interval needs {} at least", count,
+                           kLeastTrials);
   }
   if (!trials.core_mm.empty() && trials.core_mm.size() != count) {
-    return core::fail(Code::kBadOption, fmt::format("{} values of the core for {} trials",
-                                                    trials.core_mm.size(), count));
+    return core::fail_with(Code::kBadOption, "{} values of the core for {} trials",
+                           trials.core_mm.size(), count);
   }
   for (std::size_t t = 0; t < count; ++t) {
     const double core_mm = trials.core_mm.empty() ? 0.0 : trials.core_mm[t];

@@ -18,8 +18,8 @@ using Numbers = std::vector<std::pair<std::string, double>>;
 core::Result<void> check_numbers(const Numbers& numbers, bool signs) {
   for (const auto& [name, value] : numbers) {
     if (std::isfinite(value) && (signs || value >= 0.0)) continue;
-    return core::fail(Code::kBadOption,
-                      fmt::format("{} {} is not a number{}", name, value, signs ? "" : " >= 0"));
+    return core::fail_with(Code::kBadOption, "{} {} is not a number{}", name, value,
+                           signs ? "" : " >= 0");
   }
   return {};
 }
@@ -55,8 +55,7 @@ core::Result<void> check_machine(const MachineInfluences& machine) {
         numbers.emplace_back("quadratic coefficient", curve.quadratic_1_mm2);
         numbers.emplace_back("wave", curve.wave);
         if (curve.period_mm > 0.0) continue;
-        return core::fail(Code::kBadOption,
-                          fmt::format("wave period {} mm is not > 0", curve.period_mm));
+        return core::fail_with(Code::kBadOption, "wave period {} mm is not > 0", curve.period_mm);
       }
     }
   }
@@ -261,10 +260,9 @@ core::Result<void> check_calibration_draws(const CalibrationInfluences& used) {
     return draws.rows() == 6 * used.poses && draws.allFinite();
   };
   if (used.poses >= 1 && fits(used.draws) && (!used.growth || fits(*used.growth))) return {};
-  return core::fail(Code::kBadOption,
-                    fmt::format("the draws of the calibration are not 6 finite rows for each of {} "
-                                "poses",
-                                used.poses));
+  return core::fail_with(Code::kBadOption,
+                         "the draws of the calibration are not 6 finite rows for each of {} poses",
+                         used.poses);
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ bool moves_part(const FormTerm& term) {
 
 core::Result<void> check_term(const FormTerm& term, FormKind kind) {
   const auto named = [&](const std::string& what) {
-    return core::fail(Code::kBadOption, fmt::format("form term of {} undulations, degree {}: {}",
-                                                    term.undulations, term.degree, what));
+    return core::fail_with(Code::kBadOption, "form term of {} undulations, degree {}: {}",
+                           term.undulations, term.degree, what);
   };
   if (term.undulations < 0 || term.undulations > kMostUndulations) {
     return named(fmt::format("undulations are outside 0..{}", kMostUndulations));
@@ -66,16 +66,15 @@ core::Result<void> check_size(const FormSpectrum& spectrum, FormKind kind) {
   int coefficients = 0;
   for (const FormTerm& term : spectrum.terms) coefficients += coefficients_of(term);
   if (coefficients > kMostCoefficients) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("{} coefficients of the form spectrum; {} at most", coefficients,
-                                  kMostCoefficients));
+    return core::fail_with(Code::kBadOption, "{} coefficients of the form spectrum; {} at most",
+                           coefficients, kMostCoefficients);
   }
   const std::size_t places = grid_places(spectrum, kind);
   if (places > kMostPlaces) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("the form spectrum needs a grid of {} places; {} at most: fewer "
-                                  "undulations or degrees",
-                                  places, kMostPlaces));
+    return core::fail_with(
+        Code::kBadOption,
+        "the form spectrum needs a grid of {} places; {} at most: fewer undulations or degrees",
+        places, kMostPlaces);
   }
   return {};
 }
@@ -95,8 +94,8 @@ core::Result<void> check_spectrum(const FormSpectrum& spectrum, FormKind kind) {
     return core::fail(Code::kBadOption, "all amplitudes of the form spectrum are 0 mm");
   }
   if (kind != FormKind::kRoundness && !(spectrum.high_mm > spectrum.low_mm)) {
-    return core::fail(Code::kBadOption, fmt::format("the surface ends at {} mm and begins at {} mm",
-                                                    spectrum.high_mm, spectrum.low_mm));
+    return core::fail_with(Code::kBadOption, "the surface ends at {} mm and begins at {} mm",
+                           spectrum.high_mm, spectrum.low_mm);
   }
   return check_size(spectrum, kind);
 }

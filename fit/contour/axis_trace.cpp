@@ -27,21 +27,18 @@ core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options
   const std::size_t n = trace.c_rad.size();
   if (trace.c_error_rad.size() != n || trace.x_error_mm.size() != n ||
       (!trace.x_mm.empty() && trace.x_mm.size() != n)) {
-    return core::fail(
-        core::Code::kMeaning,
-        fmt::format("{} positions of C, {} errors of C, {} errors and {} positions of X; one row "
-                    "each for all that are given",
-                    n, trace.c_error_rad.size(), trace.x_error_mm.size(), trace.x_mm.size()));
+    return core::fail_with(core::Code::kMeaning,
+                           "{} positions of C, {} errors of C, {} errors and {} positions of X; "
+                           "one row each for all that are given",
+                           n, trace.c_error_rad.size(), trace.x_error_mm.size(), trace.x_mm.size());
   }
   for (const int sign : {options.error_sign, options.c_direction}) {
     if (sign == 1 || sign == -1) continue;
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("a sign or direction of {}; it is 1 or -1", sign));
+    return core::fail_with(core::Code::kMeaning, "a sign or direction of {}; it is 1 or -1", sign);
   }
   if (n < kLeastTurnSamples) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} samples of the axes; at least {} are needed", n, kLeastTurnSamples));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} samples of the axes; at least {} are needed", n, kLeastTurnSamples);
   }
   for (std::size_t i = 0; i < n; ++i) {
     const double x = trace.x_mm.empty() ? 0.0 : trace.x_mm[i];
@@ -49,12 +46,11 @@ core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options
         core::is_measurable(trace.x_error_mm[i]) && core::is_measurable(x)) {
       continue;
     }
-    return core::fail(
-        core::Code::kNotFinite,
-        fmt::format("row {} of the axes is (C {} rad, error of C {} rad, X {} mm, error of X {} "
-                    "mm); all must be finite numbers up to {:g}",
-                    i, trace.c_rad[i], trace.c_error_rad[i], x, trace.x_error_mm[i],
-                    core::kGreatestNumber));
+    return core::fail_with(core::Code::kNotFinite,
+                           "row {} of the axes is (C {} rad, error of C {} rad, X {} mm, error of "
+                           "X {} mm); all must be finite numbers up to {:g}",
+                           i, trace.c_rad[i], trace.c_error_rad[i], x, trace.x_error_mm[i],
+                           core::kGreatestNumber);
   }
   return {};
 }
@@ -94,22 +90,21 @@ core::Result<void> check_steps(const std::vector<double>& alpha, bool reversed) 
   const auto row = [&](std::size_t i) { return reversed ? n - 1 - i : i; };
   for (std::size_t i = 1; i < n; ++i) {
     if (alpha[i] > alpha[i - 1]) continue;
-    return core::fail(
+    return core::fail_with(
         core::Code::kAngleOrder,
-        fmt::format("C stands still or goes back at row {}, by {:.4g} deg; it must turn "
-                    "one way all the time",
-                    std::max(row(i), row(i - 1)), (alpha[i - 1] - alpha[i]) / core::kDegree));
+        "C stands still or goes back at row {}, by {:.4g} deg; it must turn one way all the time",
+        std::max(row(i), row(i - 1)), (alpha[i - 1] - alpha[i]) / core::kDegree);
   }
   for (std::size_t i = 1; i < n; ++i) {
     const double step = alpha[i] - alpha[i - 1];
     const double before = i > 1 ? alpha[i - 1] - alpha[i - 2] : 0.0;
     const double after = i + 1 < n ? alpha[i + 1] - alpha[i] : 0.0;
     if (step <= kMissingStep * std::max(before, after)) continue;
-    return core::fail(
+    return core::fail_with(
         core::Code::kSampling,
-        fmt::format("C steps {:.4g} deg at row {} and {:.4g} deg beside it: samples are missing",
-                    step / core::kDegree, std::max(row(i), row(i - 1)),
-                    std::max(before, after) / core::kDegree));
+        "C steps {:.4g} deg at row {} and {:.4g} deg beside it: samples are missing",
+        step / core::kDegree, std::max(row(i), row(i - 1)),
+        std::max(before, after) / core::kDegree);
   }
   return {};
 }
@@ -141,13 +136,13 @@ core::Result<Cut> cut_of(const std::vector<double>& alpha, bool reversed) {
   const double span = alpha.back() - alpha.front();
   const double step = span / static_cast<double>(alpha.size() - 1);
   if (span + 1.5 * step < core::kTwoPi) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kNotFullSection,
-        fmt::format("C turns by {:.4f} deg altogether; one whole turn of 360 deg is needed{}",
-                    span / core::kDegree,
-                    std::abs(span / core::kDegree - core::kTwoPi) < 0.2
-                        ? " (that is one turn in radians: give degrees)"
-                        : ""));
+        "C turns by {:.4f} deg altogether; one whole turn of 360 deg is needed{}",
+        span / core::kDegree,
+        std::abs(span / core::kDegree - core::kTwoPi) < 0.2
+            ? " (that is one turn in radians: give degrees)"
+            : "");
   }
   Cut cut;
   // A turn is whole if the sample after the last recorded one would close it.
@@ -230,9 +225,9 @@ void warn_of_units(AxisTurn& turn) {
 core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions& options) {
   TRY_DO(check(trace, options));
   if (options.samples < kLeastTurnSamples) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the axes on {} angles are asked for; at least {} are needed",
-                                  options.samples, kLeastTurnSamples));
+    return core::fail_with(core::Code::kBadOption,
+                           "the axes on {} angles are asked for; at least {} are needed",
+                           options.samples, kLeastTurnSamples);
   }
   const auto [rows, reversed] = oriented(trace, options);
   TRY_DO(check_steps(rows.c_rad, reversed));
@@ -242,11 +237,11 @@ core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions&
   const double step = span / static_cast<double>(rows.c_rad.size() - 1);
   // A closed turn and one with margins may differ by a few; a spline needs three.
   if (2 * (cut.end - cut.first) < kLeastTurnSamples) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("C steps by {:.4g} deg: the last turn has {} samples; at least "
-                                  "{} are needed; C is in degrees",
-                                  recorded_step(trace.c_rad) / core::kDegree, cut.end - cut.first,
-                                  kLeastTurnSamples));
+    return core::fail_with(core::Code::kSampling,
+                           "C steps by {:.4g} deg: the last turn has {} samples; at least {} are "
+                           "needed; C is in degrees",
+                           recorded_step(trace.c_rad) / core::kDegree, cut.end - cut.first,
+                           kLeastTurnSamples);
   }
   out.samples_per_turn = core::kTwoPi / step;
   out.turns = (span + step) / core::kTwoPi;

@@ -19,21 +19,20 @@ core::Result<void> check_geometry(const CrankGeometry& geometry) {
        {"pin radius", geometry.pin_radius_mm}}};
   for (const auto& [name, value] : radii) {
     if (!std::isfinite(value)) {
-      return core::fail(core::Code::kNotFinite,
-                        fmt::format("the {} is {}; a number in mm is needed", name, value));
+      return core::fail_with(core::Code::kNotFinite, "the {} is {}; a number in mm is needed", name,
+                             value);
     }
     if (value <= 0.0) {
-      return core::fail(core::Code::kOutOfRange,
-                        fmt::format("the {} is {} mm; it must be above 0 mm", name, value));
+      return core::fail_with(core::Code::kOutOfRange, "the {} is {} mm; it must be above 0 mm",
+                             name, value);
     }
   }
   if (geometry.crank_radius_mm < geometry.center_distance_mm()) return {};
-  return core::fail(
+  return core::fail_with(
       core::Code::kOutOfRange,
-      fmt::format(
-          "the crank radius is {} mm and the wheel and pin radii add up to {} mm; the wheel "
-          "can follow the pin only where the crank radius is the smaller one",
-          geometry.crank_radius_mm, geometry.center_distance_mm()));
+      "the crank radius is {} mm and the wheel and pin radii add up to {} mm; the wheel can follow "
+      "the pin only where the crank radius is the smaller one",
+      geometry.crank_radius_mm, geometry.center_distance_mm());
 }
 
 double wheel_position_mm(const CrankGeometry& geometry, double alpha_rad) {

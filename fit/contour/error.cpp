@@ -26,15 +26,15 @@ double angle_of(std::size_t m, std::size_t count) {
 
 core::Result<void> check_values(std::span<const double> deviation_mm) {
   if (deviation_mm.size() < kLeastContourPoints) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("a contour of {} points; at least {} are needed",
-                                  deviation_mm.size(), kLeastContourPoints));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "a contour of {} points; at least {} are needed", deviation_mm.size(),
+                           kLeastContourPoints);
   }
   for (std::size_t i = 0; i < deviation_mm.size(); ++i) {
     if (core::is_measurable(deviation_mm[i])) continue;
-    return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} is {} mm; a finite number up to {:g} is needed", i,
-                                  deviation_mm[i], core::kGreatestNumber));
+    return core::fail_with(core::Code::kNotFinite,
+                           "row {} is {} mm; a finite number up to {:g} is needed", i,
+                           deviation_mm[i], core::kGreatestNumber);
   }
   return {};
 }

@@ -86,14 +86,12 @@ core::Result<void> check_radii(const std::vector<double>& r_mm, const AxisErrors
                                double wheel_mm) {
   const auto none = std::ranges::find_if_not(r_mm, core::is_measurable);
   if (none == r_mm.end()) return {};
-  return core::fail(
+  return core::fail_with(
       core::Code::kOutOfRange,
-      fmt::format(
-          "the pin has no radius at {:.4g} deg: errors of X reach {:.4g} mm and those of C "
-          "{:.4g} deg, too much for a wheel of {:.4g} mm radius; are they in mm and deg?",
-          360.0 * static_cast<double>(none - r_mm.begin()) / static_cast<double>(r_mm.size()),
-          largest_magnitude(errors.x_mm), largest_magnitude(errors.c_rad) / core::kDegree,
-          wheel_mm));
+      "the pin has no radius at {:.4g} deg: errors of X reach {:.4g} mm and those of C {:.4g} deg, "
+      "too much for a wheel of {:.4g} mm radius; are they in mm and deg?",
+      360.0 * static_cast<double>(none - r_mm.begin()) / static_cast<double>(r_mm.size()),
+      largest_magnitude(errors.x_mm), largest_magnitude(errors.c_rad) / core::kDegree, wheel_mm);
 }
 
 }  // namespace
@@ -102,14 +100,14 @@ core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisE
   TRY_DO(check_geometry(geometry));
   const std::size_t n = errors.c_rad.size();
   if (errors.x_mm.size() != n) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("{} errors of C and {} of X; both traces need the same samples",
-                                  n, errors.x_mm.size()));
+    return core::fail_with(core::Code::kMeaning,
+                           "{} errors of C and {} of X; both traces need the same samples", n,
+                           errors.x_mm.size());
   }
   if (n < kLeastTurnSamples) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} samples over the turn; at least {} are needed", n, kLeastTurnSamples));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} samples over the turn; at least {} are needed", n,
+                           kLeastTurnSamples);
   }
   GrindingPath path;
   for (std::size_t i = 0; i < n; ++i) {
@@ -117,18 +115,16 @@ core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisE
     const double alpha = command + errors.c_rad[i];
     const double d = wheel_position_mm(geometry, command) + errors.x_mm[i];
     if (!std::isfinite(alpha) || !std::isfinite(d)) {
-      return core::fail(
+      return core::fail_with(
           core::Code::kNotFinite,
-          fmt::format("sample {} has the errors {} rad and {} mm; both must be finite "
-                      "numbers",
-                      i, errors.c_rad[i], errors.x_mm[i]));
+          "sample {} has the errors {} rad and {} mm; both must be finite numbers", i,
+          errors.c_rad[i], errors.x_mm[i]);
     }
     if (d <= 0.0) {
-      return core::fail(
-          core::Code::kOutOfRange,
-          fmt::format("sample {} puts the wheel centre at X = {:.4g} mm; it must stay "
-                      "above 0 mm: is the error of X, {:.4g} mm, in mm?",
-                      i, d, errors.x_mm[i]));
+      return core::fail_with(core::Code::kOutOfRange,
+                             "sample {} puts the wheel centre at X = {:.4g} mm; it must stay above "
+                             "0 mm: is the error of X, {:.4g} mm, in mm?",
+                             i, d, errors.x_mm[i]);
     }
     path.x_mm.push_back(d * std::cos(alpha) - geometry.crank_radius_mm);
     path.y_mm.push_back(d * std::sin(alpha));
@@ -164,9 +160,9 @@ ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm, P
 core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const AxisErrors& errors,
                                            const GroundContourOptions& options) {
   if (options.samples < kLeastTurnSamples) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("a contour of {} points is asked for; at least {} are needed",
-                                  options.samples, kLeastTurnSamples));
+    return core::fail_with(core::Code::kBadOption,
+                           "a contour of {} points is asked for; at least {} are needed",
+                           options.samples, kLeastTurnSamples);
   }
   TRY(const auto path, wheel_path(geometry, errors));
   const double wheel = geometry.wheel_radius_mm;

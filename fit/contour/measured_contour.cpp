@@ -28,25 +28,24 @@ constexpr double kGreatestRange = 1.0;  ///< mm
 core::Result<void> check(std::span<const double> angle, std::span<const double> deviation,
                          const MeasuredContourOptions& options) {
   if (angle.size() != deviation.size()) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("{} angles and {} deviations; one of each a row", angle.size(),
-                                  deviation.size()));
+    return core::fail_with(core::Code::kMeaning, "{} angles and {} deviations; one of each a row",
+                           angle.size(), deviation.size());
   }
   if (options.direction != 1 && options.direction != -1) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("a direction of {}; it is 1 or -1", options.direction));
+    return core::fail_with(core::Code::kMeaning, "a direction of {}; it is 1 or -1",
+                           options.direction);
   }
   if (angle.size() < kLeastContourPoints) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} points of the contour; at least {} are needed", angle.size(),
-                                  kLeastContourPoints));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} points of the contour; at least {} are needed", angle.size(),
+                           kLeastContourPoints);
   }
   for (std::size_t i = 0; i < angle.size(); ++i) {
     if (core::is_measurable(angle[i]) && core::is_measurable(deviation[i])) continue;
-    return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} of the contour is ({} rad, {} mm); both must be finite "
-                                  "numbers up to {:g}",
-                                  i, angle[i], deviation[i], core::kGreatestNumber));
+    return core::fail_with(
+        core::Code::kNotFinite,
+        "row {} of the contour is ({} rad, {} mm); both must be finite numbers up to {:g}", i,
+        angle[i], deviation[i], core::kGreatestNumber);
   }
   return {};
 }
@@ -57,10 +56,10 @@ core::Result<void> check_order(std::span<const double> angle) {
   for (std::size_t i = 1; i < angle.size(); ++i) {
     const double step = std::remainder(angle[i] - angle[i - 1], core::kTwoPi);
     if (step * sense > 0.0) continue;
-    return core::fail(core::Code::kAngleOrder,
-                      fmt::format("the angle stands still or goes back at row {}, by {:.4g} deg; a "
-                                  "contour runs one way round",
-                                  i, std::abs(step) / core::kDegree));
+    return core::fail_with(core::Code::kAngleOrder,
+                           "the angle stands still or goes back at row {}, by {:.4g} deg; a "
+                           "contour runs one way round",
+                           i, std::abs(step) / core::kDegree);
   }
   return {};
 }
@@ -68,14 +67,13 @@ core::Result<void> check_order(std::span<const double> angle) {
 core::Result<void> check_contour_gap(const AngularProfile& profile, std::size_t rows) {
   if (profile.largest_gap_rad <= kLargestGap * (1.0 + 1e-9)) return {};
   const double span_deg = (core::kTwoPi - profile.largest_gap_rad) / core::kDegree;
-  return core::fail(
+  return core::fail_with(
       core::Code::kNotFullSection,
-      fmt::format("{} rows leave a gap of {:.4g} deg; the whole contour is needed with gaps of at "
-                  "most 1 deg{}",
-                  rows, profile.largest_gap_rad / core::kDegree,
-                  std::abs(span_deg - core::kTwoPi) < 0.2
-                      ? " (the angles fill one turn in radians: give degrees)"
-                      : ""));
+      "{} rows leave a gap of {:.4g} deg; the whole contour is needed with gaps of at most 1 deg{}",
+      rows, profile.largest_gap_rad / core::kDegree,
+      std::abs(span_deg - core::kTwoPi) < 0.2
+          ? " (the angles fill one turn in radians: give degrees)"
+          : "");
 }
 
 /// Fits a line to log2 of the amplitudes over k^2, from half the cut-off to three times it, or to

@@ -18,18 +18,16 @@ constexpr std::size_t kPartsForAWord = 4;
 
 core::Result<void> check_curves(std::span<const std::vector<double>> curves) {
   if (curves.size() < 2 || curves.front().size() < kLeastValues) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kTooFewPoints,
-        fmt::format("{} curves of {} values; at least 2 curves of {} values show how "
-                    "they repeat",
-                    curves.size(), curves.empty() ? 0 : curves.front().size(), kLeastValues));
+        "{} curves of {} values; at least 2 curves of {} values show how they repeat",
+        curves.size(), curves.empty() ? 0 : curves.front().size(), kLeastValues);
   }
   for (std::size_t i = 1; i < curves.size(); ++i) {
     if (curves[i].size() == curves.front().size()) continue;
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("curve {} has {} values and the first one {}; all parts need the "
-                                  "same",
-                                  i, curves[i].size(), curves.front().size()));
+    return core::fail_with(core::Code::kMeaning,
+                           "curve {} has {} values and the first one {}; all parts need the same",
+                           i, curves[i].size(), curves.front().size());
   }
   return {};
 }

@@ -32,11 +32,10 @@ core::Result<void> check_axis_sampling(AxisTurn& axes, const FilterOptions& filt
   const double cutoff = filter.highest_cutoff_upr();
   const double samples = axes.samples_per_turn;
   if (cutoff >= samples / 2.0) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kSampling,
-        fmt::format("the control has {:.1f} samples a turn; a cut-off of {} UPR needs "
-                    "more than {}",
-                    samples, cutoff, 2.0 * cutoff));
+        "the control has {:.1f} samples a turn; a cut-off of {} UPR needs more than {}", samples,
+        cutoff, 2.0 * cutoff);
   }
   if (samples < kSamplesPerUndulation * cutoff * (1.0 - 1e-9)) {
     axes.warnings.push_back(
@@ -270,9 +269,9 @@ core::Result<ContourPartResult> contour_part(const ContourPart& part,
 core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
                                          const ContourStudyOptions& options) {
   if (std::max(options.samples, options.axes.samples) > kMostSamples) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{} samples of a contour and {} of the axes; the limit is {}",
-                                  options.samples, options.axes.samples, kMostSamples));
+    return core::fail_with(core::Code::kBadOption,
+                           "{} samples of a contour and {} of the axes; the limit is {}",
+                           options.samples, options.axes.samples, kMostSamples);
   }
   if (parts.empty()) {
     return core::fail(core::Code::kNoPoints, "no part is given; at least one is needed");

@@ -27,10 +27,10 @@ core::Result<void> check_median(SpacePoints median) {
 core::Result<void> check_inclination(double angle_rad) {
   // An angle that comes from degrees may be above 90 deg by its rounding.
   if (angle_rad > 0.0 && angle_rad <= 0.25 * core::kTwoPi * (1.0 + 1e-12)) return {};
-  return core::fail(core::Code::kBadOption,
-                    fmt::format("the angle to the datum is {:g} deg; above 0 and up to 90 deg are "
-                                "needed: plan parallelism for 0 deg",
-                                core::degrees(angle_rad)));
+  return core::fail_with(core::Code::kBadOption,
+                         "the angle to the datum is {:g} deg; above 0 and up to 90 deg are needed: "
+                         "plan parallelism for 0 deg",
+                         core::degrees(angle_rad));
 }
 
 /// The least circle round the points seen along a direction.

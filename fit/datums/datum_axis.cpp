@@ -36,8 +36,7 @@ core::Result<DatumPoints> gathered(std::span<const DatumCylinder> features) {
   for (std::size_t f = 0; f < features.size(); ++f) {
     const SpacePoints points = features[f].points_mm;
     if (auto checked = check_points(points); !checked) {
-      return core::fail(checked.error().code,
-                        fmt::format("datum feature {}: {}", f, checked.error().what));
+      return core::fail_with(checked.error().code, "datum feature {}: {}", f, checked.error().what);
     }
     const std::size_t begin = out.points.size();
     out.points.insert(out.points.end(), points.begin(), points.end());

@@ -26,15 +26,13 @@ core::Result<void> check(std::span<const Vector> points_mm) {
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
     if ((points_mm[i].array().abs() <= kGreatestLength).all()) continue;
     if (points_mm[i].allFinite()) {
-      return core::fail(
-          core::Code::kOutOfRange,
-          fmt::format("a coordinate of point {} (counted from 0) is {:g} mm; at most {:g} mm can "
-                      "be computed with",
-                      i, points_mm[i].cwiseAbs().maxCoeff(), kGreatestLength));
+      return core::fail_with(core::Code::kOutOfRange,
+                             "a coordinate of point {} (counted from 0) is {:g} mm; at most {:g} "
+                             "mm can be computed with",
+                             i, points_mm[i].cwiseAbs().maxCoeff(), kGreatestLength);
     }
-    return core::fail(
-        core::Code::kNotFinite,
-        fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
+    return core::fail_with(core::Code::kNotFinite,
+                           "a coordinate of point {} (counted from 0) is not a finite number", i);
   }
   return {};
 }

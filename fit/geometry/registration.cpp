@@ -46,11 +46,10 @@ Eigen::Isometry3d best_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3
 core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints to_mm,
                                               std::span<const double> weights) {
   if (from_mm.size() < 3 || from_mm.size() != to_mm.size()) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kTooFewPoints,
-        fmt::format("{} and {} points do not determine a motion; at least 3 pairs are "
-                    "needed",
-                    from_mm.size(), to_mm.size()));
+        "{} and {} points do not determine a motion; at least 3 pairs are needed", from_mm.size(),
+        to_mm.size());
   }
   const Eigen::Matrix3Xd from = columns(from_mm);
   const Eigen::Matrix3Xd to = columns(to_mm);

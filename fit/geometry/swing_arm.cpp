@@ -40,33 +40,28 @@ double SwingArm::beta_of_theta_rad(double theta_rad) const {
 core::Result<void> check_swing_arm(const SwingArm& arm) {
   for (const double length : {arm.crank_radius_mm, arm.wheel_radius_mm, arm.pin_radius_mm}) {
     if (std::isfinite(length) && length >= 0.0) continue;
-    return core::fail(
+    return core::fail_with(
         core::Code::kOutOfRange,
-        fmt::format("a radius of {} mm is none; give crank, wheel and pin radius in mm, "
-                    "not below 0",
-                    length));
+        "a radius of {} mm is none; give crank, wheel and pin radius in mm, not below 0", length);
   }
   if (arm.wheel_radius_mm > kGreatestWheel || arm.pin_radius_mm > kGreatestPin) {
-    return core::fail(
-        core::Code::kUnits,
-        fmt::format("a wheel radius of {:g} mm and a pin radius of {:g} mm suggest um; "
-                    "give them in mm, at most {:g} and {:g} mm",
-                    arm.wheel_radius_mm, arm.pin_radius_mm, kGreatestWheel, kGreatestPin));
+    return core::fail_with(core::Code::kUnits,
+                           "a wheel radius of {:g} mm and a pin radius of {:g} mm suggest um; give "
+                           "them in mm, at most {:g} and {:g} mm",
+                           arm.wheel_radius_mm, arm.pin_radius_mm, kGreatestWheel, kGreatestPin);
   }
   if (!arm.swings()) return {};
   if (!(arm.wheel_radius_mm > 0.0) || !(arm.pin_radius_mm > 0.0)) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kOutOfRange,
-        fmt::format("an arm that swings needs wheel and pin: wheel radius {:g} mm, pin "
-                    "radius {:g} mm",
-                    arm.wheel_radius_mm, arm.pin_radius_mm));
+        "an arm that swings needs wheel and pin: wheel radius {:g} mm, pin radius {:g} mm",
+        arm.wheel_radius_mm, arm.pin_radius_mm);
   }
   if (arm.crank_radius_mm >= arm.center_distance_mm()) {
-    return core::fail(
-        core::Code::kOutOfRange,
-        fmt::format("the crank radius {:g} mm is not below wheel radius + pin radius = "
-                    "{:g} mm; the pin would pass the wheel centre",
-                    arm.crank_radius_mm, arm.center_distance_mm()));
+    return core::fail_with(core::Code::kOutOfRange,
+                           "the crank radius {:g} mm is not below wheel radius + pin radius = {:g} "
+                           "mm; the pin would pass the wheel centre",
+                           arm.crank_radius_mm, arm.center_distance_mm());
   }
   return {};
 }

@@ -164,9 +164,9 @@ std::optional<LsCircle> from_sample(PlanePoints points_mm) {
 core::Result<LsCircle> algebraic_start(PlanePoints points_mm) {
   TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 3) < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("a circle needs at least 3 different points, there are {}",
-                                  distinct_points(points_mm, 3)));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "a circle needs at least 3 different points, there are {}",
+                           distinct_points(points_mm, 3));
   }
   const Eigen::Vector2d mean = mean_point(points_mm);
   double suu = 0.0, suv = 0.0, svv = 0.0, a = 0.0, b = 0.0;

@@ -134,12 +134,10 @@ core::Result<void> check_cone(SpacePoints points, const ConeFrame& cone) {
            distance_mm(cone.axis(), p) * std::sin(cone.half_angle_rad());
   });
   if (!(along.width() > kOneSection)) {
-    return core::fail(
-        core::Code::kRank,
-        fmt::format("the points spread {:.3g} mm along the generatrix of the cone, as "
-                    "those of one section: measure at least two sections more than "
-                    "{:g} mm apart",
-                    along.width(), kOneSection));
+    return core::fail_with(core::Code::kRank,
+                           "the points spread {:.3g} mm along the generatrix of the cone, as those "
+                           "of one section: measure at least two sections more than {:g} mm apart",
+                           along.width(), kOneSection);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(
       Eigen::MatrixXd(cone_sums(points, cone).matrix));
@@ -150,12 +148,10 @@ core::Result<void> check_cone(SpacePoints points, const ConeFrame& cone) {
   }
   const double half = std::abs(cone.half_angle_rad());
   if (half >= kLeastHalfAngle && half <= 0.5 * kHalfTurn - kLeastHalfAngle) return {};
-  return core::fail(
+  return core::fail_with(
       core::Code::kOutOfRange,
-      fmt::format(
-          "the half angle is {:.4g} deg, that of a cone 0.05 to 89.95 deg: plan the feature "
-          "as a {}",
-          core::degrees(half), half < kLeastHalfAngle ? "cylinder" : "plane"));
+      "the half angle is {:.4g} deg, that of a cone 0.05 to 89.95 deg: plan the feature as a {}",
+      core::degrees(half), half < kLeastHalfAngle ? "cylinder" : "plane");
 }
 
 }  // namespace
@@ -175,9 +171,9 @@ core::Result<LsCone> ls_cone(SpacePoints points_mm,
   TRY_DO(check_points(points_mm));
   const std::size_t different = distinct_points(points_mm, kFewest);
   if (different < kFewest) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("a cone needs at least {} different points, there are {}", kFewest, different));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "a cone needs at least {} different points, there are {}", kFewest,
+                           different);
   }
   const Eigen::Vector3d mean = mean_point(points_mm);
   std::vector<Eigen::Vector3d> points;

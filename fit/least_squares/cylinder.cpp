@@ -201,9 +201,9 @@ core::Result<LsCylinder> ls_cylinder(SpacePoints points_mm,
   }
   TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 5) < 5) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("a cylinder needs at least 5 different points, there are {}",
-                                  distinct_points(points_mm, 5)));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "a cylinder needs at least 5 different points, there are {}",
+                           distinct_points(points_mm, 5));
   }
   const Eigen::Vector3d mean = mean_point(points_mm);
   TRY(const auto settled, settle_all(points_mm, mean, near_direction));
@@ -229,11 +229,10 @@ core::Result<void> check_only_cylinder(SpacePoints points_mm, const LsCylinder& 
     if (!other || other->deviation_mm > kNear * other->radius_mm) continue;
     const double lean = other->axis.direction.cross(found.axis.direction).norm();
     if (lean <= std::sin(10.0 * core::kDegree)) continue;
-    return core::fail(
-        core::Code::kSeveralOptima,
-        fmt::format("more than one cylinder passes through the {} points: {}, and {}; "
-                    "give the file a column layer, or more points",
-                    points_mm.size(), said(found), said(*other)));
+    return core::fail_with(core::Code::kSeveralOptima,
+                           "more than one cylinder passes through the {} points: {}, and {}; give "
+                           "the file a column layer, or more points",
+                           points_mm.size(), said(found), said(*other));
   }
   return {};
 }

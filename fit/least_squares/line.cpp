@@ -74,10 +74,10 @@ core::Result<LsLine> ls_line(SpacePoints points_mm) {
 
 core::Result<LsLine> median_line_straightness(SpacePoints section_centers_mm) {
   if (section_centers_mm.size() < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} section centres; the straightness of a median line needs at "
-                                  "least 3, two are always on a line",
-                                  section_centers_mm.size()));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} section centres; the straightness of a median line needs at least "
+                           "3, two are always on a line",
+                           section_centers_mm.size());
   }
   return ls_line(section_centers_mm);
 }

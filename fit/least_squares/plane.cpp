@@ -48,9 +48,9 @@ core::Result<LsPlane> ls_plane(SpacePoints points_mm,
                                const std::optional<Eigen::Vector3d>& outward) {
   TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 3) < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("a plane needs at least 3 different points, there are {}",
-                                  distinct_points(points_mm, 3)));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "a plane needs at least 3 different points, there are {}",
+                           distinct_points(points_mm, 3));
   }
   const Eigen::Vector3d mean = mean_point(points_mm);
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();

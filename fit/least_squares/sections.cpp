@@ -26,10 +26,10 @@ core::Result<Section> section_across(SpacePoints layer_mm, const Axis& axis) {
   TRY(const auto circle, ls_circle(out.points_mm));
   const double thickness = extremes_of(out.heights_mm, [](double h) { return h; }).width();
   if (thickness > kThickest) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("its points spread {:.3f} mm along the axis, a section at most "
-                                  "{:g} mm: measure layers square to the axis",
-                                  thickness, kThickest));
+    return core::fail_with(core::Code::kSampling,
+                           "its points spread {:.3f} mm along the axis, a section at most {:g} mm: "
+                           "measure layers square to the axis",
+                           thickness, kThickest);
   }
   out.circle = circle;
   out.center_mm =
@@ -47,7 +47,7 @@ core::Result<std::vector<Section>> sections_across(Layers layers_mm, const Axis&
   for (std::size_t i = 0; i < layers_mm.size(); ++i) {
     auto section = section_across(layers_mm[i], axis);
     if (!section) {
-      return core::fail(section.error().code, fmt::format("layer {}: {}", i, section.error().what));
+      return core::fail_with(section.error().code, "layer {}: {}", i, section.error().what);
     }
     out.push_back(std::move(*section));
   }

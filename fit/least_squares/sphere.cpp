@@ -69,9 +69,9 @@ NormalSums<4> sphere_sums(SpacePoints points, const Eigen::Vector3d& origin,
 core::Result<LsSphere> ls_sphere(SpacePoints points_mm) {
   TRY_DO(check_points(points_mm));
   if (distinct_points(points_mm, 4) < 4) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("a sphere needs at least 4 different points, there are {}",
-                                  distinct_points(points_mm, 4)));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "a sphere needs at least 4 different points, there are {}",
+                           distinct_points(points_mm, 4));
   }
   const Eigen::Vector3d origin = mean_point(points_mm);
   TRY(auto model, algebraic_sphere(points_mm, origin));

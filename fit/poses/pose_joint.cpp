@@ -32,35 +32,34 @@ core::Result<void> check(std::span<const JointPose> poses, const PoseJointOption
   if (!(options.touch_mm > 0.0) || options.lobes < 2 || options.lobes > 30 ||
       !(options.draws == 0 || (options.draws >= 10 && options.draws <= 10'000)) ||
       !(options.condition_limit > 1.0)) {
-    return fail(
-        Code::kBadOption,
-        fmt::format("joint poses: touch {} mm (above 0), lobes {} (2..30), draws {} (0 or "
-                    "10..10000), condition limit {} (above 1)",
-                    options.touch_mm, options.lobes, options.draws, options.condition_limit));
+    return fail_with(Code::kBadOption,
+                     "joint poses: touch {} mm (above 0), lobes {} (2..30), draws {} (0 or "
+                     "10..10000), condition limit {} (above 1)",
+                     options.touch_mm, options.lobes, options.draws, options.condition_limit);
   }
   if (poses.size() < 2) {
-    return fail(Code::kTooFewPoints,
-                fmt::format("joint poses: {} poses, at least 2 are needed", poses.size()));
+    return fail_with(Code::kTooFewPoints, "joint poses: {} poses, at least 2 are needed",
+                     poses.size());
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const JointPose& pose = poses[k];
     if (pose.touches.size() < 4) {
-      return fail(Code::kTooFewPoints,
-                  fmt::format("pose {}: {} touches, its four parameters that a cylinder shows need "
-                              "at least 4",
-                              k + 1, pose.touches.size()));
+      return fail_with(
+          Code::kTooFewPoints,
+          "pose {}: {} touches, its four parameters that a cylinder shows need at least 4", k + 1,
+          pose.touches.size());
     }
     if (!pose.X_WB.matrix().allFinite() || !pose.pivot_W_mm.allFinite()) {
-      return fail(Code::kNotFinite, fmt::format("pose {}: its motion is not a number", k + 1));
+      return fail_with(Code::kNotFinite, "pose {}: its motion is not a number", k + 1);
     }
     for (const double u : pose.prior) {
       if (std::isfinite(u) && u >= 0.0) continue;
-      return fail(Code::kBadOption,
-                  fmt::format("pose {}: prior uncertainty {} of an error, at least 0", k + 1, u));
+      return fail_with(Code::kBadOption, "pose {}: prior uncertainty {} of an error, at least 0",
+                       k + 1, u);
     }
     for (std::size_t i = 0; i < pose.touches.size(); ++i) {
       if (check_points(std::span(&pose.touches[i].tip_W_mm, 1))) continue;
-      return fail(Code::kNotFinite, fmt::format("pose {}: touch {} is not a number", k + 1, i));
+      return fail_with(Code::kNotFinite, "pose {}: touch {} is not a number", k + 1, i);
     }
   }
   return {};
@@ -79,14 +78,13 @@ core::Result<void> check_rank(const JointRank& rank, double limit) {
   if (rank.condition <= limit) return {};
   // `parameter` is one of the four of the model: shifts x, y, tilts x, y.
   const auto name = kNames[static_cast<std::size_t>(rank.parameter + (rank.parameter > 1 ? 1 : 0))];
-  return fail(
-      Code::kRank,
-      fmt::format("the poses do not identify their errors (condition {:.3g}, limit {:.3g}): the "
-                  "touches of pose {} show the {} of the part least; {}",
-                  rank.condition, limit, rank.pose + 1, name,
-                  rank.parameter > 1
-                      ? "touch it there in at least two layers far apart, around the part"
-                      : "touch it there on a wider arc, 90 deg or more around the part"));
+  return fail_with(Code::kRank,
+                   "the poses do not identify their errors (condition {:.3g}, limit {:.3g}): the "
+                   "touches of pose {} show the {} of the part least; {}",
+                   rank.condition, limit, rank.pose + 1, name,
+                   rank.parameter > 1
+                       ? "touch it there in at least two layers far apart, around the part"
+                       : "touch it there on a wider arc, 90 deg or more around the part");
 }
 
 /// Solves and estimates the size of the form from the residuals, repeatedly until it settles.
@@ -106,8 +104,8 @@ core::Result<Eigen::VectorXd> settle_form(JointModel& model, double touch_mm) {
         model.form_mm() / form;
     model.set_form(form);
   }
-  return fail(Code::kNotConverged,
-              fmt::format("part and poses: no solution that holds in {} passes", kFormPasses));
+  return fail_with(Code::kNotConverged, "part and poses: no solution that holds in {} passes",
+                   kFormPasses);
 }
 
 /// Covariance of the unknowns of all poses, in units of their priors.

@@ -30,17 +30,17 @@ double within_turn(double theta) {
 
 core::Result<void> check_values(std::span<const double> theta, std::span<const double> r) {
   if (theta.empty() || theta.size() != r.size()) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("a profile needs as many angles as radii, at least 4; there are "
-                                  "{} and {}",
-                                  theta.size(), r.size()));
+    return core::fail_with(
+        core::Code::kNoPoints,
+        "a profile needs as many angles as radii, at least 4; there are {} and {}", theta.size(),
+        r.size());
   }
   for (std::size_t i = 0; i < theta.size(); ++i) {
     if (core::is_measurable(theta[i]) && core::is_measurable(r[i])) continue;
-    return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} is (angle {} rad, radius {} mm); both must be finite "
-                                  "numbers up to {:g}",
-                                  i, theta[i], r[i], core::kGreatestNumber));
+    return core::fail_with(
+        core::Code::kNotFinite,
+        "row {} is (angle {} rad, radius {} mm); both must be finite numbers up to {:g}", i,
+        theta[i], r[i], core::kGreatestNumber);
   }
   return {};
 }
@@ -138,9 +138,8 @@ core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
   Merger merger(out);
   for (const std::size_t row : order) merger.add(turned[row], r_mm[row], row);
   if (out.theta_rad.size() < 4) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} different angles; a profile needs at least 4", out.theta_rad.size()));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} different angles; a profile needs at least 4", out.theta_rad.size());
   }
   for (std::size_t i = 0; i < out.theta_rad.size(); ++i) {
     out.largest_gap_rad = std::max(out.largest_gap_rad, gap_after(out.theta_rad, i));
@@ -153,11 +152,11 @@ core::Result<void> check_gaps(const AngularProfile& profile, double cutoff_upr) 
   const double gap_deg = profile.largest_gap_rad / core::kDegree;
   const double limit_deg = 90.0 / cutoff_upr;
   if (gap_deg < limit_deg) return {};
-  return core::fail(core::Code::kSampling,
-                    fmt::format("the largest gap between angles is {:.4g} deg, {} UPR allow "
-                                "{:.4g} deg (a quarter undulation): measure the missing angles, "
-                                "or take a lower cut-off; the check can be overridden",
-                                gap_deg, cutoff_upr, limit_deg));
+  return core::fail_with(core::Code::kSampling,
+                         "the largest gap between angles is {:.4g} deg, {} UPR allow {:.4g} deg (a "
+                         "quarter undulation): measure the missing angles, or take a lower "
+                         "cut-off; the check can be overridden",
+                         gap_deg, cutoff_upr, limit_deg);
 }
 
 std::vector<double> angular_cells(std::span<const double> theta_rad) {
@@ -180,11 +179,11 @@ core::Result<ResampledProfile> resampled(const AngularProfile& profile) {
     return out;
   }
   if (profile.largest_gap_rad >= kArcGap) {
-    return core::fail(core::Code::kNotFullSection,
-                      fmt::format("the profile has a gap of {:.1f} deg; a closed profile is "
-                                  "filtered only where every gap is below 90 deg: evaluate it "
-                                  "without a filter, or measure the missing angles",
-                                  profile.largest_gap_rad / core::kDegree));
+    return core::fail_with(
+        core::Code::kNotFullSection,
+        "the profile has a gap of {:.1f} deg; a closed profile is filtered only where every gap is "
+        "below 90 deg: evaluate it without a filter, or measure the missing angles",
+        profile.largest_gap_rad / core::kDegree);
   }
   out.interpolated = true;
   const std::size_t samples = std::max(kLeastResampled, std::bit_ceil(2 * profile.r_mm.size()));

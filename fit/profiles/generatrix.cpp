@@ -135,17 +135,17 @@ class SectionSeries {
 core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const double> z_mm,
                                                              std::span<const double> r_mm) {
   if (z_mm.size() != r_mm.size()) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("{} positions and {} radii; as many of both are needed",
-                                  z_mm.size(), r_mm.size()));
+    return core::fail_with(core::Code::kNoPoints,
+                           "{} positions and {} radii; as many of both are needed", z_mm.size(),
+                           r_mm.size());
   }
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < z_mm.size(); ++i) points.emplace_back(z_mm[i], r_mm[i]);
   TRY_DO(check_points(points));
   if (points.size() < 3) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} points on a generatrix; straightness needs at least 3", points.size()));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} points on a generatrix; straightness needs at least 3",
+                           points.size());
   }
   const Eigen::Vector2d mean = mean_point(points);
   const auto slope = ls_slope(points, mean);
@@ -215,8 +215,7 @@ core::Result<std::vector<Generatrix>> dense_generatrices(std::span<const DenseSe
   constexpr std::size_t kFewestSamples = 8;
   if (sections.empty()) return core::fail(core::Code::kNoPoints, "there is no section");
   if (count < 1) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{} generatrices; at least 1 is needed", count));
+    return core::fail_with(core::Code::kBadOption, "{} generatrices; at least 1 is needed", count);
   }
   std::vector<Generatrix> out(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < out.size(); ++k) {
@@ -224,10 +223,10 @@ core::Result<std::vector<Generatrix>> dense_generatrices(std::span<const DenseSe
   }
   for (std::size_t j = 0; j < sections.size(); ++j) {
     if (sections[j].profile.r_mm.size() < kFewestSamples) {
-      return core::fail(core::Code::kSampling,
-                        fmt::format("section {} has {} samples; a generatrix between points needs "
-                                    "at least {}: scan the section",
-                                    j, sections[j].profile.r_mm.size(), kFewestSamples));
+      return core::fail_with(core::Code::kSampling,
+                             "section {} has {} samples; a generatrix between points needs at "
+                             "least {}: scan the section",
+                             j, sections[j].profile.r_mm.size(), kFewestSamples);
     }
     const SectionSeries series(sections[j]);
     for (Generatrix& line : out) {
@@ -256,10 +255,10 @@ core::Result<std::vector<OppositeGeneratrices>> opposite_generatrices(
     }
   }
   if (!out.empty()) return out;
-  return core::fail(core::Code::kSampling,
-                    fmt::format("no two of the {} generatrices are opposite each other to 0.5 deg: "
-                                "touch an even number of points a layer",
-                                lines.size()));
+  return core::fail_with(core::Code::kSampling,
+                         "no two of the {} generatrices are opposite each other to 0.5 deg: touch "
+                         "an even number of points a layer",
+                         lines.size());
 }
 
 }  // namespace rondure::fit

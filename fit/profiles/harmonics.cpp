@@ -28,22 +28,22 @@ double amplitude_sigma(double noise, std::size_t points) {
 /// Checks K against the number of points.
 core::Result<void> check_harmonics(std::size_t points, const HarmonicOptions& options) {
   if (options.highest < 1 || !(options.noise_mm >= 0.0)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("harmonics 1 to {} with a noise of {} mm; the highest is at "
-                                  "least 1 and the noise not negative",
-                                  options.highest, options.noise_mm));
+    return core::fail_with(core::Code::kBadOption,
+                           "harmonics 1 to {} with a noise of {} mm; the highest is at least 1 and "
+                           "the noise not negative",
+                           options.highest, options.noise_mm);
   }
   const auto highest = static_cast<std::size_t>(options.highest);
   if (points == 0 || highest > (points - 1) / 2) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{} points determine harmonics up to {}, {} are asked for",
-                                  points, points == 0 ? 0 : (points - 1) / 2, highest));
+    return core::fail_with(core::Code::kBadOption,
+                           "{} points determine harmonics up to {}, {} are asked for", points,
+                           points == 0 ? 0 : (points - 1) / 2, highest);
   }
   if (7 * highest > points && !options.override_sampling) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("harmonic {} needs {} points (7 per undulation), there are {}: "
-                                  "ask for harmonics up to {}; the check can be overridden",
-                                  highest, 7 * highest, points, points / 7));
+    return core::fail_with(core::Code::kSampling,
+                           "harmonic {} needs {} points (7 per undulation), there are {}: ask for "
+                           "harmonics up to {}; the check can be overridden",
+                           highest, 7 * highest, points, points / 7);
   }
   return {};
 }
@@ -51,16 +51,16 @@ core::Result<void> check_harmonics(std::size_t points, const HarmonicOptions& op
 core::Result<void> check_harmonic_gap(const AngularProfile& profile, int highest) {
   const double gap_deg = profile.largest_gap_rad / core::kDegree;
   if (gap_deg >= 90.0) {
-    return core::fail(core::Code::kNotFullSection,
-                      fmt::format("the profile has a gap of {:.1f} deg; harmonics exist only for a "
-                                  "closed profile, with every gap below 90 deg",
-                                  gap_deg));
+    return core::fail_with(core::Code::kNotFullSection,
+                           "the profile has a gap of {:.1f} deg; harmonics exist only for a closed "
+                           "profile, with every gap below 90 deg",
+                           gap_deg);
   }
   if (gap_deg * highest >= 180.0) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("the profile has a gap of {:.4g} deg, which hides half an "
-                                  "undulation of harmonic {}; ask for harmonics below {:.0f}",
-                                  gap_deg, highest, std::ceil(180.0 / gap_deg)));
+    return core::fail_with(core::Code::kSampling,
+                           "the profile has a gap of {:.4g} deg, which hides half an undulation of "
+                           "harmonic {}; ask for harmonics below {:.0f}",
+                           gap_deg, highest, std::ceil(180.0 / gap_deg));
   }
   return {};
 }

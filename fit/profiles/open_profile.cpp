@@ -28,30 +28,28 @@ constexpr double kWideReach = 2.6;
 core::Result<void> check(std::span<const double> x, std::span<const double> r,
                          const OpenFilterOptions& options) {
   if (x.empty() || x.size() != r.size()) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("{} positions and {} values; a profile needs as many of both",
-                                  x.size(), r.size()));
+    return core::fail_with(core::Code::kNoPoints,
+                           "{} positions and {} values; a profile needs as many of both", x.size(),
+                           r.size());
   }
   if (x.size() < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} points; an open profile needs at least 3", x.size()));
+    return core::fail_with(core::Code::kTooFewPoints, "{} points; an open profile needs at least 3",
+                           x.size());
   }
   if (!std::isfinite(options.cutoff) || options.cutoff <= 0.0) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("the cut-off is {}; a positive wavelength is needed", options.cutoff));
+    return core::fail_with(core::Code::kBadOption,
+                           "the cut-off is {}; a positive wavelength is needed", options.cutoff);
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!core::is_measurable(x[i]) || !core::is_measurable(r[i])) {
-      return core::fail(core::Code::kNotFinite,
-                        fmt::format("row {} is ({}, {}); finite numbers up to {:g} are needed", i,
-                                    x[i], r[i], core::kGreatestNumber));
+      return core::fail_with(core::Code::kNotFinite,
+                             "row {} is ({}, {}); finite numbers up to {:g} are needed", i, x[i],
+                             r[i], core::kGreatestNumber);
     }
     if (i > 0 && x[i] <= x[i - 1]) {
-      return core::fail(core::Code::kBadOption,
-                        fmt::format("row {} stands at {}, not after row {} at {}; positions must "
-                                    "ascend",
-                                    i, x[i], i - 1, x[i - 1]));
+      return core::fail_with(core::Code::kBadOption,
+                             "row {} stands at {}, not after row {} at {}; positions must ascend",
+                             i, x[i], i - 1, x[i - 1]);
     }
   }
   return {};
@@ -144,12 +142,11 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
   const double gap = profile_gap(gaps_of(position), options.windows);
   out.sampling_overridden = 7.0 * gap > options.cutoff * (1.0 + 1e-9);
   if (out.sampling_overridden && !options.override_sampling) {
-    return core::fail(
-        core::Code::kSampling,
-        fmt::format("neighbouring points are up to {:.6g} apart, a cut-off of {:.6g} "
-                    "allows {:.6g} (7 points per undulation): measure more densely or "
-                    "take a longer cut-off; the check can be overridden",
-                    gap, options.cutoff, options.cutoff / 7.0));
+    return core::fail_with(core::Code::kSampling,
+                           "neighbouring points are up to {:.6g} apart, a cut-off of {:.6g} allows "
+                           "{:.6g} (7 points per undulation): measure more densely or take a "
+                           "longer cut-off; the check can be overridden",
+                           gap, options.cutoff, options.cutoff / 7.0);
   }
   const double margin = options.ends == OpenEnds::kDiscard ? 0.5 * options.cutoff : 0.0;
   for (std::size_t i = 0; i < position.size(); ++i) {
@@ -158,11 +155,10 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
     out.position.push_back(position[i]);
   }
   if (out.position.empty()) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("the profile is {:.6g} long; half a cut-off of {:.6g} discarded at "
-                    "both ends leaves nothing",
-                    position.back() - position.front(), options.cutoff));
+    return core::fail_with(core::Code::kBadOption,
+                           "the profile is {:.6g} long; half a cut-off of {:.6g} discarded at both "
+                           "ends leaves nothing",
+                           position.back() - position.front(), options.cutoff);
   }
   switch (options.ends) {
     case OpenEnds::kLine:
@@ -181,8 +177,8 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
 core::Result<std::vector<double>> filter_with_windows(const AngularProfile& profile,
                                                       double cutoff_upr) {
   if (!std::isfinite(cutoff_upr) || cutoff_upr < 1.0) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the cut-off is {} UPR; at least 1 is needed", cutoff_upr));
+    return core::fail_with(core::Code::kBadOption, "the cut-off is {} UPR; at least 1 is needed",
+                           cutoff_upr);
   }
   OpenFilterOptions options;
   options.cutoff = core::kTwoPi / cutoff_upr;

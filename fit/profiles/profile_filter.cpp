@@ -143,10 +143,10 @@ core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double c
     const auto weight = gaussian_mean(delta, cutoff_upr);
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (weight[i] < kLeastWeight) {
-        return core::fail(core::Code::kNotConverged,
-                          fmt::format("the robust filter at {} UPR finds only outliers round row "
-                                      "{}; take a lower cut-off or the linear filter",
-                                      cutoff_upr, i));
+        return core::fail_with(core::Code::kNotConverged,
+                               "the robust filter at {} UPR finds only outliers round row {}; take "
+                               "a lower cut-off or the linear filter",
+                               cutoff_upr, i);
       }
       line[i] /= weight[i];
     }
@@ -155,10 +155,10 @@ core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double c
     for (std::size_t i = 0; i < line.size(); ++i) out.r_mm[i] += share * (line[i] - out.r_mm[i]);
     if (step <= kSettledStep * c + round_off) return out;
   }
-  return core::fail(core::Code::kNotConverged,
-                    fmt::format("the robust filter at {} UPR still moves after {} iterations; take "
-                                "another cut-off or the linear filter",
-                                cutoff_upr, kIterationLimit));
+  return core::fail_with(core::Code::kNotConverged,
+                         "the robust filter at {} UPR still moves after {} iterations; take "
+                         "another cut-off or the linear filter",
+                         cutoff_upr, kIterationLimit);
 }
 
 /// Robust Gaussian regression of order 0 (ISO 16610-31): minimises sum_i rho(r_i - w_k) s_ik at
@@ -244,41 +244,39 @@ double FilterOptions::highest_cutoff_upr() const {
 core::Result<Sampling> check_sampling(std::size_t points, const FilterOptions& options) {
   if (options.filter == ProfileFilter::kNone) {
     if (options.pass == PassBand::kLow) return Sampling{};
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("a {} pass without a filter: nothing would be taken away; name a "
-                                  "filter, e.g. gaussian, or leave the pass at low",
-                                  name_of(options.pass)));
+    return core::fail_with(core::Code::kBadOption,
+                           "a {} pass without a filter: nothing would be taken away; name a "
+                           "filter, e.g. gaussian, or leave the pass at low",
+                           name_of(options.pass));
   }
   const double highest = options.highest_cutoff_upr();
   for (const double cutoff : {options.cutoff_upr, highest}) {
     if (positive(cutoff)) continue;
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the cut-off is {} UPR; a positive number is needed, commonly "
-                                  "15, 50, 150, 500 or 1500",
-                                  cutoff));
+    return core::fail_with(
+        core::Code::kBadOption,
+        "the cut-off is {} UPR; a positive number is needed, commonly 15, 50, 150, 500 or 1500",
+        cutoff);
   }
   if (options.pass == PassBand::kBand && options.cutoff_upr >= highest) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the band from {} to {} UPR is empty; the lower cut-off comes "
-                                  "first",
-                                  options.cutoff_upr, highest));
+    return core::fail_with(core::Code::kBadOption,
+                           "the band from {} to {} UPR is empty; the lower cut-off comes first",
+                           options.cutoff_upr, highest);
   }
   const auto n = static_cast<double>(points);
   if (highest >= n / 2.0) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("a cut-off of {} UPR cannot be told from lower ones with {} "
-                                  "points; it must stay below half their number, {}",
-                                  highest, points, n / 2.0));
+    return core::fail_with(core::Code::kBadOption,
+                           "a cut-off of {} UPR cannot be told from lower ones with {} points; it "
+                           "must stay below half their number, {}",
+                           highest, points, n / 2.0);
   }
   const Sampling sampling{n / highest, n / highest < kPointsPerUndulation};
   if (sampling.overridden && !options.override_sampling) {
-    return core::fail(
-        core::Code::kSampling,
-        fmt::format("{} points are {:.2f} per undulation at {} UPR, at least 7 are needed: {:.0f} "
-                    "points, or a cut-off of at most {:.4g} UPR, or no filter; the check can be "
-                    "overridden, which the result records",
-                    points, sampling.points_per_undulation, highest,
-                    std::ceil(kPointsPerUndulation * highest), n / kPointsPerUndulation));
+    return core::fail_with(core::Code::kSampling,
+                           "{} points are {:.2f} per undulation at {} UPR, at least 7 are needed: "
+                           "{:.0f} points, or a cut-off of at most {:.4g} UPR, or no filter; the "
+                           "check can be overridden, which the result records",
+                           points, sampling.points_per_undulation, highest,
+                           std::ceil(kPointsPerUndulation * highest), n / kPointsPerUndulation);
   }
   return sampling;
 }
@@ -299,9 +297,9 @@ core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
   }
   for (std::size_t i = 0; i < r_mm.size(); ++i) {
     if (core::is_measurable(r_mm[i])) continue;
-    return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} is {} mm; a finite number up to {:g} is needed", i,
-                                  r_mm[i], core::kGreatestNumber));
+    return core::fail_with(core::Code::kNotFinite,
+                           "row {} is {} mm; a finite number up to {:g} is needed", i, r_mm[i],
+                           core::kGreatestNumber);
   }
   TRY(const auto sampling, check_sampling(r_mm.size(), options));
   FilteredProfile out;

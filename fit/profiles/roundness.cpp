@@ -82,20 +82,20 @@ core::Result<Roundness> one_sided_points(PlanePoints points, CircleReference ref
 core::Result<void> check_profile(std::span<const double> theta, std::span<const double> r,
                                  std::size_t least) {
   if (theta.size() != r.size() || theta.empty()) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("{} angles and {} radii; a profile needs as many of both",
-                                  theta.size(), r.size()));
+    return core::fail_with(core::Code::kNoPoints,
+                           "{} angles and {} radii; a profile needs as many of both", theta.size(),
+                           r.size());
   }
   if (theta.size() < least) {
-    return core::fail(
-        core::Code::kTooFewPoints,
-        fmt::format("{} points; this reference circle needs at least {}", theta.size(), least));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} points; this reference circle needs at least {}", theta.size(),
+                           least);
   }
   for (std::size_t i = 0; i < theta.size(); ++i) {
     if (core::is_measurable(theta[i]) && core::is_measurable(r[i])) continue;
-    return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} is ({} rad, {} mm); finite numbers up to {:g} are needed",
-                                  i, theta[i], r[i], core::kGreatestNumber));
+    return core::fail_with(core::Code::kNotFinite,
+                           "row {} is ({} rad, {} mm); finite numbers up to {:g} are needed", i,
+                           theta[i], r[i], core::kGreatestNumber);
   }
   return {};
 }

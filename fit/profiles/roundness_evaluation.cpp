@@ -44,10 +44,10 @@ void warn_of_order(RoundnessEvaluation& out) {
 core::Result<void> check_coverage(RoundnessEvaluation& out) {
   const double gap_deg = out.measured.largest_gap_rad / core::kDegree;
   if (360.0 - gap_deg < kLeastArcDeg) {
-    return core::fail(core::Code::kNotFullSection,
-                      fmt::format("the points cover {:.2f} deg; a circle with free radius needs at "
-                                  "least 20 deg",
-                                  360.0 - gap_deg));
+    return core::fail_with(
+        core::Code::kNotFullSection,
+        "the points cover {:.2f} deg; a circle with free radius needs at least 20 deg",
+        360.0 - gap_deg);
   }
   if (gap_deg >= kFullCircleGapDeg) {
     warn(out, core::Code::kNotFullSection,

@@ -109,10 +109,10 @@ core::Result<MinZonePlane> min_zone_plane(SpacePoints points_mm,
   const double extent = least_width(points.within);
   out.width_mm = heights.width();
   if (!(extent > out.width_mm)) {
-    return core::fail(core::Code::kRank,
-                      fmt::format("the points extend {:.6g} mm within the plane and {:.6g} mm "
-                                  "across it: no plane is distinguished; measure a larger face",
-                                  extent, out.width_mm));
+    return core::fail_with(core::Code::kRank,
+                           "the points extend {:.6g} mm within the plane and {:.6g} mm across it: "
+                           "no plane is distinguished; measure a larger face",
+                           extent, out.width_mm);
   }
   out.outer = {plane.point_mm + heights.high * plane.normal, plane.normal};
   out.top.assign(step.outer.begin(), step.outer.end());

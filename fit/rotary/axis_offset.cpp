@@ -73,21 +73,19 @@ OffsetPart part_of(const RotaryTable& table, const Estimator& estimator, const P
 
 core::Result<AxisOffset> axis_offset(const RotaryTable& table) {
   if (table.rows.size() < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} stations do not give the place of the axis, at least 3 are "
-                                  "needed",
-                                  table.rows.size()));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} stations do not give the place of the axis, at least 3 are needed",
+                           table.rows.size());
   }
   AxisOffset out;
   const double span = table.rows.back().angle_rad - table.rows.front().angle_rad;
   out.arc_rad = table.full_circle ? core::kTwoPi : span;
   if (out.arc_rad < 45.0 * core::kDegree - 1e-9) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kShortArc,
-        fmt::format("the stations span {:.1f} deg, at least 45 deg are needed to tell "
-                    "the place of the axis from its motion errors; their sum is "
-                    "known and is what compensation needs",
-                    out.arc_rad / core::kDegree));
+        "the stations span {:.1f} deg, at least 45 deg are needed to tell the place of the axis "
+        "from its motion errors; their sum is known and is what compensation needs",
+        out.arc_rad / core::kDegree);
   }
   std::vector<Complex> z;
   Complex mean = 0.0;

@@ -13,8 +13,8 @@ namespace rondure::fit {
 
 core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
   if (!std::isfinite(radius_mm) || radius_mm <= 0.0) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("a ball of radius {:g} mm has no surface", radius_mm));
+    return core::fail_with(core::Code::kBadOption, "a ball of radius {:g} mm has no surface",
+                           radius_mm);
   }
   TRY(const auto start, ls_sphere(points_mm));
   constexpr int kSteps = 50;
@@ -43,8 +43,8 @@ core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
     out.center_mm += step;
     if (step.norm() <= still_mm) return out;
   }
-  return core::fail(core::Code::kNotConverged,
-                    fmt::format("no centre of a ball of {:g} mm radius was found", radius_mm));
+  return core::fail_with(core::Code::kNotConverged,
+                         "no centre of a ball of {:g} mm radius was found", radius_mm);
 }
 
 }  // namespace rondure::fit

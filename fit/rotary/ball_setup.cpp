@@ -122,14 +122,14 @@ core::Result<void> check_setup(SpacePoints p_mm, std::span<const std::string> na
   if (!(along.norm() > 0.0)) {
     return core::fail(core::Code::kCollinear, "all balls stand at one place; spread them");
   }
-  return core::fail(
+  return core::fail_with(
       core::Code::kCollinear,
-      fmt::format("the {} balls lie on one line (spread across it over spread along it {:.2g}, "
-                  "least 0.001; condition {}, limit {:g}), so that the turn about it is not "
-                  "determined: add a ball off the line through {} and {}, at least {:g} mm from it",
-                  p_mm.size(), ratio,
-                  std::isfinite(condition) ? fmt::format("{:.3g}", condition) : "without a bound",
-                  kConditionLimit, names[i], names[j], distance_that_cures(p_mm, along)));
+      "the {} balls lie on one line (spread across it over spread along it {:.2g}, least 0.001; "
+      "condition {}, limit {:g}), so that the turn about it is not determined: add a ball off the "
+      "line through {} and {}, at least {:g} mm from it",
+      p_mm.size(), ratio,
+      std::isfinite(condition) ? fmt::format("{:.3g}", condition) : "without a bound",
+      kConditionLimit, names[i], names[j], distance_that_cures(p_mm, along));
 }
 
 }  // namespace rondure::fit

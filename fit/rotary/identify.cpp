@@ -88,10 +88,10 @@ core::Result<PublishedSetups> published_setups(const RotaryMeasurement& m,
   const bool c_axis = (m.axis.direction - Vector3d::UnitZ()).norm() < 1e-9;
   const bool a_axis = (m.axis.direction - Vector3d::UnitX()).norm() < 1e-9;
   if (reference.size() != 3 || !(c_axis || a_axis)) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("the published matrices are for 3 balls and an axis along +Z (C) "
-                                  "or +X (A); there are {} balls; take another method",
-                                  reference.size()));
+    return core::fail_with(Code::kBadOption,
+                           "the published matrices are for 3 balls and an axis along +Z (C) or +X "
+                           "(A); there are {} balls; take another method",
+                           reference.size());
   }
   std::vector<Vector3d> p;
   for (const BallCentre& ball : reference) p.push_back(ball.centre_mm - m.axis.origin_mm);
@@ -104,13 +104,12 @@ core::Result<PublishedSetups> published_setups(const RotaryMeasurement& m,
   for (std::size_t i = 0; i < 3; ++i) {
     constexpr double kTolerance = 1.0;  // mm: a lever with this error changes results by below 1 %
     if ((p[i] - expected[i]).norm() <= kTolerance) continue;
-    return core::fail(
-        Code::kBadOption,
-        fmt::format("ball {} stands {:.3f} mm from ({:g}, {:g}, {:g}), where the published matrix "
-                    "supposes it (limit {:g} mm): in order {}; take another method",
-                    reference[i].ball, (p[i] - expected[i]).norm(), expected[i].x(),
-                    expected[i].y(), expected[i].z(), kTolerance,
-                    c_axis ? "(L1,H1), (L1,H2), (L2,H1)" : "(L1,H1), (L1,H2), (L2,H2)"));
+    return core::fail_with(Code::kBadOption,
+                           "ball {} stands {:.3f} mm from ({:g}, {:g}, {:g}), where the published "
+                           "matrix supposes it (limit {:g} mm): in order {}; take another method",
+                           reference[i].ball, (p[i] - expected[i]).norm(), expected[i].x(),
+                           expected[i].y(), expected[i].z(), kTolerance,
+                           c_axis ? "(L1,H1), (L1,H2), (L2,H1)" : "(L1,H1), (L1,H2), (L2,H2)");
   }
   return out;
 }
@@ -379,8 +378,8 @@ core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& opt
 core::Result<RotaryStudy> identify_rotary_axis(const RotaryMeasurement& measurement,
                                                const RotaryOptions& options) {
   if (!(options.outlier_probability >= 0.5 && options.outlier_probability < 1.0)) {
-    return core::fail(Code::kBadOption, fmt::format("outlier probability {:g} is not in 0.5..1",
-                                                    options.outlier_probability));
+    return core::fail_with(Code::kBadOption, "outlier probability {:g} is not in 0.5..1",
+                           options.outlier_probability);
   }
   TRY_DO(check_measurement(measurement));
   RotaryStudy study;

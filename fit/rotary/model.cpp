@@ -49,10 +49,9 @@ core::Result<void> check_curve(const RotaryTable& table) {
   }
   const std::size_t least = table.curve == RotaryCurve::kSpline && table.full_circle ? 3 : 4;
   if (table.rows.size() < least) {
-    return core::fail(Code::kTooFewPoints,
-                      fmt::format("{} determined stations, at least {} are needed for errors "
-                                  "between them",
-                                  table.rows.size(), least));
+    return core::fail_with(Code::kTooFewPoints,
+                           "{} determined stations, at least {} are needed for errors between them",
+                           table.rows.size(), least);
   }
   return {};
 }
@@ -61,22 +60,19 @@ core::Result<void> check_rows(const RotaryTable& table) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const RotaryTableRow& row = table.rows[i];
     if (!std::isfinite(row.angle_rad) || !row.errors.allFinite() || !row.covariance.allFinite()) {
-      return core::fail(Code::kNotFinite,
-                        fmt::format("row {} of the error table is not finite", i + 1));
+      return core::fail_with(Code::kNotFinite, "row {} of the error table is not finite", i + 1);
     }
     if (i > 0 && !(row.angle_rad > table.rows[i - 1].angle_rad + 1e-9)) {
-      return core::fail(Code::kTable,
-                        fmt::format("row {} of the error table, {:g} deg, does not follow on {:g} "
-                                    "deg",
-                                    i + 1, row.angle_rad / core::kDegree,
-                                    table.rows[i - 1].angle_rad / core::kDegree));
+      return core::fail_with(
+          Code::kTable, "row {} of the error table, {:g} deg, does not follow on {:g} deg", i + 1,
+          row.angle_rad / core::kDegree, table.rows[i - 1].angle_rad / core::kDegree);
     }
   }
   const double span = table.rows.back().angle_rad - table.rows.front().angle_rad;
   if (table.full_circle && span > core::kTwoPi - 1e-9) {
-    return core::fail(Code::kTable, fmt::format("the rows of a full circle span {:g} deg, less "
-                                                "than 360 is expected",
-                                                span / core::kDegree));
+    return core::fail_with(Code::kTable,
+                           "the rows of a full circle span {:g} deg, less than 360 is expected",
+                           span / core::kDegree);
   }
   return {};
 }
@@ -179,11 +175,10 @@ core::Result<double> RotaryModel::within(double angle_rad) const {
   }
   constexpr double kRoundOff = 1e-9;
   if (angle_rad < lowest_rad() - kRoundOff || angle_rad > highest_rad() + kRoundOff) {
-    return core::fail(Code::kOutOfRange,
-                      fmt::format("{:.4f} deg is outside the calibrated stations {:g}..{:g} deg; "
-                                  "errors are not extrapolated",
-                                  angle_rad / core::kDegree, lowest_rad() / core::kDegree,
-                                  highest_rad() / core::kDegree));
+    return core::fail_with(
+        Code::kOutOfRange,
+        "{:.4f} deg is outside the calibrated stations {:g}..{:g} deg; errors are not extrapolated",
+        angle_rad / core::kDegree, lowest_rad() / core::kDegree, highest_rad() / core::kDegree);
   }
   return std::clamp(angle_rad, lowest_rad(), highest_rad());
 }

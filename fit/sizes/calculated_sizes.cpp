@@ -22,20 +22,19 @@ constexpr std::size_t kFewestSamples = 8;
 core::Result<void> check(const UniformProfile& profile, const Material& material) {
   if (auto checked = check_material(material); !checked) return checked;
   if (profile.r_mm.size() < kFewestSamples) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} points; circumference and area need at least {}",
-                                  profile.r_mm.size(), kFewestSamples));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "{} points; circumference and area need at least {}",
+                           profile.r_mm.size(), kFewestSamples);
   }
   for (std::size_t i = 0; i < profile.r_mm.size(); ++i) {
     if (!core::is_measurable(profile.r_mm[i])) {
-      return core::fail(core::Code::kNotFinite,
-                        fmt::format("the radius of row {} is {}", i, profile.r_mm[i]));
+      return core::fail_with(core::Code::kNotFinite, "the radius of row {} is {}", i,
+                             profile.r_mm[i]);
     }
     if (!(profile.r_mm[i] > material.tip_radius_mm)) {
-      return core::fail(core::Code::kBadOption,
-                        fmt::format("the radius of row {} is {:g} mm, not above the tip radius of "
-                                    "{:g} mm",
-                                    i, profile.r_mm[i], material.tip_radius_mm));
+      return core::fail_with(core::Code::kBadOption,
+                             "the radius of row {} is {:g} mm, not above the tip radius of {:g} mm",
+                             i, profile.r_mm[i], material.tip_radius_mm);
     }
   }
   return {};
@@ -85,21 +84,21 @@ core::Result<CalculatedSizes> calculated_sizes(const UniformProfile& profile,
 core::Result<double> volume_size_mm(std::span<const double> heights_mm,
                                     std::span<const double> areas_mm2) {
   if (heights_mm.size() != areas_mm2.size()) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("{} heights and {} areas; as many of both are needed",
-                                  heights_mm.size(), areas_mm2.size()));
+    return core::fail_with(core::Code::kNoPoints,
+                           "{} heights and {} areas; as many of both are needed", heights_mm.size(),
+                           areas_mm2.size());
   }
   if (heights_mm.size() < 2) {
-    return core::fail(core::Code::kRank,
-                      fmt::format("{} sections; a volume needs at least 2", heights_mm.size()));
+    return core::fail_with(core::Code::kRank, "{} sections; a volume needs at least 2",
+                           heights_mm.size());
   }
   double volume = 0.0;
   for (std::size_t i = 1; i < heights_mm.size(); ++i) {
     const double step = heights_mm[i] - heights_mm[i - 1];
     if (!(step > 0.0)) {
-      return core::fail(core::Code::kBadOption,
-                        fmt::format("section {} stands at {:g} mm, not above section {} at {:g} mm",
-                                    i, heights_mm[i], i - 1, heights_mm[i - 1]));
+      return core::fail_with(core::Code::kBadOption,
+                             "section {} stands at {:g} mm, not above section {} at {:g} mm", i,
+                             heights_mm[i], i - 1, heights_mm[i - 1]);
     }
     volume += 0.5 * step * (areas_mm2[i] + areas_mm2[i - 1]);
   }

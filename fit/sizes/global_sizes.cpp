@@ -57,20 +57,20 @@ core::Result<GlobalSizes> sizes_about_center(std::span<const Eigen::Matrix<doubl
 
 core::Result<void> check_material(const Material& material) {
   if (std::isfinite(material.tip_radius_mm) && material.tip_radius_mm >= 0.0) return {};
-  return core::fail(core::Code::kBadOption,
-                    fmt::format("the tip radius is {} mm; a finite number not below 0 is needed",
-                                material.tip_radius_mm));
+  return core::fail_with(core::Code::kBadOption,
+                         "the tip radius is {} mm; a finite number not below 0 is needed",
+                         material.tip_radius_mm);
 }
 
 core::Result<void> check_material(const Material& material, double center_radius_mm) {
   if (auto checked = check_material(material); !checked) return checked;
   const double radius_mm = material.surface_radius_mm(center_radius_mm);
   if (!(radius_mm <= 0.0)) return {};
-  return core::fail(core::Code::kBadOption,
-                    fmt::format("the tip centres lie on a radius of {:.4f} mm, and a tip radius of "
-                                "{:.4f} mm leaves a surface radius of {:.4f} mm, which must be "
-                                "above 0: correct the tip diameter or the side of the feature",
-                                center_radius_mm, material.tip_radius_mm, radius_mm));
+  return core::fail_with(core::Code::kBadOption,
+                         "the tip centres lie on a radius of {:.4f} mm, and a tip radius of {:.4f} "
+                         "mm leaves a surface radius of {:.4f} mm, which must be above 0: correct "
+                         "the tip diameter or the side of the feature",
+                         center_radius_mm, material.tip_radius_mm, radius_mm);
 }
 
 core::Result<GlobalSizes> global_sizes(SpacePoints points_mm, const Material& material,

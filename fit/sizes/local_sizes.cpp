@@ -90,11 +90,11 @@ core::Result<std::vector<LocalSize>> two_point_sizes(std::span<const Section> se
   for (std::size_t i = 0; i < sections.size(); ++i) {
     TRY_DO(check_material(material, sections[i].circle.radius_mm));
     if (append_pairs(sections[i], i, material, out)) continue;
-    return core::fail(core::Code::kSampling,
-                      fmt::format("section {} of {}, of {} points, has no two points opposite each "
-                                  "other to 0.5 deg: measure an even number of points at equal "
-                                  "angles, or a scan",
-                                  i + 1, sections.size(), sections[i].points_mm.size()));
+    return core::fail_with(
+        core::Code::kSampling,
+        "section {} of {}, of {} points, has no two points opposite each other to 0.5 deg: measure "
+        "an even number of points at equal angles, or a scan",
+        i + 1, sections.size(), sections[i].points_mm.size());
   }
   return out;
 }
@@ -104,10 +104,10 @@ core::Result<std::vector<LocalSize>> two_point_sizes(const UniformProfile& profi
   TRY_DO(check_material(material));
   const std::size_t half = profile.r_mm.size() / 2;
   if (half == 0 || profile.r_mm.size() % 2 != 0) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("{} points at uniform angles have no opposite ones: an even "
-                                  "number is needed",
-                                  profile.r_mm.size()));
+    return core::fail_with(
+        core::Code::kSampling,
+        "{} points at uniform angles have no opposite ones: an even number is needed",
+        profile.r_mm.size());
   }
   std::vector<LocalSize> out;
   for (std::size_t i = 0; i < half; ++i) {

@@ -35,10 +35,10 @@ core::Result<ProbeLayout> ProbeLayout::of(double phi2_rad, double phi3_rad) {
   for (const Pair& pair : {Pair{"P1 and P2", phi2_rad}, Pair{"P2 and P3", phi3_rad},
                            Pair{"P1 and P3", phi2_rad + phi3_rad}}) {
     if (std::abs(std::sin(pair.angle_rad)) >= kLeastSine) continue;
-    return core::fail(core::Code::kRank,
-                      fmt::format("the probes {} are in line ({:.6g} deg apart): they see only a "
-                                  "diameter; |sin| must be at least {:g}",
-                                  pair.probes, pair.angle_rad / core::kDegree, kLeastSine));
+    return core::fail_with(core::Code::kRank,
+                           "the probes {} are in line ({:.6g} deg apart): they see only a "
+                           "diameter; |sin| must be at least {:g}",
+                           pair.probes, pair.angle_rad / core::kDegree, kLeastSine);
   }
   return ProbeLayout(phi2_rad, phi3_rad);
 }

@@ -23,30 +23,29 @@ core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOpt
   const std::size_t rows = readings.alpha_rad.size();
   for (std::size_t i = 0; i < 3; ++i) {
     if (readings.h_mm[i].size() == rows) continue;
-    return core::fail(Code::kSampling,
-                      fmt::format("probe {} has {} readings, there are {} angles; every "
-                                  "column needs the same length",
-                                  i + 1, readings.h_mm[i].size(), rows));
+    return core::fail_with(
+        Code::kSampling,
+        "probe {} has {} readings, there are {} angles; every column needs the same length", i + 1,
+        readings.h_mm[i].size(), rows);
   }
   if (!readings.beta_rad.empty() && readings.beta_rad.size() != rows) {
-    return core::fail(Code::kSampling,
-                      fmt::format("{} swing angles and {} work angles; every column "
-                                  "needs the same length",
-                                  readings.beta_rad.size(), rows));
+    return core::fail_with(Code::kSampling,
+                           "{} swing angles and {} work angles; every column needs the same length",
+                           readings.beta_rad.size(), rows);
   }
   const std::size_t needed = 2 * static_cast<std::size_t>(options.highest) + 2;
   if (rows < needed) {
-    return core::fail(Code::kSampling,
-                      fmt::format("{} readings do not carry {} undulations; at least {} are needed",
-                                  rows, options.highest, needed));
+    return core::fail_with(Code::kSampling,
+                           "{} readings do not carry {} undulations; at least {} are needed", rows,
+                           options.highest, needed);
   }
   for (std::size_t m = 0; m < rows; ++m) {
     bool finite = core::is_measurable(readings.alpha_rad[m]);
     for (const auto& h : readings.h_mm) finite = finite && core::is_measurable(h[m]);
     if (!readings.beta_rad.empty()) finite = finite && core::is_measurable(readings.beta_rad[m]);
     if (!finite)
-      return core::fail(Code::kNotFinite, fmt::format("row {} holds no finite number up to {:g}", m,
-                                                      core::kGreatestNumber));
+      return core::fail_with(Code::kNotFinite, "row {} holds no finite number up to {:g}", m,
+                             core::kGreatestNumber);
   }
   return {};
 }
@@ -62,10 +61,10 @@ core::Result<std::vector<double>> travel(const ProbeReadings& readings, const Sw
     // Without resampling the rows count as uniform in theta, so their swing is ignored.
     theta.push_back(resample ? alpha + beta : alpha);
     if (m == 0 || theta[m] > theta[m - 1]) continue;
-    return core::fail(Code::kAngleOrder,
-                      fmt::format("the angle on the part does not increase in row {}: {:.6f} deg "
-                                  "after {:.6f} deg; give the work angle unwrapped and in order",
-                                  m, theta[m] / core::kDegree, theta[m - 1] / core::kDegree));
+    return core::fail_with(Code::kAngleOrder,
+                           "the angle on the part does not increase in row {}: {:.6f} deg after "
+                           "{:.6f} deg; give the work angle unwrapped and in order",
+                           m, theta[m] / core::kDegree, theta[m - 1] / core::kDegree);
   }
   return theta;
 }
@@ -85,25 +84,24 @@ core::Result<Extent> whole_revolutions(const std::vector<double>& theta,
   const double each = static_cast<double>(theta.size()) / std::max(revolutions, 1.0);
   const double needed = 2.0 * options.highest + 2.0;
   if (each < needed) {
-    return core::fail(
-        Code::kSampling,
-        fmt::format("{} readings over {:.0f} revolutions are {:.1f} a revolution; {} undulations "
-                    "need at least {:.0f}: is the angle in deg?",
-                    theta.size(), revolutions, each, options.highest, needed));
+    return core::fail_with(Code::kSampling,
+                           "{} readings over {:.0f} revolutions are {:.1f} a revolution; {} "
+                           "undulations need at least {:.0f}: is the angle in deg?",
+                           theta.size(), revolutions, each, options.highest, needed);
   }
   if (options.resample && revolutions * options.samples > kMostProbeSamples) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("{:.0f} revolutions of {} samples are {:.3g}, the limit is {:g}: "
-                                  "take fewer samples a revolution",
-                                  revolutions, options.samples, revolutions * options.samples,
-                                  kMostProbeSamples));
+    return core::fail_with(Code::kBadOption,
+                           "{:.0f} revolutions of {} samples are {:.3g}, the limit is {:g}: take "
+                           "fewer samples a revolution",
+                           revolutions, options.samples, revolutions * options.samples,
+                           kMostProbeSamples);
   }
   out.revolutions = static_cast<int>(revolutions);
   if (out.revolutions < 1) {
-    return core::fail(Code::kNotFullSection,
-                      fmt::format("the readings cover {:.3f} deg on the part; a full revolution is "
-                                  "needed (a work angle in radians covers 6.283)",
-                                  covered / core::kDegree));
+    return core::fail_with(Code::kNotFullSection,
+                           "the readings cover {:.3f} deg on the part; a full revolution is needed "
+                           "(a work angle in radians covers 6.283)",
+                           covered / core::kDegree);
   }
   const double end = theta.front() + out.revolutions * kTwoPi - 0.01 * step;
   out.rows = static_cast<std::size_t>(std::ranges::lower_bound(theta, end) - theta.begin());

@@ -237,12 +237,11 @@ core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard
     if (change < kSecondOrderDone_mm) return {};
   }
   if (change <= kSecondOrderSettled * before) return {};
-  return core::fail(
-      Code::kUnits,
-      fmt::format("the readings say that the axis moves by {:.4g} mm; for a part of radius {:g} mm "
-                  "that is too much to be corrected to the second order: look at the unit of the "
-                  "columns (um) and for marks of missing values",
-                  motion, part_radius_mm));
+  return core::fail_with(Code::kUnits,
+                         "the readings say that the axis moves by {:.4g} mm; for a part of radius "
+                         "{:g} mm that is too much to be corrected to the second order: look at "
+                         "the unit of the columns (um) and for marks of missing values",
+                         motion, part_radius_mm);
 }
 
 /// Names motion against the work, which is no eccentricity, and what the probes would say with
@@ -282,11 +281,10 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   TRY(auto sampled, sample_readings(readings, arm, options));
   ProbeSamples samples = std::move(sampled);
   if (samples.count < static_cast<std::size_t>(2 * options.highest + 2)) {
-    return core::fail(
+    return core::fail_with(
         Code::kSampling,
-        fmt::format("{} samples a revolution do not carry {} undulations; at least {} "
-                    "are needed",
-                    samples.count, options.highest, 2 * options.highest + 2));
+        "{} samples a revolution do not carry {} undulations; at least {} are needed",
+        samples.count, options.highest, 2 * options.highest + 2);
   }
   ThreeProbeResult result{.layout = layout};
   result.revolutions = samples.revolutions;
@@ -298,12 +296,11 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   const auto noise = options.noise_mm ? options.noise_mm
                                       : estimated_noise_mm(samples, sum, layout, options.highest);
   if (!noise) {
-    return core::fail(
+    return core::fail_with(
         Code::kSampling,
-        fmt::format("one revolution of {} samples holds no harmonic above {} from which the noise "
-                    "of a reading could be estimated: state it, record a second revolution or take "
-                    "at least {} samples",
-                    samples.count, options.highest, 4 * options.highest));
+        "one revolution of {} samples holds no harmonic above {} from which the noise of a reading "
+        "could be estimated: state it, record a second revolution or take at least {} samples",
+        samples.count, options.highest, 4 * options.highest);
   }
   result.noise_estimated = !options.noise_mm;
   result.noise_mm = *noise;

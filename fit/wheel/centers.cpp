@@ -110,12 +110,12 @@ core::Result<void> check(const QuadrupleOptions& options) {
                        options.least_chord_per_radius <= 1.0;
   const bool angle = options.least_angle_rad > 0.0 && options.least_angle_rad < core::kTwoPi / 4.0;
   if (lengths && angle && options.kappa_limit.value_or(1.0) >= 1.0) return {};
-  return core::fail(
-      core::Code::kBadOption,
-      fmt::format("limits of quadruples: chord {} mm (above 0), {} of the radius (0 to 1), angle "
-                  "{} deg (0 to 90), kappa {} (at least 1)",
-                  options.least_chord_mm, options.least_chord_per_radius,
-                  options.least_angle_rad / core::kDegree, options.kappa_limit.value_or(1.0)));
+  return core::fail_with(core::Code::kBadOption,
+                         "limits of quadruples: chord {} mm (above 0), {} of the radius (0 to 1), "
+                         "angle {} deg (0 to 90), kappa {} (at least 1)",
+                         options.least_chord_mm, options.least_chord_per_radius,
+                         options.least_angle_rad / core::kDegree,
+                         options.kappa_limit.value_or(1.0));
 }
 
 }  // namespace
@@ -166,13 +166,12 @@ core::Result<WheelCenters> select_centers(PlanePoints points_mm, double radius_m
   TRY_DO(check(options));
   WheelCenters out = select_systematic(points_mm, radius_mm, options);
   if (out.accepted.size() >= kLeastCenters) return out;
-  return core::fail(
-      core::Code::kTooFewCenters,
-      fmt::format("{} quadruples of points give a usable centre, at least {} are needed; refused: "
-                  "{} for a short chord, {} for parallel chords, {} for kappa above {:.3g}; take "
-                  "points over more of the circle",
-                  out.accepted.size(), kLeastCenters, out.short_chord, out.parallel_chords,
-                  out.ill_conditioned, out.kappa_limit));
+  return core::fail_with(core::Code::kTooFewCenters,
+                         "{} quadruples of points give a usable centre, at least {} are needed; "
+                         "refused: {} for a short chord, {} for parallel chords, {} for kappa "
+                         "above {:.3g}; take points over more of the circle",
+                         out.accepted.size(), kLeastCenters, out.short_chord, out.parallel_chords,
+                         out.ill_conditioned, out.kappa_limit);
 }
 
 }  // namespace rondure::fit

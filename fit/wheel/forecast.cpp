@@ -18,9 +18,8 @@ core::Result<ResidualForm> residual_form(const WheelSurface& surface, double use
                                          double true_radius_mm, double touch_off_mm,
                                          const WheelPathOptions& options) {
   if (!(used_radius_mm > 0.0) || !std::isfinite(used_radius_mm)) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("the radius of the path is {} mm; above 0 is needed", used_radius_mm));
+    return core::fail_with(core::Code::kBadOption,
+                           "the radius of the path is {} mm; above 0 is needed", used_radius_mm);
   }
   // With a cusp the options have no step; the residual is smooth, so any fine step will do.
   TRY_DO(wheel_load(surface, true_radius_mm, options));

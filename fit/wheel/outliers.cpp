@@ -66,11 +66,10 @@ void fill_deviations(PlanePoints points_mm, const OutlierOptions& options, Outli
 core::Result<void> check_count(const Outliers& out, std::size_t n) {
   const std::size_t dropped = out.dropped.size();
   if (dropped <= n / 4 && n - dropped >= kLeastLeft) return {};
-  return core::fail(
-      core::Code::kOutliers,
-      fmt::format("{} of {} points lie more than 5 scales of {:.2f} um off; at most {} could be "
-                  "dropped, and {} must stay: clean the wheel",
-                  dropped, n, out.scale_mm / core::kMicrometre, n / 4, kLeastLeft));
+  return core::fail_with(core::Code::kOutliers,
+                         "{} of {} points lie more than 5 scales of {:.2f} um off; at most {} "
+                         "could be dropped, and {} must stay: clean the wheel",
+                         dropped, n, out.scale_mm / core::kMicrometre, n / 4, kLeastLeft);
 }
 
 }  // namespace
@@ -79,10 +78,10 @@ core::Result<Outliers> find_outliers(PlanePoints points_mm,
                                      std::span<const FourPointCenter> centers,
                                      const OutlierOptions& options) {
   if (!(options.scales >= 5.0) || !(options.least_scale_mm > 0.0)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("outliers beyond {} scales (at least 5: lobes are form), least "
-                                  "scale {} mm (above 0)",
-                                  options.scales, options.least_scale_mm));
+    return core::fail_with(
+        core::Code::kBadOption,
+        "outliers beyond {} scales (at least 5: lobes are form), least scale {} mm (above 0)",
+        options.scales, options.least_scale_mm);
   }
   std::vector<double> x;
   std::vector<double> z;

@@ -14,33 +14,32 @@ constexpr double kMostSteps = 1e6;
 
 core::Result<void> check(double radius_mm, const WheelPathOptions& o) {
   if (!(radius_mm > 0.0) || !std::isfinite(radius_mm)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the wheel radius is {} mm; above 0 is needed", radius_mm));
+    return core::fail_with(core::Code::kBadOption, "the wheel radius is {} mm; above 0 is needed",
+                           radius_mm);
   }
   if (!(o.to_mm > o.from_mm) || !std::isfinite(o.to_mm - o.from_mm)) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("the path runs from {} to {} mm; the end must lie above", o.from_mm, o.to_mm));
+    return core::fail_with(core::Code::kBadOption,
+                           "the path runs from {} to {} mm; the end must lie above", o.from_mm,
+                           o.to_mm);
   }
   const bool steps = o.cusp_mm ? *o.cusp_mm > 0.0
                                : o.step_mm > 0.0 && (o.to_mm - o.from_mm) / o.step_mm <= kMostSteps;
   if (!steps) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("step {} mm, cusp {} mm: above 0, and at most {:.0f} steps, are "
-                                  "needed",
-                                  o.step_mm, o.cusp_mm.value_or(0.0), kMostSteps));
+    return core::fail_with(core::Code::kBadOption,
+                           "step {} mm, cusp {} mm: above 0, and at most {:.0f} steps, are needed",
+                           o.step_mm, o.cusp_mm.value_or(0.0), kMostSteps);
   }
   if (o.surface_from_mm.value_or(o.from_mm) > o.from_mm ||
       o.surface_to_mm.value_or(o.to_mm) < o.to_mm) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the surface, {} to {} mm, must hold the contacts, {} to {} mm",
-                                  o.surface_from_mm.value_or(o.from_mm),
-                                  o.surface_to_mm.value_or(o.to_mm), o.from_mm, o.to_mm));
+    return core::fail_with(core::Code::kBadOption,
+                           "the surface, {} to {} mm, must hold the contacts, {} to {} mm",
+                           o.surface_from_mm.value_or(o.from_mm), o.surface_to_mm.value_or(o.to_mm),
+                           o.from_mm, o.to_mm);
   }
   if (o.load_limit > 0.0 && o.load_limit <= 1.0 && o.clearance_mm > 0.0) return {};
-  return core::fail(core::Code::kBadOption,
-                    fmt::format("limit of R k_s {} (0 to 1), clearance {} mm (above 0)",
-                                o.load_limit, o.clearance_mm));
+  return core::fail_with(core::Code::kBadOption,
+                         "limit of R k_s {} (0 to 1), clearance {} mm (above 0)", o.load_limit,
+                         o.clearance_mm);
 }
 
 core::Result<SurfaceSamples> sample_of(const WheelSurface& surface,
@@ -60,18 +59,16 @@ core::Result<WheelLoad> load_of(const SurfaceSamples& samples, double radius_mm,
   if (load.load <= options.load_limit) return load;
   const double concave = load.concave_radius_mm(radius_mm);
   if (load.load >= 1.0) {
-    return core::fail(
-        core::Code::kGouge,
-        fmt::format("wheel radius R = {:.6g} mm exceeds the concave radius of curvature {:.6g} mm "
-                    "at x = {} mm; a wheel of at most {:.6g} mm can grind it",
-                    radius_mm, concave, shown(load.x_mm), options.load_limit * concave));
+    return core::fail_with(core::Code::kGouge,
+                           "wheel radius R = {:.6g} mm exceeds the concave radius of curvature "
+                           "{:.6g} mm at x = {} mm; a wheel of at most {:.6g} mm can grind it",
+                           radius_mm, concave, shown(load.x_mm), options.load_limit * concave);
   }
-  return core::fail(
-      core::Code::kGouge,
-      fmt::format("wheel radius R = {:.6g} mm is {:.4f} of the concave radius of curvature {:.6g} "
-                  "mm at x = {} mm; the limit is {} ({:.6g} mm)",
-                  radius_mm, load.load, concave, shown(load.x_mm), options.load_limit,
-                  options.load_limit * concave));
+  return core::fail_with(core::Code::kGouge,
+                         "wheel radius R = {:.6g} mm is {:.4f} of the concave radius of curvature "
+                         "{:.6g} mm at x = {} mm; the limit is {} ({:.6g} mm)",
+                         radius_mm, load.load, concave, shown(load.x_mm), options.load_limit,
+                         options.load_limit * concave);
 }
 
 core::Result<void> check_contact(const WheelPathRow& row, const WheelPathOptions& options) {
@@ -79,12 +76,12 @@ core::Result<void> check_contact(const WheelPathRow& row, const WheelPathOptions
       row.contact_rad <= options.greatest_contact_rad) {
     return {};
   }
-  return core::fail(core::Code::kWheelArc,
-                    fmt::format("the contact at x = {} mm lies {:.3f} deg from the wheel's lowest "
-                                "point, outside its trued arc, {:.3f} to {:.3f} deg",
-                                shown(row.x_mm), row.contact_rad / core::kDegree,
-                                options.least_contact_rad / core::kDegree,
-                                options.greatest_contact_rad / core::kDegree));
+  return core::fail_with(core::Code::kWheelArc,
+                         "the contact at x = {} mm lies {:.3f} deg from the wheel's lowest point, "
+                         "outside its trued arc, {:.3f} to {:.3f} deg",
+                         shown(row.x_mm), row.contact_rad / core::kDegree,
+                         options.least_contact_rad / core::kDegree,
+                         options.greatest_contact_rad / core::kDegree);
 }
 
 core::Result<WheelPathRow> row_at(const WheelSurface& surface, double x_mm, double radius_mm) {
@@ -105,12 +102,11 @@ core::Result<void> check_clearance(const SurfaceSamples& samples, const WheelPat
     const SurfaceSamples::Place least = samples.nearest(row.center_mm, path.radius_mm);
     row.clearance_mm = least.value - path.radius_mm;
     if (row.clearance_mm >= -options.clearance_mm) continue;
-    return core::fail(
-        core::Code::kGouge,
-        fmt::format("with contact at x = {} mm the wheel of radius {:.6g} mm is {:.3g} mm inside "
-                    "the surface at x = {} mm; the limit is {} mm",
-                    shown(row.x_mm), path.radius_mm, -row.clearance_mm, shown(least.x_mm),
-                    options.clearance_mm));
+    return core::fail_with(core::Code::kGouge,
+                           "with contact at x = {} mm the wheel of radius {:.6g} mm is {:.3g} mm "
+                           "inside the surface at x = {} mm; the limit is {} mm",
+                           shown(row.x_mm), path.radius_mm, -row.clearance_mm, shown(least.x_mm),
+                           options.clearance_mm);
   }
   return {};
 }
@@ -121,10 +117,9 @@ core::Result<void> fill_rows(const WheelSurface& surface, const WheelPathOptions
   // The slack prevents round-off from adding a step to a whole number of them.
   const double steps = std::max(1.0, std::ceil(length / path.step_mm * (1.0 - 1e-12)));
   if (steps > kMostSteps) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("a cusp of {} um needs {:.0f} steps; the limit is {:.0f}",
-                    options.cusp_mm.value_or(0.0) / core::kMicrometre, steps, kMostSteps));
+    return core::fail_with(core::Code::kBadOption,
+                           "a cusp of {} um needs {:.0f} steps; the limit is {:.0f}",
+                           options.cusp_mm.value_or(0.0) / core::kMicrometre, steps, kMostSteps);
   }
   path.step_mm = length / steps;
   const auto count = static_cast<std::size_t>(steps);

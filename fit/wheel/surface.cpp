@@ -30,10 +30,10 @@ core::Result<SurfacePoint> place_on(const Asphere& form, double x) {
   const double c = form.curvature_per_mm;
   const double square = 1.0 - (1.0 + form.conic) * c * c * x * x;
   if (!(square > 0.0)) {
-    return core::fail(core::Code::kSurface,
-                      fmt::format("the asphere has no height at x = {:.6g} mm: its conic ends at "
-                                  "|x| = {:.6g} mm",
-                                  x, 1.0 / (std::abs(c) * std::sqrt(1.0 + form.conic))));
+    return core::fail_with(
+        core::Code::kSurface,
+        "the asphere has no height at x = {:.6g} mm: its conic ends at |x| = {:.6g} mm", x,
+        1.0 / (std::abs(c) * std::sqrt(1.0 + form.conic)));
   }
   const double g = std::sqrt(square);
   SurfacePoint out{c * x * x / (1.0 + g), c * x / g, c / (g * g * g)};
@@ -53,10 +53,9 @@ core::Result<SurfacePoint> place_on(const core::OpenSpline& form, double x) {
   const double low = form.x().front();
   const double high = form.x().back();
   if (x < low - kEndSlack || x > high + kEndSlack) {
-    return core::fail(core::Code::kSurface,
-                      fmt::format("x = {:.6g} mm is outside the table, which runs from {:.6g} to "
-                                  "{:.6g} mm",
-                                  x, low, high));
+    return core::fail_with(
+        core::Code::kSurface,
+        "x = {:.6g} mm is outside the table, which runs from {:.6g} to {:.6g} mm", x, low, high);
   }
   const core::OpenSpline::Place place = form(x);
   return SurfacePoint{place.value, place.slope, place.second};
@@ -64,22 +63,21 @@ core::Result<SurfacePoint> place_on(const core::OpenSpline& form, double x) {
 
 core::Result<core::OpenSpline> spline_of(std::vector<double> x_mm, std::vector<double> z_mm) {
   if (x_mm.size() < kLeastRows || z_mm.size() != x_mm.size()) {
-    return core::fail(core::Code::kTable,
-                      fmt::format("a surface table needs at least {} rows of x and z, there are "
-                                  "{} x and {} z",
-                                  kLeastRows, x_mm.size(), z_mm.size()));
+    return core::fail_with(
+        core::Code::kTable,
+        "a surface table needs at least {} rows of x and z, there are {} x and {} z", kLeastRows,
+        x_mm.size(), z_mm.size());
   }
   for (std::size_t i = 0; i < x_mm.size(); ++i) {
     if (!core::is_measurable(x_mm[i]) || !core::is_measurable(z_mm[i])) {
-      return core::fail(
-          core::Code::kNotFinite,
-          fmt::format("row {} (counted from 0) of the table is not a finite number", i));
+      return core::fail_with(core::Code::kNotFinite,
+                             "row {} (counted from 0) of the table is not a finite number", i);
     }
     if (i == 0 || x_mm[i] > x_mm[i - 1]) continue;
-    return core::fail(core::Code::kTable,
-                      fmt::format("x of a table must rise: row {} (counted from 0) has {:.6g} mm "
-                                  "after {:.6g} mm",
-                                  i, x_mm[i], x_mm[i - 1]));
+    return core::fail_with(
+        core::Code::kTable,
+        "x of a table must rise: row {} (counted from 0) has {:.6g} mm after {:.6g} mm", i, x_mm[i],
+        x_mm[i - 1]);
   }
   core::OpenSpline out(std::move(x_mm), std::move(z_mm));
   for (const double x : out.x()) {
@@ -87,10 +85,10 @@ core::Result<core::OpenSpline> spline_of(std::vector<double> x_mm, std::vector<d
     if (std::isfinite(place.value) && std::isfinite(place.slope) && std::isfinite(place.second)) {
       continue;
     }
-    return core::fail(core::Code::kTable,
-                      fmt::format("the table has no finite curvature at x = {:.6g} mm: its rows "
-                                  "stand too close together, or too far apart",
-                                  x));
+    return core::fail_with(core::Code::kTable,
+                           "the table has no finite curvature at x = {:.6g} mm: its rows stand too "
+                           "close together, or too far apart",
+                           x);
   }
   return out;
 }
@@ -134,9 +132,9 @@ core::Result<WheelSurface> WheelSurface::less(std::vector<double> x_mm,
                                               std::vector<double> depth_mm) const {
   for (std::size_t i = 0; i < std::min(x_mm.size(), depth_mm.size()); ++i) {
     if (!(depth_mm[i] < 0.0)) continue;
-    return core::fail(core::Code::kSurface,
-                      fmt::format("the removal is {:.6g} mm at x = {:.6g} mm; a depth is 0 or more",
-                                  depth_mm[i], x_mm[i]));
+    return core::fail_with(core::Code::kSurface,
+                           "the removal is {:.6g} mm at x = {:.6g} mm; a depth is 0 or more",
+                           depth_mm[i], x_mm[i]);
   }
   TRY(auto spline, spline_of(std::move(x_mm), std::move(depth_mm)));
   WheelSurface out = *this;
@@ -150,10 +148,10 @@ core::Result<SurfacePoint> WheelSurface::at(double x_mm) const {
   const auto depth = place_on(*removal_, x_mm);
   if (!depth) return depth;
   if (depth->height_mm < -kDepthSlack) {
-    return core::fail(core::Code::kSurface,
-                      fmt::format("the removal is {:.3g} mm at x = {:.6g} mm, between rows of its "
-                                  "table; give more rows",
-                                  depth->height_mm, x_mm));
+    return core::fail_with(
+        core::Code::kSurface,
+        "the removal is {:.3g} mm at x = {:.6g} mm, between rows of its table; give more rows",
+        depth->height_mm, x_mm);
   }
   return SurfacePoint{out->height_mm - depth->height_mm, out->slope - depth->slope,
                       out->second_per_mm - depth->second_per_mm};

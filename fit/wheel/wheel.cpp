@@ -33,27 +33,26 @@ core::Result<void> check_distinct(PlanePoints points_mm) {
     if (!seen) found.push_back(p);
     if (found.size() == kLeastPoints) return {};
   }
-  return core::fail(core::Code::kTooFewPoints,
-                    fmt::format("{} of {} points are more than {} mm apart; a wheel needs at least "
-                                "{}",
-                                found.size(), points_mm.size(), kSamePoint, kLeastPoints));
+  return core::fail_with(core::Code::kTooFewPoints,
+                         "{} of {} points are more than {} mm apart; a wheel needs at least {}",
+                         found.size(), points_mm.size(), kSamePoint, kLeastPoints);
 }
 
 core::Result<void> check_radius(double radius_mm, const WheelOptions& options) {
   if (radius_mm < kLeastRadius || radius_mm > kGreatestRadius) {
     const bool large = radius_mm > kGreatestRadius;
-    return core::fail(core::Code::kUnits,
-                      fmt::format("the radius is {:.6g} mm, outside {} to {} mm: are the "
-                                  "coordinates in {}? Give x and z in mm",
-                                  radius_mm, kLeastRadius, kGreatestRadius, large ? "um" : "m"));
+    return core::fail_with(core::Code::kUnits,
+                           "the radius is {:.6g} mm, outside {} to {} mm: are the coordinates in "
+                           "{}? Give x and z in mm",
+                           radius_mm, kLeastRadius, kGreatestRadius, large ? "um" : "m");
   }
   if (!options.nominal_radius_mm) return {};
   const double nominal = *options.nominal_radius_mm;
   if (std::abs(radius_mm - nominal) <= kNominalShare * nominal) return {};
-  return core::fail(core::Code::kOutOfRange,
-                    fmt::format("the radius is {:.6g} mm, {:.3g} % off the nominal {:.6g} mm; the "
-                                "limit is 5 %: another wheel, or another unit?",
-                                radius_mm, 100.0 * std::abs(radius_mm / nominal - 1.0), nominal));
+  return core::fail_with(core::Code::kOutOfRange,
+                         "the radius is {:.6g} mm, {:.3g} % off the nominal {:.6g} mm; the limit "
+                         "is 5 %: another wheel, or another unit?",
+                         radius_mm, 100.0 * std::abs(radius_mm / nominal - 1.0), nominal);
 }
 
 core::Result<void> check_options(const WheelOptions& options) {
@@ -70,15 +69,13 @@ core::Result<void> check_options(const WheelOptions& options) {
     const WheelPointErrors& e = *options.errors;
     for (const double u : {e.point_mm, e.scale_1, e.threshold_mm, e.wear_mm}) {
       if (u >= 0.0 && std::isfinite(u)) continue;
-      return core::fail(
-          core::Code::kBadOption,
-          fmt::format("a declared error of the points is {}; 0 or more is needed", u));
+      return core::fail_with(core::Code::kBadOption,
+                             "a declared error of the points is {}; 0 or more is needed", u);
     }
   }
   if (options.nominal_radius_mm && !(*options.nominal_radius_mm > 0.0)) {
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("the nominal radius is {} mm; above 0 is needed", *options.nominal_radius_mm));
+    return core::fail_with(core::Code::kBadOption, "the nominal radius is {} mm; above 0 is needed",
+                           *options.nominal_radius_mm);
   }
   return {};
 }
@@ -88,22 +85,22 @@ core::Result<void> check_arc(PlanePoints points, const LsCircle& circle,
   const AngularOrder order = angular_order(points, circle.center_mm);
   if (order.coverage_rad() >= kLeastArc || options.allow_short_arc) return {};
   const double factor = circle_factors(order.angles_rad).center;
-  return core::fail(
+  return core::fail_with(
       core::Code::kShortArc,
-      fmt::format("the points cover {:.2f} deg of the circle, at least 20 deg are needed: {}",
-                  order.coverage_rad() / core::kDegree,
-                  std::isfinite(factor)
-                      ? fmt::format("a point error would show {:.1f} times in the centre", factor)
-                      : "they do not determine the centre"));
+      "the points cover {:.2f} deg of the circle, at least 20 deg are needed: {}",
+      order.coverage_rad() / core::kDegree,
+      std::isfinite(factor)
+          ? fmt::format("a point error would show {:.1f} times in the centre", factor)
+          : "they do not determine the centre");
 }
 
 /// Makes the checks that are possible before quadruples are chosen.
 core::Result<LsCircle> check_and_start(PlanePoints points_mm, const WheelOptions& options) {
   TRY_DO(check_options(options));
   if (points_mm.size() < kLeastPoints) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("there are {} points, a wheel needs at least {}",
-                                  points_mm.size(), kLeastPoints));
+    return core::fail_with(core::Code::kTooFewPoints,
+                           "there are {} points, a wheel needs at least {}", points_mm.size(),
+                           kLeastPoints);
   }
   TRY_DO(check_points(points_mm));
   TRY_DO(check_distinct(points_mm));

@@ -76,11 +76,10 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
                       "expected");
   }
   if (zone.ending == ZoneEnding::kStrayed) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kReferenceAbsent,
-        fmt::format("there is no {} {} next to the least-squares one: the points do "
-                    "not surround it",
-                    weights.inner == 0.0 ? "minimum circumscribed" : "maximum inscribed", shape));
+        "there is no {} {} next to the least-squares one: the points do not surround it",
+        weights.inner == 0.0 ? "minimum circumscribed" : "maximum inscribed", shape);
   }
   return zone;
 }

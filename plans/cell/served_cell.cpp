@@ -41,9 +41,8 @@ core::Result<std::vector<Eigen::Vector3d>> ServedCell::align_part(
 core::Result<void> ServedCell::choose_feature(int index) {
   const auto count = static_cast<int>(features_.size());
   if (index < 0 || index >= count || !is_touched(features_[static_cast<std::size_t>(index)])) {
-    return core::fail(
-        core::Code::kOutOfRange,
-        fmt::format("feature {} is none of the {} that can be touched", index, count));
+    return core::fail_with(core::Code::kOutOfRange,
+                           "feature {} is none of the {} that can be touched", index, count);
   }
   cell_.mount(features_[static_cast<std::size_t>(index)]);
   return {};

@@ -458,9 +458,9 @@ Fault check_touch(const Touch& touch, const RunRecord& record,
 }
 
 core::Result<void> refused(const std::string& place, const std::string& fault) {
-  return core::fail(
-      core::Code::kJournal,
-      fmt::format("the journal does not hold what its evaluation asks for: {}: {}", place, fault));
+  return core::fail_with(core::Code::kJournal,
+                         "the journal does not hold what its evaluation asks for: {}: {}", place,
+                         fault);
 }
 
 }  // namespace

@@ -14,20 +14,20 @@ namespace {
 core::Result<void> check_layers(const FeaturePlan& feature, int layers) {
   const SamplingPlan& sampling = feature.sampling;
   if (layers < 1) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("{} layers cannot be probed; give at least 1", layers));
+    return core::fail_with(core::Code::kSampling, "{} layers cannot be probed; give at least 1",
+                           layers);
   }
   if (sampling.points_per_layer < 3) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("{} points a layer do not determine a circle; give at least 3",
-                                  sampling.points_per_layer));
+    return core::fail_with(core::Code::kSampling,
+                           "{} points a layer do not determine a circle; give at least 3",
+                           sampling.points_per_layer);
   }
   const double length_mm = layered_mm(feature);
   if (layers > 1 && !(sampling.margin_mm >= 0.0 && 2.0 * sampling.margin_mm < length_mm)) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kSampling,
-        fmt::format("a margin of {:.7g} mm at both ends leaves no room for {} layers on {:.7g} mm",
-                    sampling.margin_mm, layers, length_mm));
+        "a margin of {:.7g} mm at both ends leaves no room for {} layers on {:.7g} mm",
+        sampling.margin_mm, layers, length_mm);
   }
   return {};
 }
@@ -110,8 +110,8 @@ core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
 
 core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points) {
   if (points < 5 || points > 100) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("{} touches of the reference sphere are outside 5..100", points));
+    return core::fail_with(core::Code::kSampling,
+                           "{} touches of the reference sphere are outside 5..100", points);
   }
   // Ring spacing equal to the point spacing of an even spread: sqrt(2 pi / points) on the
   // hemisphere.

@@ -65,10 +65,10 @@ int arc_steps(double angle_rad) {
 
 core::Result<void> check_fits(const PathGeometry& geometry) {
   if (!geometry.inside || contact_radius(geometry) - geometry.approach_mm >= 0.0) return {};
-  return core::fail(core::Code::kMeaning,
-                    fmt::format("a tip radius of {:.7g} mm and an approach of {:.7g} mm exceed the "
-                                "bore radius of {:.7g} mm; shorten the approach",
-                                geometry.tip_radius_mm, geometry.approach_mm, geometry.radius_mm));
+  return core::fail_with(core::Code::kMeaning,
+                         "a tip radius of {:.7g} mm and an approach of {:.7g} mm exceed the bore "
+                         "radius of {:.7g} mm; shorten the approach",
+                         geometry.tip_radius_mm, geometry.approach_mm, geometry.radius_mm);
 }
 
 Vector3d approach_direction(const PathGeometry& geometry, const Target& target) {

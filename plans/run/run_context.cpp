@@ -56,9 +56,9 @@ cmm::TouchReading reading_of(const record::Touch& row) {
 
 core::Result<void> RunContext::check_stop() const {
   if (!options.stop_requested || !options.stop_requested()) return {};
-  return core::fail(
-      core::Code::kStopped,
-      fmt::format("stopped by the operator after {} touches; all of them are kept", next_touch));
+  return core::fail_with(core::Code::kStopped,
+                         "stopped by the operator after {} touches; all of them are kept",
+                         next_touch);
 }
 
 void RunContext::show() const {
@@ -189,9 +189,8 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
       "part again (run --resume --relocate)";
   if (!reading) {
     const bool nothing = reading.error().code == core::Code::kNoTouch;
-    return core::fail(reading.error().code,
-                      fmt::format("touch {} could not be repeated: {}{}", step.row.id,
-                                  reading.error().what, nothing ? moved : std::string()));
+    return core::fail_with(reading.error().code, "touch {} could not be repeated: {}{}",
+                           step.row.id, reading.error().what, nothing ? moved : std::string());
   }
   record::Touch check = step.row;
   check.id = check_id;

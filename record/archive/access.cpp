@@ -25,10 +25,10 @@ core::Result<Archive> Archive::open(const ArchivePlace& place, Access access) {
 core::Result<bool> Archive::push(const ArchiveRun& run) {
   const auto time_s = seconds_of_utc(run.head.started_utc);
   if (!time_s) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the start of run {} is {}, not a time such as "
-                                  "2026-11-21T02:33:02Z; it cannot be archived",
-                                  run.head.run_id, run.head.started_utc));
+    return core::fail_with(
+        core::Code::kBadOption,
+        "the start of run {} is {}, not a time such as 2026-11-21T02:33:02Z; it cannot be archived",
+        run.head.run_id, run.head.started_utc);
   }
   bool added = false;
   TRY_DO(write_in_one(*session_, [&] { added = insert_run(session_->sql, run, *time_s); }));

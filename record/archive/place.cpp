@@ -40,8 +40,8 @@ core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::
     const std::string found =
         text.empty() ? "the archive has no name"
                      : fmt::format("an archive at {}:// is unknown", text.substr(0, scheme));
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{}; give a file, postgresql://... or none", found));
+    return core::fail_with(core::Code::kBadOption, "{}; give a file, postgresql://... or none",
+                           found);
   }
   // Otherwise a file of that name would be created, and its name shown in messages and in the
   // queue.

@@ -95,8 +95,7 @@ core::Result<void> read_numbers(const Fields& fields, BallRow& out) {
     const std::size_t column = fields.places[6] ? 6 : 7 + i;
     TRY(const auto u, fields.number(column));
     if (u < 0.0) {
-      return core::fail(Code::kOutOfRange,
-                        fmt::format("{} is {:g}, less than 0", kColumns[column], u));
+      return core::fail_with(Code::kOutOfRange, "{} is {:g}, less than 0", kColumns[column], u);
     }
     out.centre_mm(k) = place;
     out.u_um(k) = u;

@@ -78,24 +78,22 @@ core::Result<Columns> read_header(std::string_view line, const Format& format) {
   for (const std::string_view field : names) {
     const auto place = place_of(field, columns.set);
     if (!place) {
-      return core::fail(core::Code::kSyntax,
-                        fmt::format("column {} is unknown; the first line must name the columns "
-                                    "{}{}",
-                                    quoted_text(field), format.columns, format.units));
+      return core::fail_with(core::Code::kSyntax,
+                             "column {} is unknown; the first line must name the columns {}{}",
+                             quoted_text(field), format.columns, format.units);
     }
     if (std::exchange(seen[*place], true)) {
-      return core::fail(core::Code::kSyntax,
-                        fmt::format("column {} stands twice; the columns are {}, each once",
-                                    quoted_text(field), format.columns));
+      return core::fail_with(core::Code::kSyntax,
+                             "column {} stands twice; the columns are {}, each once",
+                             quoted_text(field), format.columns);
     }
     columns.fields[columns.count++] = *place;
   }
   for (std::size_t i = 0; i < columns.set.required; ++i) {
     if (seen[i]) continue;
-    return core::fail(
-        core::Code::kSyntax,
-        fmt::format("column \"{}\" is missing in {}; the columns are {}{}", columns.set.names[i],
-                    quoted_text(line), format.columns, format.units));
+    return core::fail_with(core::Code::kSyntax,
+                           "column \"{}\" is missing in {}; the columns are {}{}",
+                           columns.set.names[i], quoted_text(line), format.columns, format.units);
   }
   return columns;
 }

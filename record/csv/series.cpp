@@ -106,9 +106,8 @@ core::Result<void> check_names(std::span<const WantedColumn> wanted, std::string
     const bool known = std::any_of(wanted.begin(), wanted.end(),
                                    [&](const auto& column) { return column.name == name.wanted; });
     if (known) continue;
-    return core::fail(Code::kBadOption,
-                      fmt::format("{} is no column of this data; the columns are {}",
-                                  quoted_text(name.wanted), list));
+    return core::fail_with(Code::kBadOption, "{} is no column of this data; the columns are {}",
+                           quoted_text(name.wanted), list);
   }
   return {};
 }

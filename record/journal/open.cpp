@@ -153,9 +153,8 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
     impl->prepare();
     impl->header = header;
   } catch (const std::exception& exception) {
-    return core::fail(core::Code::kJournal,
-                      fmt::format("the journal {} cannot be made: {}", file.string(),
-                                  reason_of(exception, impl ? &impl->sql : nullptr)));
+    return core::fail_with(core::Code::kJournal, "the journal {} cannot be made: {}", file.string(),
+                           reason_of(exception, impl ? &impl->sql : nullptr));
   }
   TRY_DO(sync_names(undo));
   undo.made.clear();

@@ -214,9 +214,8 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {
-      return core::fail(
-          core::Code::kBadOption,
-          fmt::format("format '{}' is unknown; {} can be written", format, enumerated(known)));
+      return core::fail_with(core::Code::kBadOption, "format '{}' is unknown; {} can be written",
+                             format, enumerated(known));
     }
   }
   TRY(const auto earlier, read_earlier(directory));

@@ -40,14 +40,14 @@ Moments moments_of(std::span<const double> values) {
 /// ln of the values, or why they cannot be used.
 core::Result<std::vector<double>> logarithms(std::span<const double> values_mm, std::size_t least) {
   if (values_mm.size() < least) {
-    return core::fail(Code::kTooFewPoints,
-                      fmt::format("{} results, at least {} are needed", values_mm.size(), least));
+    return core::fail_with(Code::kTooFewPoints, "{} results, at least {} are needed",
+                           values_mm.size(), least);
   }
   std::vector<double> out;
   for (const double x : values_mm) {
     if (!(x > 0.0) || !std::isfinite(x)) {
-      return core::fail(Code::kOutOfRange,
-                        fmt::format("a deviation of {} mm has no logarithm; exclude it", x));
+      return core::fail_with(Code::kOutOfRange, "a deviation of {} mm has no logarithm; exclude it",
+                             x);
     }
     out.push_back(std::log(x));
   }
@@ -157,11 +157,11 @@ core::Result<Capability> capability_between(std::span<const double> values_mm,
   TRY(const auto ln, logarithms(values_mm, kLeastForIndex));
   const double p = anderson_darling_p(ln);
   if (p < kLeastP && values_mm.size() < kEnoughForSample) {
-    return core::fail(
+    return core::fail_with(
         Code::kNotConverged,
-        fmt::format("the results do not follow a log-normal distribution (Anderson-Darling p = "
-                    "{:.2g}), and {} are too few for percentiles of their own ({} are needed)",
-                    p, values_mm.size(), kEnoughForSample));
+        "the results do not follow a log-normal distribution (Anderson-Darling p = {:.2g}), and {} "
+        "are too few for percentiles of their own ({} are needed)",
+        p, values_mm.size(), kEnoughForSample);
   }
   Capability out = p < kLeastP
                        ? of_sample(values_mm, limits)

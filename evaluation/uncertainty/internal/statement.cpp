@@ -90,32 +90,30 @@ void share_out(std::vector<BudgetLine>& budget) {
 
 core::Result<void> check_cloud(const FormCloud& cloud) {
   if (!(cloud.radius_mm > 0.0 && std::isfinite(cloud.radius_mm))) {
-    return core::fail(Code::kBadOption, fmt::format("radius {} mm is not > 0", cloud.radius_mm));
+    return core::fail_with(Code::kBadOption, "radius {} mm is not > 0", cloud.radius_mm);
   }
   const Eigen::MatrixXd motions = rigid_motions(cloud);
   const auto least = static_cast<std::size_t>(motions.cols() + 1);
   if (cloud.points.size() < least) {
-    return core::fail(Code::kTooFewPoints, fmt::format("{} points; {} at least have an uncertainty",
-                                                       cloud.points.size(), least));
+    return core::fail_with(Code::kTooFewPoints, "{} points; {} at least have an uncertainty",
+                           cloud.points.size(), least);
   }
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const FormPoint& p = cloud.points[i];
     if (!std::isfinite(p.angle_rad + p.height_mm + p.deviation_mm)) {
-      return core::fail(Code::kNotFinite, fmt::format("point {} is not finite", i));
+      return core::fail_with(Code::kNotFinite, "point {} is not finite", i);
     }
     if (p.repeats < 1) {
-      return core::fail(
-          Code::kBadOption,
-          fmt::format("point {} is the mean of {} touches; 1 at least", i, p.repeats));
+      return core::fail_with(Code::kBadOption, "point {} is the mean of {} touches; 1 at least", i,
+                             p.repeats);
     }
     if (!cloud.frames.empty() &&
         (p.pose < 0 || static_cast<std::size_t>(p.pose) >= cloud.frames.size())) {
-      return core::fail(Code::kBadOption, fmt::format("pose {} of point {} is none of {} frames",
-                                                      p.pose, i, cloud.frames.size()));
+      return core::fail_with(Code::kBadOption, "pose {} of point {} is none of {} frames", p.pose,
+                             i, cloud.frames.size());
     }
     if (!(p.time_1 >= 0.0 && p.time_1 <= 1.0)) {
-      return core::fail(Code::kBadOption,
-                        fmt::format("time {} of point {} is outside 0..1", p.time_1, i));
+      return core::fail_with(Code::kBadOption, "time {} of point {} is outside 0..1", p.time_1, i);
     }
   }
   if (rigid_basis(cloud).cols() < motions.cols()) {
@@ -126,7 +124,7 @@ core::Result<void> check_cloud(const FormCloud& cloud) {
 
 core::Result<void> check_options(const UncertaintyOptions& options) {
   const auto bad = [](const char* name, auto value, const char* limit) {
-    return core::fail(Code::kBadOption, fmt::format("{} {} is not {}", name, value, limit));
+    return core::fail_with(Code::kBadOption, "{} {} is not {}", name, value, limit);
   };
   if (!(options.tolerance_mm >= 0.0 && std::isfinite(options.tolerance_mm))) {
     return bad("tolerance_mm", options.tolerance_mm, ">= 0");

@@ -34,19 +34,17 @@ core::Result<void> check_balls(std::span<const BallCentre> balls, const std::str
   std::set<std::string> seen;
   for (const BallCentre& ball : balls) {
     if (!check_points(std::span(&ball.centre_mm, 1)) || !check_points(std::span(&ball.u_mm, 1))) {
-      return core::fail(Code::kNotFinite,
-                        fmt::format("ball {} {}: centre or u is not a finite number up to 1e7 mm",
-                                    ball.ball, place));
+      return core::fail_with(Code::kNotFinite,
+                             "ball {} {}: centre or u is not a finite number up to 1e7 mm",
+                             ball.ball, place);
     }
     const double least = ball.u_mm.minCoeff();
     if (least < 0.0 || (least == 0.0 && !exact_allowed)) {
-      return core::fail(Code::kBadOption,
-                        fmt::format("ball {} {}: u is {:g} um, it must be above 0", ball.ball,
-                                    place, least / core::kMicrometre));
+      return core::fail_with(Code::kBadOption, "ball {} {}: u is {:g} um, it must be above 0",
+                             ball.ball, place, least / core::kMicrometre);
     }
     if (!seen.insert(ball.ball).second) {
-      return core::fail(Code::kRepeatedKey,
-                        fmt::format("ball {} stands twice {}", ball.ball, place));
+      return core::fail_with(Code::kRepeatedKey, "ball {} stands twice {}", ball.ball, place);
     }
   }
   return {};
@@ -58,9 +56,9 @@ core::Result<void> check_axis(const RotaryMeasurement& m) {
     return core::fail(Code::kNotFinite, "axis, origin or reference angle is not finite");
   }
   if (std::abs(m.axis.direction.norm() - 1.0) > 1e-6) {
-    return core::fail(Code::kBadOption,
-                      fmt::format("the axis direction has length {:g}, a unit vector is needed",
-                                  m.axis.direction.norm()));
+    return core::fail_with(Code::kBadOption,
+                           "the axis direction has length {:g}, a unit vector is needed",
+                           m.axis.direction.norm());
   }
   if (m.references.empty()) {
     return core::fail(Code::kMissingKey,
@@ -83,31 +81,28 @@ core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
                                  const std::set<std::string>& known) {
   const RotaryPose& station = m.stations[index];
   if (!core::is_measurable(station.angle_rad)) {
-    return core::fail(Code::kNotFinite,
-                      fmt::format("the angle of station {} is not finite", index + 1));
+    return core::fail_with(Code::kNotFinite, "the angle of station {} is not finite", index + 1);
   }
   const std::string place = fmt::format("at {:g} deg", core::degrees(station.angle_rad));
   if (station.angle_rad < m.lowest_rad - core::kSameAngle ||
       station.angle_rad > m.highest_rad + core::kSameAngle) {
-    return core::fail(Code::kPoseRange,
-                      fmt::format("station {:g} deg is outside the range of the axis, {:g}..{:g} "
-                                  "deg",
-                                  core::degrees(station.angle_rad), core::degrees(m.lowest_rad),
-                                  core::degrees(m.highest_rad)));
+    return core::fail_with(Code::kPoseRange,
+                           "station {:g} deg is outside the range of the axis, {:g}..{:g} deg",
+                           core::degrees(station.angle_rad), core::degrees(m.lowest_rad),
+                           core::degrees(m.highest_rad));
   }
   for (std::size_t i = 0; i < index; ++i) {
     if (!repeats(m.stations[i], station)) continue;
-    return core::fail(Code::kRepeatedKey,
-                      fmt::format("station {:g} deg stands twice; state the direction of approach "
-                                  "where it was measured forward and backward",
-                                  core::degrees(station.angle_rad)));
+    return core::fail_with(Code::kRepeatedKey,
+                           "station {:g} deg stands twice; state the direction of approach where "
+                           "it was measured forward and backward",
+                           core::degrees(station.angle_rad));
   }
   if (auto fine = check_balls(station.balls, place, false); !fine) return fine;
   for (const BallCentre& ball : station.balls) {
     if (known.contains(ball.ball)) continue;
-    return core::fail(
-        Code::kUnknownKey,
-        fmt::format("ball {} {} was not measured in the reference pose", ball.ball, place));
+    return core::fail_with(Code::kUnknownKey, "ball {} {} was not measured in the reference pose",
+                           ball.ball, place);
   }
   return {};
 }
@@ -321,10 +316,10 @@ core::Result<void> check_distance(const DistanceChanges& changes, const std::str
   const double limit = 4.0 * std::hypot(changes.u_mm, changes.reference_u_mm);
   const double change = core::upper_median(all);
   if (std::abs(change) > limit) {
-    return core::fail(Code::kInconsistent,
-                      fmt::format("the distance of balls {} is {:.2f} um off that of the reference "
-                                  "pose, limit {:.2f} um: thermal growth, or a ball has moved",
-                                  name, change / core::kMicrometre, limit / core::kMicrometre));
+    return core::fail_with(Code::kInconsistent,
+                           "the distance of balls {} is {:.2f} um off that of the reference pose, "
+                           "limit {:.2f} um: thermal growth, or a ball has moved",
+                           name, change / core::kMicrometre, limit / core::kMicrometre);
   }
   const auto third = static_cast<std::ptrdiff_t>(all.size() / 3);
   if (third < 2) return {};
@@ -332,11 +327,11 @@ core::Result<void> check_distance(const DistanceChanges& changes, const std::str
                        core::upper_median({all.begin(), all.begin() + third});
   const double drift_limit = 4.0 * std::sqrt(2.0) * changes.u_mm;
   if (std::abs(drift) <= drift_limit) return {};
-  return core::fail(Code::kInconsistent,
-                    fmt::format("the distance of balls {} drifts by {:.2f} um from the first to "
-                                "the last third of the stations, limit {:.2f} um: thermal growth "
-                                "or a failing clamp",
-                                name, drift / core::kMicrometre, drift_limit / core::kMicrometre));
+  return core::fail_with(
+      Code::kInconsistent,
+      "the distance of balls {} drifts by {:.2f} um from the first to the last third of the "
+      "stations, limit {:.2f} um: thermal growth or a failing clamp",
+      name, drift / core::kMicrometre, drift_limit / core::kMicrometre);
 }
 
 }  // namespace
@@ -366,12 +361,10 @@ core::Result<void> check_sizes(const RotaryMeasurement& measurement,
             (find_ball(reference, a.ball)->centre_mm - find_ball(reference, b.ball)->centre_mm)
                 .norm();
         if (std::abs(here - there) <= 0.1 * there) continue;
-        return core::fail(
+        return core::fail_with(
             Code::kUnits,
-            fmt::format("balls {} and {} are {:g} mm apart at {:g} deg and {:g} mm in the "
-                        "reference pose: {}",
-                        a.ball, b.ball, here, core::degrees(station.angle_rad), there,
-                        unit_hint(here / there)));
+            "balls {} and {} are {:g} mm apart at {:g} deg and {:g} mm in the reference pose: {}",
+            a.ball, b.ball, here, core::degrees(station.angle_rad), there, unit_hint(here / there));
       }
     }
   }
@@ -407,13 +400,12 @@ core::Result<void> check_sense(const RotaryMeasurement& measurement,
                                 : best == opposite     ? "turn the sign of the angles"
                                 : best == from_radians ? "the angles are in radians: give degrees"
                                                        : "the angles are in degrees: give radians";
-  return core::fail(
+  return core::fail_with(
       Code::kSense,
-      fmt::format("the balls turned otherwise than stated: {:.3g} rad of rotation are left, limit "
-                  "{:g}, or ten times what another reading leaves. Hypotheses: angles in the "
-                  "opposite sense leave {:.3g} rad, degrees read for radians {:.3g} rad, radians "
-                  "read for degrees {:.3g} rad; {}",
-                  stated, kRotationLimit, opposite, from_degrees, from_radians, cure));
+      "the balls turned otherwise than stated: {:.3g} rad of rotation are left, limit {:g}, or ten "
+      "times what another reading leaves. Hypotheses: angles in the opposite sense leave {:.3g} "
+      "rad, degrees read for radians {:.3g} rad, radians read for degrees {:.3g} rad; {}",
+      stated, kRotationLimit, opposite, from_degrees, from_radians, cure);
 }
 
 core::Result<void> check_distances(const RotaryMeasurement& measurement,
@@ -461,14 +453,13 @@ core::Result<bool> check_periodicity(std::span<const RotaryStation> stations) {
           4.0 * (a.measured_covariance + b.measured_covariance).diagonal().cwiseSqrt();
       for (Eigen::Index k = 0; k < 6; ++k) {
         if (std::abs(difference(k)) <= limit(k)) continue;
-        return core::fail(
-            Code::kInconsistent,
-            fmt::format("{:g} and {:g} deg are one place, but error E{} differs by {:.2f} {}, "
-                        "limit {:.2f}: drift or hysteresis",
-                        core::degrees(a.angle_rad), core::degrees(b.angle_rad),
-                        kNames[static_cast<std::size_t>(k)],
-                        std::abs(difference(k)) * (k < 3 ? 1e3 : 1e6), k < 3 ? "um" : "urad",
-                        limit(k) * (k < 3 ? 1e3 : 1e6)));
+        return core::fail_with(Code::kInconsistent,
+                               "{:g} and {:g} deg are one place, but error E{} differs by {:.2f} "
+                               "{}, limit {:.2f}: drift or hysteresis",
+                               core::degrees(a.angle_rad), core::degrees(b.angle_rad),
+                               kNames[static_cast<std::size_t>(k)],
+                               std::abs(difference(k)) * (k < 3 ? 1e3 : 1e6), k < 3 ? "um" : "urad",
+                               limit(k) * (k < 3 ? 1e3 : 1e6));
       }
     }
   }

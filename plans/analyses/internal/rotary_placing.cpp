@@ -36,9 +36,9 @@ core::Result<void> check_zero(double reads_rad, double limit_rad, const char* ax
                               const core::Pose& commanded) {
   if (std::abs(reads_rad) <= limit_rad) return {};
   return core::machine_fault(
-      fmt::format("in pose {} {} reads {:.4f} deg and must be 0 within {:.4f} deg, or its own "
-                  "errors enter those of the other axis; set it closer to 0, then resume",
-                  angles_text(commanded), axis, reads_rad / kDegree, limit_rad / kDegree));
+      "in pose {} {} reads {:.4f} deg and must be 0 within {:.4f} deg, or its own errors enter "
+      "those of the other axis; set it closer to 0, then resume",
+      angles_text(commanded), axis, reads_rad / kDegree, limit_rad / kDegree);
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ core::Result<void> check_station_reached(const Plan& plan, std::size_t feature,
   // A fixture without a stated resolution still rounds its readings to their digits.
   constexpr double kRoundOff_rad = 1e-9;
   if (missed_rad > drive_rad + kRoundOff_rad) {
-    return core::machine_fault(fmt::format(
+    return core::machine_fault(
         "the fixture was sent to {} and reads {}: {:.4g} deg apart, the limit is {:.4g} deg; the "
         "drive missed its target; check it, then resume",
-        angles_text(commanded), angles_text(reached), missed_rad / kDegree, drive_rad / kDegree));
+        angles_text(commanded), angles_text(reached), missed_rad / kDegree, drive_rad / kDegree);
   }
   constexpr double kZero_rad = 1e-9;
   const double limit_rad = station_gate_rad(plan, *rotary);

@@ -141,12 +141,10 @@ core::Result<void> check_clamp(const std::vector<Target>& targets, const PathGeo
   const double limit_mm = fixture.clamp_to_mm + geometry.clearance_mm + geometry.tip_radius_mm;
   for (const Target& target : targets) {
     if (target.z_mm >= limit_mm) continue;
-    return core::fail(
-        core::Code::kUnreachable,
-        fmt::format(
-            "layer {}, point {}: height {:.3f} mm on the part is below {:.3f} mm, where the "
-            "clamp, the tip and the clearance end",
-            target.layer + 1, target.point + 1, target.z_mm, limit_mm));
+    return core::fail_with(core::Code::kUnreachable,
+                           "layer {}, point {}: height {:.3f} mm on the part is below {:.3f} mm, "
+                           "where the clamp, the tip and the clearance end",
+                           target.layer + 1, target.point + 1, target.z_mm, limit_mm);
   }
   return {};
 }

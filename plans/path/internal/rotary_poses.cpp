@@ -78,11 +78,10 @@ std::string in_words(const core::Pose& pose) {
 core::Result<void> check_visit(const record::RotaryTask& rotary,
                                const std::vector<Vector3d>& centers, const RotaryVisit& visit) {
   if (visit.pose == core::Pose{} && visit.balls.size() < rotary.balls.size()) {
-    return core::fail(
-        core::Code::kUnreachable,
-        fmt::format("{} of {} balls cannot be reached in the zero pose: every ball must be "
-                    "measured there; set them farther apart, or above the rim",
-                    rotary.balls.size() - visit.balls.size(), rotary.balls.size()));
+    return core::fail_with(core::Code::kUnreachable,
+                           "{} of {} balls cannot be reached in the zero pose: every ball must be "
+                           "measured there; set them farther apart, or above the rim",
+                           rotary.balls.size() - visit.balls.size(), rotary.balls.size());
   }
   std::vector<Vector3d> reached;
   std::vector<std::string> names;
@@ -92,10 +91,9 @@ core::Result<void> check_visit(const record::RotaryTask& rotary,
   }
   const auto sound = fit::check_setup(reached, names);
   if (sound) return {};
-  return core::fail(
-      sound.error().code,
-      fmt::format("in the pose {} {} of {} balls can be reached: {}", in_words(visit.pose),
-                  visit.balls.size(), rotary.balls.size(), sound.error().what));
+  return core::fail_with(sound.error().code, "in the pose {} {} of {} balls can be reached: {}",
+                         in_words(visit.pose), visit.balls.size(), rotary.balls.size(),
+                         sound.error().what);
 }
 
 /// Stations of an axis in ascending order, without 0.

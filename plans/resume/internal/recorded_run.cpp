@@ -15,10 +15,10 @@ namespace {
 constexpr double kSame = 1e-9;  ///< rad, or of a unit vector: above rounding, below any step.
 
 tl::unexpected<core::Error> other_way(const std::string& what) {
-  return core::fail(core::Code::kJournal,
-                    fmt::format("the run cannot go on: {}; this program or this computer does not "
-                                "repeat the run that was interrupted, start a new one",
-                                what));
+  return core::fail_with(core::Code::kJournal,
+                         "the run cannot go on: {}; this program or this computer does not repeat "
+                         "the run that was interrupted, start a new one",
+                         what);
 }
 
 /// A message as code, for an error text: levelling-step {"alpha_deg":1.41,...}.

@@ -83,9 +83,8 @@ tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
   if (error.code == core::Code::kNoTouch) advice += window_advice(context_.plan, feature_, target);
   if (error.code == core::Code::kCollision)
     advice += ", and move the tip clear by hand before the next run";
-  return core::fail(
-      error.code, fmt::format("feature {}, layer {}, point {}: {}{}", feature_.id, target.layer + 1,
-                              target.point + 1, error.what, advice));
+  return core::fail_with(error.code, "feature {}, layer {}, point {}: {}{}", feature_.id,
+                         target.layer + 1, target.point + 1, error.what, advice);
 }
 
 core::Pose FeatureSession::commanded_for(const core::Pose& wanted) const {
@@ -119,12 +118,11 @@ Eigen::Vector3d FeatureSession::expected_axis() const {
 core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) const {
   const double allowed = context_.plan.part.location_uncertainty_mm;
   const auto refuse = [&](const char* what, double value) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kLocation,
-        fmt::format("feature {}: the {} of the located part differs by {:.3f} mm, the plan "
-                    "allows {:g} mm (location_uncertainty_mm); check the part and its "
-                    "clamping, nothing was measured",
-                    feature_.id, what, value, allowed));
+        "feature {}: the {} of the located part differs by {:.3f} mm, the plan allows {:g} mm "
+        "(location_uncertainty_mm); check the part and its clamping, nothing was measured",
+        feature_.id, what, value, allowed);
   };
   const double sign = geometry_.inside ? -1.0 : 1.0;
   const double radius = found.radius_mm - sign * geometry_.tip_radius_mm;

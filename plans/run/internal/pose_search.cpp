@@ -221,8 +221,8 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
     case Strategy::kStations:
       break;
   }
-  return core::fail(core::Code::kMeaning, fmt::format("no pose is searched by the strategy {}",
-                                                      record::name_of(strategy)));
+  return core::fail_with(core::Code::kMeaning, "no pose is searched by the strategy {}",
+                         record::name_of(strategy));
 }
 
 }  // namespace rondure::plans

@@ -19,18 +19,17 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
   const QualificationPlan& limits = plan.qualification;
   if (!(tip.radius_mm > 0.0) ||
       std::abs(tip.radius_mm - nominal) > limits.radius_tolerance_um * core::kMicrometre) {
-    return core::fail(
+    return core::fail_with(
         core::Code::kCalibration,
-        fmt::format("effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than "
-                    "{:g} um: check tip_diameter_mm and the certified sphere diameter",
-                    tip.radius_mm, nominal, limits.radius_tolerance_um));
+        "effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than {:g} um: "
+        "check tip_diameter_mm and the certified sphere diameter",
+        tip.radius_mm, nominal, limits.radius_tolerance_um);
   }
   if (tip.form_mm > limits.form_limit_um * core::kMicrometre) {
-    return core::fail(
-        core::Code::kCalibration,
-        fmt::format("probing form {:.3f} um is above its limit of {:g} um: clean tip and sphere, "
-                    "check that both are tight, and run again",
-                    tip.form_mm / core::kMicrometre, limits.form_limit_um));
+    return core::fail_with(core::Code::kCalibration,
+                           "probing form {:.3f} um is above its limit of {:g} um: clean tip and "
+                           "sphere, check that both are tight, and run again",
+                           tip.form_mm / core::kMicrometre, limits.form_limit_um);
   }
   return {};
 }
@@ -43,8 +42,8 @@ core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step,
   if (touched.error().code == core::Code::kStopped || context.lost_place) {
     return core::fail(touched.error());
   }
-  return core::fail(touched.error().code,
-                    fmt::format("{}, point {}: {}", name, point + 1, touched.error().what));
+  return core::fail_with(touched.error().code, "{}, point {}: {}", name, point + 1,
+                         touched.error().what);
 }
 
 }  // namespace
@@ -98,10 +97,10 @@ core::Result<Eigen::Vector3d> sphere_center(const Plan& plan,
   TRY(const auto found, fit::ls_sphere(tips));
   const double limit_um = plan.probe->qualification.form_limit_um;
   if (found.deviation_mm <= limit_um * core::kMicrometre) return found.center_mm;
-  return core::fail(core::Code::kCalibration,
-                    fmt::format("{} has a form of {:.3f} um, the limit is {:g} um "
-                                "(form_limit_um); clean it and check that it is tight",
-                                name, found.deviation_mm / core::kMicrometre, limit_um));
+  return core::fail_with(core::Code::kCalibration,
+                         "{} has a form of {:.3f} um, the limit is {:g} um (form_limit_um); clean "
+                         "it and check that it is tight",
+                         name, found.deviation_mm / core::kMicrometre, limit_um);
 }
 
 core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const SphereToTouch& sphere) {
@@ -157,8 +156,8 @@ core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& featu
     way.phases.assign(way.corners.size() - 1, Phase::kTravel);
     const auto hit = scene.first_hit(way, {X_WN, X_WN}, geometry);
     if (!hit) continue;
-    return core::fail(core::Code::kUnreachable,
-                      fmt::format("{}, point {}: {}", name, step.row.point + 1, in_words(*hit)));
+    return core::fail_with(core::Code::kUnreachable, "{}, point {}: {}", name, step.row.point + 1,
+                           in_words(*hit));
   }
   return {};
 }

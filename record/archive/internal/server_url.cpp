@@ -53,11 +53,10 @@ core::Result<std::vector<ServerSetting>> parse_server_url(std::string_view url) 
   if (!settings) {
     // The reason continues with a quoted part of the URL, which may be a password.
     words = words.substr(0, std::min(words.find(": \""), words.find('\n')));
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("the URL of the archive cannot be read: {}; write / as %2F, ? as "
-                    "%3F and @ as %40 in a user, a password or the name of a database",
-                    words));
+    return core::fail_with(core::Code::kBadOption,
+                           "the URL of the archive cannot be read: {}; write / as %2F, ? as %3F "
+                           "and @ as %40 in a user, a password or the name of a database",
+                           words);
   }
   std::vector<ServerSetting> out;
   for (const PQconninfoOption* s = settings.get(); s->keyword != nullptr; ++s) {

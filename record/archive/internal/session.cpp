@@ -225,8 +225,8 @@ tl::unexpected<core::Error> archive_failure(const ArchivePlace& place, std::stri
   const std::string reason = place.kind == ArchivePlace::Kind::kServer
                                  ? reason_of_server(place, exception)
                                  : reason_of_file(place.address, exception, session);
-  return core::fail(Code::kArchive, fmt::format("the archive {} cannot be {}: {}", place.shown,
-                                                participle, reason));
+  return core::fail_with(Code::kArchive, "the archive {} cannot be {}: {}", place.shown, participle,
+                         reason);
 }
 
 }  // namespace rondure::record
