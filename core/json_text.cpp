@@ -1,7 +1,6 @@
 #include "core/json_text.h"
 
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 

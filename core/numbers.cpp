@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
-
 namespace rondure::core {
 
 std::string shortest(double value) {

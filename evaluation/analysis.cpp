@@ -12,7 +12,6 @@
 #include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/age_gate.h"
 #include "evaluation/results/chain.h"
-#include "evaluation/results/evaluation.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/measured_cloud.h"
 #include "evaluation/results/temperature_gates.h"

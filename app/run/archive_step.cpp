@@ -6,7 +6,6 @@
 
 #include "app/text/answer.h"
 #include "app/text/terminal.h"
-#include "record/archive/archive.h"
 #include "record/archive/queue.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,12 +10,10 @@
 #include "app/run/processor.h"
 #include "app/text/answer.h"
 #include "app/text/terminal.h"
-#include "evaluation/decision/verdict.h"
 #include "evaluation/defect.h"
 #include "evaluation/results/evaluation.h"
 #include "plans/checks/record.h"
 #include "record/files.h"
-#include "record/journal/journal.h"
 #include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"

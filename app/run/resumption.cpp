@@ -9,8 +9,6 @@
 
 #include "app/text/answer.h"
 #include "plans/analyses/analysis.h"
-#include "record/archive/place.h"
-#include "record/journal/journal.h"
 
 namespace rondure::app {
 namespace {

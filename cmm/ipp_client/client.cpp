@@ -1,10 +1,8 @@
 #include "cmm/ipp_client/client.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 

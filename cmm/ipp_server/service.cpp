@@ -1,7 +1,6 @@
 #include "cmm/ipp_server/service.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 

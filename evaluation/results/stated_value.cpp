@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/numbers.h"
-#include "core/units.h"
 
 namespace rondure::evaluation {
 

@@ -12,7 +12,6 @@
 #include "core/noise.h"
 #include "core/numbers.h"
 #include "core/statistics.h"
-#include "core/units.h"
 #include "evaluation/uncertainty/internal/statement.h"
 
 namespace rondure::evaluation {

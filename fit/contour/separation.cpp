@@ -7,7 +7,6 @@
 #include <functional>
 #include <numeric>
 
-#include "core/units.h"
 #include "fit/contour/error.h"
 #include "fit/profiles/internal/dft.h"
 

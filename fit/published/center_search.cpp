@@ -1,7 +1,6 @@
 
 #include "fit/zone/center_search.h"
 #include "fit/geometry/internal/hull_distance.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 
 namespace rondure::fit {

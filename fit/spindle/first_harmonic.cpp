@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 #include <Eigen/LU>

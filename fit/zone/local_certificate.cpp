@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/decompositions.h"
-#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 namespace {

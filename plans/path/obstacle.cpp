@@ -1,6 +1,5 @@
 #include "plans/path/obstacle.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -2,11 +2,9 @@
 
 #include <array>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
-#include <soci/sqlite3/soci-sqlite3.h>
 
 #include "record/files.h"
 

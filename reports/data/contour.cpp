@@ -1,7 +1,6 @@
 #include "reports/data/contour.h"
 
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include <fmt/format.h>

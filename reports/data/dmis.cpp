@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <set>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -16,7 +16,6 @@
 #include "reports/data/json.h"
 #include "reports/data/qif/internal/check.h"
 #include "reports/data/qif/report.h"
-#include "reports/html/pdf.h"
 #include "reports/html/report.h"
 
 namespace rondure::reports {

@@ -11,7 +11,6 @@
 #include "reports/html/internal/script.h"
 #include "reports/html/sections.h"
 #include "reports/html/style.h"
-#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {

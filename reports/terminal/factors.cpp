@@ -1,7 +1,6 @@
 #include "reports/terminal/factors.h"
 
 #include <iterator>
-#include <string>
 
 #include <fmt/format.h>
 

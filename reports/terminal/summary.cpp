@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,6 @@
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/gates.h"
-#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {

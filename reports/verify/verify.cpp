@@ -13,7 +13,6 @@
 #include "evaluation/evaluate.h"
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
 #include "reports/data/corrections.h"

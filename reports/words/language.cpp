@@ -1,10 +1,8 @@
 #include "reports/words/language.h"
 
-#include <string>
 #include <unordered_map>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "reports/words/internal/zh.h"
 

@@ -12,7 +12,6 @@
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
-#include "reports/words/language.h"
 #include "web/internal/cloud.h"
 #include "web/internal/sections.h"
 

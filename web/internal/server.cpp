@@ -4,11 +4,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <csignal>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>

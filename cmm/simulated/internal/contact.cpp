@@ -5,12 +5,10 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "cmm/simulated/internal/side_contact.h"
 #include "cmm/simulated/internal/surface_shape.h"
-#include "cmm/simulated/part_surface.h"
 
 namespace rondure::cmm {
 namespace {

@@ -1,7 +1,6 @@
 #include "evaluation/interval/internal/declared.h"
 
 #include <cmath>
-#include <string>
 
 #include <fmt/format.h>
 

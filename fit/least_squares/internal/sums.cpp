@@ -1,6 +1,5 @@
 #include "fit/least_squares/internal/sums.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "fit/least_squares/internal/kernel.h"

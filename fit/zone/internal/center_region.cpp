@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fit/zone/local_certificate.h"
-#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 namespace {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/zone/simplex.h"
-
 namespace rondure::fit {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "plans/schema/json_text.h"
-#include "record/files.h"
 
 namespace rondure::plans {
 

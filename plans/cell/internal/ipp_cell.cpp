@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fixture/fixture.h"
 #include "fixture/kinematics.h"
 #include "plans/cell/served_cell.h"
 #include "plans/path/internal/nominal_geometry.h"

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/least_squares/cylinder.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/checks/internal/merged_reach.h"

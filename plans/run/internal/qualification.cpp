@@ -1,7 +1,6 @@
 #include "plans/run/internal/qualification.h"
 
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,13 +1,9 @@
 #include "record/csv/internal/lines.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/numbers.h"
 

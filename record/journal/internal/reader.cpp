@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "record/csv/internal/lines.h"

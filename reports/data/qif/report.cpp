@@ -1,7 +1,6 @@
 #include "reports/data/qif/report.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>
