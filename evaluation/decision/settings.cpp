@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/decision/decision.h"
 #include "record/tasks/settings.h"

@@ -8,7 +8,6 @@
 #include <utility>
 #include <variant>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "core/units.h"

@@ -5,9 +5,6 @@
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-#include <Eigen/Geometry>
-
 #include "evaluation/interval/internal/declared.h"
 #include "evaluation/results/internal/fixture_use.h"
 #include "record/tasks/settings.h"

@@ -1,8 +1,6 @@
 #include "evaluation/part/part_state.h"
 
 #include <map>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "evaluation/results/section.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "core/units.h"

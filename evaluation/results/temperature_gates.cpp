@@ -1,7 +1,6 @@
 #include "evaluation/results/temperature_gates.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/spindle/internal/probe_influences.h"

@@ -1,9 +1,6 @@
 #include "evaluation/spindle/result.h"
 
 #include <algorithm>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "core/units.h"

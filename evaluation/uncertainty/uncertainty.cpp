@@ -5,8 +5,6 @@
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/uncertainty/internal/chains.h"

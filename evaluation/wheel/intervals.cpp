@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "core/decompositions.h"
 #include "core/numbers.h"

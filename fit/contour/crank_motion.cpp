@@ -5,8 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "fit/profiles/periodic_spline.h"
 

@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <optional>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "core/units.h"

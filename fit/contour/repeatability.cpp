@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/statistics.h"
 #include "fit/contour/error.h"
 #include "fit/contour/separation.h"

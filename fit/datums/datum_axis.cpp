@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/decompositions.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/cylinder_frame.h"

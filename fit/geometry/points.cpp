@@ -7,8 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "fit/geometry/internal/hull_distance.h"
 

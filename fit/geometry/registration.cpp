@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include <fmt/format.h>
 #include <Eigen/SVD>
 
 namespace rondure::fit {

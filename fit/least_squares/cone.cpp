@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/decompositions.h"
 #include "core/units.h"
 #include "fit/geometry/internal/cone_frame.h"

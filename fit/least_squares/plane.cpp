@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "core/decompositions.h"

@@ -4,8 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "core/decompositions.h"
 #include "core/statistics.h"
 #include "fit/geometry/column_extremes.h"

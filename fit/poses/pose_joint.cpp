@@ -4,8 +4,6 @@
 #include <cmath>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "core/decompositions.h"
 #include "core/noise.h"
 #include "core/statistics.h"

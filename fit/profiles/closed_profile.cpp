@@ -7,8 +7,6 @@
 #include <numeric>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 #include "fit/profiles/periodic_spline.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 
-#include <fmt/format.h>
 #include <Eigen/Core>
 
 #include "core/decompositions.h"

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <Eigen/Core>
 #include <Eigen/LU>
 

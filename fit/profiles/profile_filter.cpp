@@ -7,8 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "fit/geometry/axis.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/zone_rows.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <complex>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "core/units.h"

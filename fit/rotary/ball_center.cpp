@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 
 #include "fit/geometry/column_extremes.h"

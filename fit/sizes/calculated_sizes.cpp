@@ -1,10 +1,6 @@
 #include "fit/sizes/calculated_sizes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "core/statistics.h"

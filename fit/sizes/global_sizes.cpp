@@ -3,8 +3,6 @@
 #include <cmath>
 #include <span>
 
-#include <fmt/format.h>
-
 #include "fit/least_squares/sphere.h"
 #include "fit/zone/fit.h"
 

@@ -1,6 +1,5 @@
 #include "fit/spindle/first_harmonic.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <complex>
 
-#include <fmt/format.h>
-
 #include "core/decompositions.h"
 #include "core/units.h"
 #include "fit/spindle/internal/three_probe_parts.h"

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/numbers.h"
 #include "core/units.h"
 #include "fit/profiles/periodic_spline.h"

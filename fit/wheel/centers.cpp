@@ -5,8 +5,6 @@
 #include <limits>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "core/noise.h"
 #include "fit/geometry/column_extremes.h"
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {

@@ -1,7 +1,6 @@
 #include "fit/wheel/wheel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>

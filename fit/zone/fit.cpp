@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "core/units.h"

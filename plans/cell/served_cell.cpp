@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "fixture/kinematics.h"

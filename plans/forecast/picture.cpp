@@ -1,7 +1,6 @@
 #include "plans/forecast/picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 

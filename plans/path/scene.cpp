@@ -1,7 +1,6 @@
 #include "plans/path/scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

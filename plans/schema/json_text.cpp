@@ -1,9 +1,7 @@
 #include "plans/schema/json_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include <fmt/format.h>
 #include <soci/soci.h>
 
 #include "record/archive/internal/rows.h"

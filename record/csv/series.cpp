@@ -1,7 +1,6 @@
 #include "record/csv/series.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <vector>
 

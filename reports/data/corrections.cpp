@@ -1,7 +1,6 @@
 #include "reports/data/corrections.h"
 
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
 

@@ -1,7 +1,4 @@
 #include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "core/units.h"

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "cmm/simulated/internal/side_contact.h"
 #include "cmm/simulated/internal/surface_shape.h"

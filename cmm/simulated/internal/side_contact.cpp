@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
-#include <vector>
 
 #include <Eigen/LU>
 

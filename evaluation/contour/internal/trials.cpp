@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "core/statistics.h"

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/results/internal/fixture_use.h"
 #include "fixture/error_model.h"

@@ -1,7 +1,6 @@
 #include "evaluation/interval/internal/form_interval.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>

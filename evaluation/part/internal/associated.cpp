@@ -1,7 +1,5 @@
 #include "evaluation/part/internal/associated.h"
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/part/internal/layout.h"
 #include "fit/least_squares/cylinder.h"

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "evaluation/uncertainty/curve_trials.h"
 

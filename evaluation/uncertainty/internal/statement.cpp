@@ -5,8 +5,6 @@
 #include <thread>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/statistics.h"
 
 namespace rondure::evaluation {

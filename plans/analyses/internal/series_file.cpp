@@ -2,8 +2,6 @@
 
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "plans/schema/json_text.h"
 
 namespace rondure::plans {

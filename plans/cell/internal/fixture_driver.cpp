@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "core/units.h"

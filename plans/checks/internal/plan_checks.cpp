@@ -1,6 +1,5 @@
 #include "plans/checks/internal/plan_checks.h"
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 

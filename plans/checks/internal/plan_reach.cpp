@@ -1,7 +1,6 @@
 #include "plans/checks/internal/plan_reach.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

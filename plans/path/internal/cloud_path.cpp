@@ -1,7 +1,6 @@
 #include "plans/path/internal/cloud_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>

@@ -1,7 +1,6 @@
 #include "plans/path/internal/rotary_poses.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

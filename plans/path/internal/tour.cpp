@@ -1,7 +1,6 @@
 #include "plans/path/internal/tour.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "plans/path/scene.h"

@@ -5,8 +5,6 @@
 #include <initializer_list>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "fit/poses/walk.h"
 #include "fit/references/min_zone_cylinder.h"

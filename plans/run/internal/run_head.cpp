@@ -1,6 +1,5 @@
 #include "plans/run/internal/run_head.h"
 
-#include <string>
 #include <utility>
 
 #include "core/units.h"
