@@ -171,8 +171,7 @@ core::Result<Evaluation> evaluate_run(const record::RunRecord& record,
                                       const std::filesystem::path& directory,
                                       const std::string& processor) {
   CheckedEvaluation checked = evaluate_checked(record);
-  if (auto kept = keep_defects(checked.defects, record.header, directory, processor); !kept)
-    return core::fail(kept.error());
+  TRY_DO(keep_defects(checked.defects, record.header, directory, processor));
   return std::move(checked.evaluation);
 }
 

@@ -105,8 +105,7 @@ class SerialPort final : public ByteStream {
         continue;
       }
       if (sent < 0 && errno != EAGAIN && errno != EINTR) return lose(broken());
-      if (auto ready = wait(POLLOUT, left_until(deadline)); !ready)
-        return core::fail(ready.error());
+      TRY_DO(wait(POLLOUT, left_until(deadline)));
       if (!bytes.empty() && SteadyClock::now() >= deadline) {
         return lose(
             fmt::format("{} takes no data for {} ms; check the cable and the supply of the "

@@ -59,8 +59,7 @@ core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircle
   const std::array<std::pair<std::string_view, double>, 1> retract = {
       {{"Tool.ScanPar.Retract", command.approach_mm}}};
   TRY_DO(dialogue_->set(retract));
-  if (auto numbered = number_touch(command.first_id); !numbered)
-    return core::fail(numbered.error());
+  TRY_DO(number_touch(command.first_id));
   const Vector3d start = position_W_mm_;
   const Vector3d named = named_point(command.start_tip_W_mm, first.direction_W);
   const auto reply = run("ScanOnCircle", scan_arguments(command, named), scan_length_mm(command),

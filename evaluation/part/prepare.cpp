@@ -169,7 +169,7 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
       fitted(*surface.of, out.points_mm, layout->axis.direction, Deviations::kSkip));
   out.axis = fit.axis;
   TRY_DO(check_tip(out));
-  if (auto done = restrict_rows(*layout, indication, taken); !done) return core::fail(done.error());
+  TRY_DO(restrict_rows(*layout, indication, taken));
   if (indication.from_mm || indication.to_mm) take();
   fill_sections(*layout, taken, out);
   out.as_measured = is_as_measured(surface);

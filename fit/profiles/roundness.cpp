@@ -172,8 +172,7 @@ core::Error no_center(CircleReference reference) {
 core::Result<Roundness> program_profile(std::span<const double> theta, std::span<const double> r,
                                         CircleReference reference) {
   const bool zone = reference == CircleReference::kMz;
-  if (auto checked = check_profile(theta, r, zone ? 4 : 3); !checked)
-    return core::fail(checked.error());
+  TRY_DO(check_profile(theta, r, zone ? 4 : 3));
   const double mean = mean_of(r);
   const auto rows = zone_rows(theta, r, mean);
   const ZoneWeights weights = weights_of(reference);

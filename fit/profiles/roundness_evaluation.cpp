@@ -194,8 +194,7 @@ core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta
   for (const CircleReference reference : options.references) {
     auto value =
         roundness_of_profile(out->theta_rad, out->r_mm, reference, {cells, options.inside});
-    if (auto added = add_value(*out, reference, std::move(value)); !added)
-      return core::fail(added.error());
+    TRY_DO(add_value(*out, reference, std::move(value)));
   }
   return out;
 }
@@ -223,8 +222,7 @@ core::Result<RoundnessEvaluation> evaluate_section(PlanePoints points_mm,
   const auto cells = cells_of_rows(out->theta_rad);
   for (const CircleReference reference : options.references) {
     auto value = roundness_of_points(points, reference, {cells, options.inside});
-    if (auto added = add_value(*out, reference, std::move(value)); !added)
-      return core::fail(added.error());
+    TRY_DO(add_value(*out, reference, std::move(value)));
   }
   return out;
 }

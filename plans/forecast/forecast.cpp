@@ -134,8 +134,7 @@ class NominalSession final : public PoseSession {
     TRY(const auto targets, measured_targets());
     const std::vector<Target> stops = stops_of(targets);
     TRY_DO(turn(commanded, stops));
-    if (auto done = touch(stops, ForecastStage::Kind::kCloud); !done)
-      return core::fail(done.error());
+    TRY_DO(touch(stops, ForecastStage::Kind::kCloud));
     return Cloud{reached_, tips(targets)};
   }
 
@@ -159,8 +158,7 @@ class NominalSession final : public PoseSession {
   core::Result<fit::Axis> locate(const core::Pose& commanded) override {
     TRY(const auto targets, locating_targets(feature_, plan_.part.location_uncertainty_mm));
     TRY_DO(turn(commanded, targets));
-    if (auto done = touch(targets, ForecastStage::Kind::kLocation); !done)
-      return core::fail(done.error());
+    TRY_DO(touch(targets, ForecastStage::Kind::kLocation));
     geometry_ = path_geometry(plan_, feature_, 0.0);
     return fit::Axis{part_at(reached_).translation(), expected_axis()};
   }

@@ -260,11 +260,9 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
   if (reached && !steps->empty()) reached = measure_reached_pose(*this, *steps, commanded);
   if (!reached) return core::fail(reached.error());
   if (const record::PoseVisit* known = recorded.pose(next_pose)) {
-    if (auto same = check_same_step(*known, feature, commanded); !same)
-      return core::fail(same.error());
+    TRY_DO(check_same_step(*known, feature, commanded));
     if (!replaying() && steps->empty()) {
-      if (auto same = check_reading(*known, *reached, resolution_rad()); !same)
-        return core::fail(same.error());
+      TRY_DO(check_reading(*known, *reached, resolution_rad()));
     }
     ++next_pose;
     return *known;

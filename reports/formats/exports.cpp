@@ -72,8 +72,7 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
     TRY(bytes, print_pdf(header, bytes, paper));
   }
   TRY_DO(look_through(what, bytes));
-  if (auto done = record::write_inside(directory, what.file, bytes); !done)
-    return core::fail(done.error());
+  TRY_DO(record::write_inside(directory, what.file, bytes));
   return record::Checksum{what.file, record::sha256_hex(bytes)};
 }
 

@@ -49,8 +49,7 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
     return core::fail(clamp.error().at(where));
   }
   if (feature.pose_search.strategy == record::Strategy::kMerged) {
-    if (auto reached = check_merged_reach(plan, index); !reached)
-      return core::fail(reached.error());
+    TRY_DO(check_merged_reach(plan, index));
     return targets;
   }
   const std::vector<Unreachable> missed = unreachable_targets(plan, feature, start_pose(feature));

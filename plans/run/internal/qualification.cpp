@@ -172,8 +172,7 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   TRY(const auto tips, touch_sphere_steps(context, steps, "reference sphere"));
   TRY(const auto tip,
       fit::qualify_tip(tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm));
-  if (auto checked = check_limits(tip, *context.plan.probe); !checked)
-    return core::fail(checked.error());
+  TRY_DO(check_limits(tip, *context.plan.probe));
   return tip;
 }
 
