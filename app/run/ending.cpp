@@ -135,7 +135,7 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
     live->show_result(evaluated.record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(evaluated.record, evaluation, sketch_style(), language));
+    say(reports::write_summary(evaluated.record, evaluation, language));
     say_written(*written);
   }
   if (failed) return kRunFailed;

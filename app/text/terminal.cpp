@@ -78,20 +78,6 @@ std::string without_controls(std::string_view text) {
 
 void write_to_terminal(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
-/// The locale's name of its character set, looked up as POSIX prescribes.
-std::string locale_name() {
-  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-    const char* value = std::getenv(variable);
-    if (value != nullptr && *value != '\0') return value;
-  }
-  return "C";
-}
-
-bool is_utf8(std::string name) {
-  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return name.find("UTF-8") != std::string::npos || name.find("UTF8") != std::string::npos;
-}
-
 }  // namespace
 
 void hold_standard_streams() {
@@ -170,10 +156,5 @@ void listen_for_stop() {
 bool stop_requested() { return g_stop != 0; }
 
 void request_stop() { g_stop = 1; }
-
-reports::SketchStyle sketch_style() {
-  if (isatty(STDOUT_FILENO) != 1) return reports::SketchStyle::kNone;
-  return is_utf8(locale_name()) ? reports::SketchStyle::kBraille : reports::SketchStyle::kAscii;
-}
 
 }  // namespace rondure::app

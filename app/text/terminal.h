@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "plans/run/runner.h"
-#include "reports/terminal/polar_sketch.h"
 
 namespace rondure::app {
 
@@ -57,10 +56,5 @@ void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 /// Requests the same stop from within the program; callable from any thread.
 void request_stop();
-
-/// The style of drawings on standard output: braille on a terminal whose locale is UTF-8 (the first
-/// of LC_ALL, LC_CTYPE, LANG that is set), letters on another terminal, no drawing in a file or a
-/// pipe.
-[[nodiscard]] reports::SketchStyle sketch_style();
 
 }  // namespace rondure::app

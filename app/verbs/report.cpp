@@ -61,7 +61,7 @@ int report(const ReportArguments& arguments) {
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
-  say(reports::write_summary(*record, *evaluation, sketch_style(), language));
+  say(reports::write_summary(*record, *evaluation, language));
   say_written(*written);
   return exit_status(evaluation->verdict);
 }

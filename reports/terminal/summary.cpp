@@ -360,26 +360,6 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
   if (result.finding && result.value) add_finding(out, *result.finding, *result.value, said);
 }
 
-/// The sketch with its legend beside it.
-void add_sketch(std::string& out, const evaluation::FeatureResult& feature, SketchStyle style) {
-  const auto sketch = polar_sketch(feature, style);
-  const auto zone = zone_of(feature);
-  if (!sketch || !zone) return;
-  const bool braille = style == SketchStyle::kBraille;
-  std::vector<std::string> legend(sketch->rows.size());
-  legend[3] = sketch->sections > 1
-                  ? trf("{} of {}, the one that departs most", sketch->title, sketch->sections)
-                  : sketch->title;
-  legend[4] = trf("the circles are {} um apart", um(zone->deviation_mm));
-  legend[6] = trf("{} contact outside", braille ? "\u25CF" : "O");
-  legend[7] = trf("{} contact inside", braille ? "\u25CB" : "I");
-  for (std::size_t i = 0; i < sketch->rows.size(); ++i) {
-    std::string line = fmt::format("{:{}}{}   {}", "", kValueColumn, sketch->rows[i], legend[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
-  }
-}
-
 void add_zone(std::string& out, const evaluation::FeatureResult& feature) {
   const auto zone = zone_of(feature);
   if (!zone) return;
@@ -477,7 +457,7 @@ void add_analysis(std::string& out, const record::RunRecord& record, std::size_t
 }  // namespace
 
 std::string write_summary(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
-                          SketchStyle sketch, Language language) {
+                          Language language) {
   const LanguageScope scope(language);
   std::string out;
   add_head(out, record, evaluation);
@@ -494,7 +474,6 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
       }
     }
     if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
-    add_sketch(out, feature, sketch);
     add_absent_intervals(out, feature);
     add_analysis(out, record, i, feature);
     add_gates(out, feature);

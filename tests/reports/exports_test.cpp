@@ -11,7 +11,6 @@
 #include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/terminal/internal/columns.h"
-#include "reports/terminal/polar_sketch.h"
 #include "synthetic.h"
 
 namespace rondure::reports {
@@ -86,58 +85,6 @@ TEST(ResultsCsv, HasARowACharacteristic) {
   std::getline(lines, line);
   EXPECT_THAT(line, HasSubstr(",cyl-LS,CYLt,LSCY,9.12,,not toleranced,"));
   EXPECT_FALSE(std::getline(lines, line));
-}
-
-TEST(PolarSketch, FillsItsFieldAndMarksEveryContact) {
-  for (const SketchStyle style : {SketchStyle::kAscii, SketchStyle::kBraille}) {
-    for (const Case& made : {cylinder_case(4, 7, 3), circle_case(500), spiral_case(150)}) {
-      const auto sketch = polar_sketch(made.evaluation.features[0], style);
-      ASSERT_TRUE(sketch);
-      ASSERT_EQ(sketch->rows.size(), static_cast<std::size_t>(kSketchRows));
-      std::string all;
-      for (const std::string& row : sketch->rows) {
-        EXPECT_EQ(columns(row), static_cast<std::size_t>(kSketchColumns)) << row;
-        all += row;
-      }
-      const bool ascii = style == SketchStyle::kAscii;
-      EXPECT_THAT(all, HasSubstr(ascii ? "O" : "\u25CF"));
-      EXPECT_THAT(all, HasSubstr(ascii ? "I" : "\u25CB"));
-      if (ascii) {
-        EXPECT_TRUE(
-            std::all_of(all.begin(), all.end(), [](char c) { return c >= ' ' && c <= '~'; }));
-      }
-    }
-  }
-}
-
-TEST(PolarSketch, IsAbsentWhereThereIsNothingToDraw) {
-  const Case made = cylinder_case(4, 7, 3);
-  const evaluation::FeatureResult& feature = made.evaluation.features[0];
-  EXPECT_FALSE(polar_sketch(feature, SketchStyle::kNone));
-  EXPECT_FALSE(polar_sketch(unfinished_case().evaluation.features[1], SketchStyle::kAscii));
-  evaluation::FeatureResult flat = feature;
-  flat.mz_cylinder->outer_radius_mm = flat.mz_cylinder->inner_radius_mm;
-  EXPECT_FALSE(polar_sketch(flat, SketchStyle::kBraille));
-}
-
-TEST(PolarSketch, ARoundSectionIsDrawnRound) {
-  // A profile in the middle of the zone is a circle: each row is the mirror of the one opposite.
-  Case made = cylinder_case(1, 720, 1);
-  evaluation::FeatureResult& feature = made.evaluation.features[0];
-  for (evaluation::CloudPoint& point : feature.cloud) {
-    point.deviation_mm = 0.0;
-    point.outer_contact = point.inner_contact = false;
-  }
-  const auto sketch = polar_sketch(feature, SketchStyle::kAscii);
-  ASSERT_TRUE(sketch);
-  int left = 0;
-  int right = 0;
-  for (const std::string& row : sketch->rows) {
-    left += static_cast<int>(std::count(row.begin(), row.begin() + 11, '*'));
-    right += static_cast<int>(std::count(row.begin() + 11, row.end(), '*'));
-  }
-  EXPECT_GT(left, 10);
-  EXPECT_NEAR(left, right, 3);
 }
 
 }  // namespace

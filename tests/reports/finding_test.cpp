@@ -197,16 +197,14 @@ TEST(FindingQif, NamesTheFamilyLimitsAndDatums) {
 TEST(FindingSummary, SaysLimitsWorstSectionDatumAndWhatIsLeftOut) {
   const Case made = drawing_case();
   for (const Language language : {Language::kEnglish, Language::kChinese}) {
-    const std::string text =
-        write_summary(made.record, made.evaluation, SketchStyle::kAscii, language);
+    const std::string text = write_summary(made.record, made.evaluation, language);
     for (std::size_t from = 0; from < text.size();) {
       const std::size_t end = text.find('\n', from);
       EXPECT_LE(columns(text.substr(from, end - from)), kTerminalColumns);
       from = end + 1;
     }
   }
-  const std::string text =
-      write_summary(made.record, made.evaluation, SketchStyle::kAscii, Language::kEnglish);
+  const std::string text = write_summary(made.record, made.evaluation, Language::kEnglish);
   EXPECT_THAT(text, AllOf(HasSubstr("49.995500 mm"), HasSubstr("49.984 to 50 mm"),
                           HasSubstr("d GN 50.001200 mm; d LP SN 49.993100 mm"),
                           HasSubstr("layer 2 at 15.000 mm: 12.100 um, one of 2"),
@@ -225,8 +223,7 @@ TEST(FindingSummary, SaysOnceThatTheScanOfAFeatureIsUnfiltered) {
                         {core::Code::kOutliers, "of one point"}};
     results[i].finding = std::make_shared<const evaluation::Finding>(std::move(finding));
   }
-  const std::string text =
-      write_summary(made.record, made.evaluation, SketchStyle::kAscii, Language::kEnglish);
+  const std::string text = write_summary(made.record, made.evaluation, Language::kEnglish);
   const auto times = [&](std::string_view words) {
     std::size_t out = 0;
     for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; ++at) ++out;
@@ -238,7 +235,7 @@ TEST(FindingSummary, SaysOnceThatTheScanOfAFeatureIsUnfiltered) {
 
 TEST(FindingSummary, ASizeIsStatedInChinese) {
   const Case made = drawing_case();
-  EXPECT_THAT(write_summary(made.record, made.evaluation, SketchStyle::kAscii, Language::kChinese),
+  EXPECT_THAT(write_summary(made.record, made.evaluation, Language::kChinese),
               AllOf(HasSubstr("d GG = 49.995500 mm（"), HasSubstr("49.984 至 50 mm"),
                     HasSubstr("基准 A-B 摆动 7.800 um")));
 }

@@ -367,13 +367,11 @@ TEST(ChineseReport, LeavesHostileTextsText) {
 TEST(ChineseReport, TheSummaryFitsEightyColumnsAndSaysTheVerdict) {
   for (const Case& made : {cylinder_case(4, 7, 3), failing_case(), circle_case(500),
                            unfinished_case(), hostile_case("圆柱度圆柱度 圆柱度圆柱度")}) {
-    std::istringstream lines(
-        write_summary(made.record, made.evaluation, SketchStyle::kBraille, Language::kChinese));
+    std::istringstream lines(write_summary(made.record, made.evaluation, Language::kChinese));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(columns(line), 80U) << line;
   }
   const Case made = failing_case();
-  const std::string text =
-      write_summary(made.record, made.evaluation, SketchStyle::kNone, Language::kChinese);
+  const std::string text = write_summary(made.record, made.evaluation, Language::kChinese);
   EXPECT_THAT(text, StartsWith("不合格\n"));
   EXPECT_THAT(
       text, HasSubstr("  CYLt MZCY      8.300 um   公差 6.000 um       不合格            cyl-A\n"));
