@@ -20,18 +20,6 @@ constexpr std::array<KnownDevice, 8> kKnown = {{
 
 }  // namespace
 
-std::string_view name_of(KnownDevice::Role role) {
-  switch (role) {
-    case Role::kFixture:
-      return "fixture";
-    case Role::kIndicator:
-      return "indicator";
-    case Role::kSerial:
-      break;
-  }
-  return "serial";
-}
-
 std::span<const KnownDevice> known_devices() { return kKnown; }
 
 const KnownDevice* known_device(std::uint16_t vendor, std::uint16_t product) {

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/words.h"
+
 namespace rondure::wire {
 
 /// A kind of device by its USB numbers.
@@ -21,8 +23,8 @@ struct KnownDevice {
   std::string_view driver;  ///< Name of its driver in plans and commands; "" for a serial line.
 };
 
-/// "fixture", "indicator", "serial".
-[[nodiscard]] std::string_view name_of(KnownDevice::Role role);
+RONDURE_WORDS(KnownDevice::Role, {kFixture, "fixture"}, {kIndicator, "indicator"},
+              {kSerial, "serial"});
 
 /// All known kinds; the only list of USB numbers in the program.
 [[nodiscard]] std::span<const KnownDevice> known_devices();

@@ -2,14 +2,16 @@
 
 #include <string_view>
 
+#include "core/words.h"
+
 namespace rondure::evaluation {
 
 /// Verdict on a value and its tolerance. kVoid: no verdict is possible because a condition is
 /// missing.
 enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranced };
 
-/// "conforms", "does not conform", "undecided", "void", "not toleranced".
-[[nodiscard]] std::string_view name_of(Verdict verdict);
+RONDURE_WORDS(Verdict, {kConforms, "conforms"}, {kDoesNotConform, "does not conform"},
+              {kUndecided, "undecided"}, {kVoid, "void"}, {kNotToleranced, "not toleranced"});
 
 /// Severity of a verdict, for the verdict on several lines or on several limits of one: the most
 /// severe is that of all. From the least: not toleranced, conforms, undecided, void, does not

@@ -209,13 +209,6 @@ Points3 FactorPoints::all_mm() const {
   return out;
 }
 
-std::string_view name_of(PointSubset subset) {
-  constexpr std::array<std::string_view, 7> kNames = {
-      "all points",          "points 1, 3, 5, ...",  "points 2, 4, 6, ...", "layers 1, 3, 5, ...",
-      "layers 2, 4, 6, ...", "first layer left out", "last layer left out"};
-  return kNames[static_cast<std::size_t>(subset)];
-}
-
 core::Result<FactorPoints> factor_points(const FeatureResult& result, Form form) {
   if (result.failure) return core::fail(*result.failure);
   if (result.analysis) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "core/words.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
@@ -44,8 +45,10 @@ enum class PointSubset {
   kWithoutLastLayer,
 };
 
-/// "all points", "points 1, 3, 5, ...", "first layer left out".
-[[nodiscard]] std::string_view name_of(PointSubset subset);
+RONDURE_WORDS(PointSubset, {kAll, "all points"}, {kEvenPoints, "points 1, 3, 5, ..."},
+              {kOddPoints, "points 2, 4, 6, ..."}, {kEvenLayers, "layers 1, 3, 5, ..."},
+              {kOddLayers, "layers 2, 4, 6, ..."}, {kWithoutFirstLayer, "first layer left out"},
+              {kWithoutLastLayer, "last layer left out"});
 
 /// The points of an evaluated feature. Of a wheel all points as given, with those that a robust
 /// centre leaves out; of a spindle the recovered profile of the part before the filter, its samples

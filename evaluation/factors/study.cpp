@@ -192,12 +192,6 @@ std::string_view why_no_factors(record::Form form) {
 
 }  // namespace
 
-std::string_view name_of(Factor factor) {
-  constexpr std::array<std::string_view, 4> kNames = {"reference", "filter", "outliers",
-                                                      "sampling"};
-  return kNames[at(factor)];
-}
-
 const FactorCell& FactorStudy::cell(const std::array<std::size_t, 4>& levels_of) const {
   std::size_t index = 0;
   for (std::size_t f = 0; f < levels.size(); ++f) index = index * levels[f].size() + levels_of[f];

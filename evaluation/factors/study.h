@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/result.h"
+#include "core/words.h"
 #include "evaluation/factors/points.h"
 #include "evaluation/factors/shares.h"
 #include "evaluation/results/evaluation.h"
@@ -24,8 +25,8 @@ inline constexpr std::array kFactors = {Factor::kReference, Factor::kFilter, Fac
 /// Index of a factor in arrays by factor.
 [[nodiscard]] constexpr std::size_t at(Factor factor) { return static_cast<std::size_t>(factor); }
 
-/// "reference", "filter", "outliers", "sampling".
-[[nodiscard]] std::string_view name_of(Factor factor);
+RONDURE_WORDS(Factor, {kReference, "reference"}, {kFilter, "filter"}, {kOutliers, "outliers"},
+              {kSampling, "sampling"});
 
 /// The value of a characteristic under one choice of all factors.
 struct FactorCell {

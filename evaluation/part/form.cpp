@@ -89,7 +89,7 @@ core::Result<Finding> find_cylindricity(const PreparedSurface& surface,
   TRY(const auto cylinder, associated_cylinder(surface, asked.reference, proof));
   SurfaceForm found{.value_mm = cylinder.deviation_mm, .certified = cylinder.certified};
   Finding out;
-  out.pivots = cylinder->pivots;
+  out.pivots = cylinder.pivots;
   if (asked.reference == Reference::kLeastSquares) {
     TRY(const auto form, fit::cylindricity_parameters(surface.points_mm, cylinder.axis,
                                                       cylinder.radius_mm, surface.material.inside));

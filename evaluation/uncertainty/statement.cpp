@@ -7,10 +7,6 @@
 
 namespace rondure::evaluation {
 
-std::string_view name_of(Measurand measurand) {
-  return measurand == Measurand::kSampledPoints ? "at the sampled points" : "of the whole surface";
-}
-
 int decimals_for(double expanded_mm) {
   const double u = expanded_mm / core::kMicrometre;
   if (!(u > 0.0)) return 3;

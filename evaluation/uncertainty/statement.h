@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/phrase.h"
+#include "core/words.h"
 #include "evaluation/uncertainty/influences.h"
 
 namespace rondure::evaluation {
@@ -33,8 +34,8 @@ enum class Measurand {
   kSampledPoints,  ///< (a) the value of the surface at the sampled points, free of noise.
   kWholeSurface,   ///< (b) the value of the whole surface, under the stated form spectrum.
 };
-/// "at the sampled points", "of the whole surface".
-[[nodiscard]] std::string_view name_of(Measurand measurand);
+RONDURE_WORDS(Measurand, {kSampledPoints, "at the sampled points"},
+              {kWholeSurface, "of the whole surface"});
 
 /// A value with its interval.
 struct UncertaintyStatement {

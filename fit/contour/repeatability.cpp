@@ -78,11 +78,6 @@ void correlate(std::span<const std::vector<double>> curves, Repeatability& out) 
 
 }  // namespace
 
-std::string_view name_of(StabilityWord word) {
-  constexpr std::array<std::string_view, 3> kNames = {"stable", "partly", "unstable"};
-  return kNames[static_cast<std::size_t>(word)];
-}
-
 std::optional<StabilityWord> Repeatability::word() const {
   if (!index || no_word || rms.size() < kPartsForAWord) return std::nullopt;
   if (std::min(*index, index_low.value_or(*index)) >= kStableFrom) return StabilityWord::kStable;

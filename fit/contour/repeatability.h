@@ -8,13 +8,13 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "core/words.h"
 
 namespace rondure::fit {
 
 /// Verdict on how well a curve repeats from part to part.
 enum class StabilityWord { kStable, kPartly, kUnstable };
-/// "stable", "partly", "unstable".
-[[nodiscard]] std::string_view name_of(StabilityWord word);
+RONDURE_WORDS(StabilityWord, {kStable, "stable"}, {kPartly, "partly"}, {kUnstable, "unstable"});
 
 /// Least index of "stable" and of "partly".
 inline constexpr double kStableFrom = 0.9;

@@ -185,10 +185,6 @@ void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
 
 }  // namespace
 
-std::string_view name_of(ContourMethod method) {
-  return method == ContourMethod::kAsPublished ? "as-published" : "corrected";
-}
-
 std::optional<PositionCheck> check_positions(const AxisTurn& axes, const CrankGeometry& geometry) {
   const std::size_t n = axes.x_mm.size();
   if (n == 0) return std::nullopt;

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/result.h"
 #include "core/units.h"
+#include "core/words.h"
 #include "fit/contour/axis_trace.h"
 #include "fit/contour/error.h"
 #include "fit/contour/ground_contour.h"
@@ -26,8 +27,7 @@ enum class ContourMethod {
   /// differences, and every following part turned onto its own total by correlation.
   kAsPublished,
 };
-/// "corrected", "as-published".
-[[nodiscard]] std::string_view name_of(ContourMethod method);
+RONDURE_WORDS(ContourMethod, {kCorrected, "corrected"}, {kAsPublished, "as-published"});
 
 /// Settings of contour_study().
 struct ContourStudyOptions {

@@ -224,17 +224,6 @@ double between_samples(const std::vector<double>& r, double position) {
 
 }  // namespace
 
-std::string_view name_of(ProfileFilter filter) {
-  constexpr std::array<std::string_view, 5> kNames = {"none", "gaussian", "2rc", "robust",
-                                                      "spline"};
-  return kNames[static_cast<std::size_t>(filter)];
-}
-
-std::string_view name_of(PassBand pass) {
-  constexpr std::array<std::string_view, 3> kNames = {"low", "high", "band"};
-  return kNames[static_cast<std::size_t>(pass)];
-}
-
 double FilterOptions::highest_cutoff_upr() const {
   return pass == PassBand::kBand ? upper_cutoff_upr : cutoff_upr;
 }

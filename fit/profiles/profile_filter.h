@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "core/words.h"
 #include "fit/profiles/closed_profile.h"
 
 namespace rondure::fit {
@@ -27,9 +28,9 @@ enum class PassBand {
   kBand,  ///< Between two cut-offs.
 };
 
-/// "none", "gaussian", "2rc", "robust", "spline"; "low", "high", "band".
-[[nodiscard]] std::string_view name_of(ProfileFilter filter);
-[[nodiscard]] std::string_view name_of(PassBand pass);
+RONDURE_WORDS(ProfileFilter, {kNone, "none"}, {kGaussian, "gaussian"}, {kTwoRc, "2rc"},
+              {kRobustGaussian, "robust"}, {kSpline, "spline"});
+RONDURE_WORDS(PassBand, {kLow, "low"}, {kHigh, "high"}, {kBand, "band"});
 
 /// Settings of filter_closed(). Cut-offs are undulations per revolution (UPR), commonly 15, 50,
 /// 150, 500 or 1500; any positive number is taken.

@@ -199,11 +199,6 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
 
 }  // namespace
 
-std::string_view name_of(CircleReference reference) {
-  constexpr std::array<std::string_view, 4> kNames = {"ls", "mz", "mc", "mi"};
-  return kNames[static_cast<std::size_t>(reference)];
-}
-
 core::Result<Roundness> roundness_of_points(PlanePoints points_mm, CircleReference reference,
                                             const RoundnessSide& side) {
   if (reference == CircleReference::kLs) return ls_points(points_mm, side);

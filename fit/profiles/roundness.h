@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "core/words.h"
 #include "fit/geometry/points.h"
 #include "fit/profiles/form_parameters.h"
 #include "fit/proof/certificate.h"
@@ -24,8 +25,7 @@ enum class CircleReference {
   kMi,  ///< MICI, maximum inscribed.
 };
 
-/// "ls", "mz", "mc", "mi".
-[[nodiscard]] std::string_view name_of(CircleReference reference);
+RONDURE_WORDS(CircleReference, {kLs, "ls"}, {kMz, "mz"}, {kMc, "mc"}, {kMi, "mi"});
 
 /// Roundness about one reference circle.
 struct Roundness {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/phrase.h"
+#include "core/words.h"
 #include "fit/geometry/contacts.h"
 
 namespace rondure::fit {
@@ -26,10 +27,6 @@ struct Certificate {
 /// least-squares feature, without its proof.
 enum class Proof { kFull, kNone };
 
-/// "none", "local", "global".
-[[nodiscard]] inline std::string_view name_of(Certificate::Kind kind) {
-  constexpr std::array<std::string_view, 3> kNames = {"none", "local", "global"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
+RONDURE_WORDS(Certificate::Kind, {kNone, "none"}, {kLocal, "local"}, {kGlobal, "global"});
 
 }  // namespace rondure::fit

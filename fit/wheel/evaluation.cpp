@@ -41,10 +41,6 @@ core::Result<void> add_path(const WheelTask& task, WheelEvaluation& out) {
 
 }  // namespace
 
-std::string_view name_of(RadiusChoice choice) {
-  return choice == RadiusChoice::kMean ? "mean" : "effective";
-}
-
 core::Result<WheelEvaluation> evaluate_wheel(PlanePoints points_mm, const WheelTask& task) {
   TRY(auto wheel, measure_wheel(points_mm, task.wheel));
   WheelEvaluation out;

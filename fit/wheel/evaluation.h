@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "core/words.h"
 #include "fit/geometry/points.h"
 #include "fit/wheel/forecast.h"
 #include "fit/wheel/path.h"
@@ -18,8 +19,7 @@ enum class RadiusChoice {
   kMean,       ///< R
   kEffective,  ///< Farthest point from the axis, which cuts at many turns per contact.
 };
-/// "mean", "effective".
-[[nodiscard]] std::string_view name_of(RadiusChoice choice);
+RONDURE_WORDS(RadiusChoice, {kMean, "mean"}, {kEffective, "effective"});
 
 /// A path to compute from the measured radius.
 struct WheelPathTask {

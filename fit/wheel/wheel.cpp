@@ -350,14 +350,6 @@ core::Result<void> make_robust(const OutlierOptions& options, const QuadrupleOpt
 
 }  // namespace
 
-std::string_view name_of(WheelMode mode) {
-  return mode == WheelMode::kIndexed ? "indexed" : "envelope";
-}
-
-std::string_view name_of(WheelMean mean) {
-  return mean == WheelMean::kLeastSquares ? "least-squares" : "as-published";
-}
-
 bool WheelMeasurement::sees_whole_turn() const {
   return order.largest_gap_rad <= kWidestGap * (1.0 + 1e-9);
 }

@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "core/units.h"
+#include "core/words.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/references/min_zone_circle.h"
@@ -24,16 +25,14 @@ enum class WheelMode {
   kIndexed,   ///< Wheel at known angles: points of its body; the centre is that of its profile.
   kEnvelope,  ///< Wheel at speed, long exposure: points of the circle it sweeps about its axis.
 };
-/// "indexed", "envelope".
-[[nodiscard]] std::string_view name_of(WheelMode mode);
+RONDURE_WORDS(WheelMode, {kIndexed, "indexed"}, {kEnvelope, "envelope"});
 
 /// Method for the centre.
 enum class WheelMean {
   kLeastSquares,  ///< Geometric least squares of all points.
   kAsPublished,   ///< Mean of the centres of quadruples: the "direct least squares" of the patent.
 };
-/// "least-squares", "as-published".
-[[nodiscard]] std::string_view name_of(WheelMean mean);
+RONDURE_WORDS(WheelMean, {kLeastSquares, "least-squares"}, {kAsPublished, "as-published"});
 
 /// Declared standard uncertainties of the points of a wheel, >= 0.
 struct WheelPointErrors {

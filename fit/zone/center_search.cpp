@@ -61,12 +61,6 @@ std::vector<Eigen::Vector2d> directions(PlanePoints points_mm, const Eigen::Vect
 
 }  // namespace
 
-std::string_view name_of(CenterSearch::Ending ending) {
-  constexpr std::array<std::string_view, 5> kNames = {"cross", "spoke", "co-circular", "unbounded",
-                                                      "move-limit"};
-  return kNames[static_cast<std::size_t>(ending)];
-}
-
 std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
                                                  const Eigen::Vector2d& center_mm,
                                                  const Eigen::Vector2d& direction,

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "core/words.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {
@@ -66,8 +67,8 @@ struct CenterSearch {
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
 
-/// "cross", "spoke", "co-circular", "unbounded", "move-limit".
-[[nodiscard]] std::string_view name_of(CenterSearch::Ending ending);
+RONDURE_WORDS(CenterSearch::Ending, {kCross, "cross"}, {kSpoke, "spoke"},
+              {kCoCircular, "co-circular"}, {kUnbounded, "unbounded"}, {kMoveLimit, "move-limit"});
 
 /// Iterative minimum-zone centre search [301-306], corrected.
 ///

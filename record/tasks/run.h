@@ -22,10 +22,7 @@ struct EnvironmentSettings {
 /// The plane in which a circle of a file is evaluated: that of its points, or that normal to z.
 enum class SectionPlane { kPoints, kNominal };
 
-constexpr auto words_of(SectionPlane) {
-  return std::to_array<Word<SectionPlane>>(
-      {{SectionPlane::kPoints, "points"}, {SectionPlane::kNominal, "nominal"}});
-}
+RONDURE_WORDS(SectionPlane, {kPoints, "points"}, {kNominal, "nominal"});
 
 /// The file that a feature takes its data from, at "source/".
 struct SourceSettings {

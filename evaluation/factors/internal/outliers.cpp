@@ -67,11 +67,6 @@ core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierR
 
 }  // namespace
 
-std::string_view name_of(OutlierRule rule) {
-  constexpr std::array<std::string_view, 3> kNames = {"none", "3 sigma", "5 medians"};
-  return kNames[static_cast<std::size_t>(rule)];
-}
-
 core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, OutlierRule rule) {
   if (rule == OutlierRule::kNone) return WithoutOutliers{points, 0};
   TRY(const auto out_of_all, outliers_of(points, rule));

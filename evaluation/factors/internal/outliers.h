@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/result.h"
+#include "core/words.h"
 #include "evaluation/factors/points.h"
 
 namespace rondure::evaluation {
@@ -19,8 +20,7 @@ enum class OutlierRule {
 inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kThreeSigma,
                                              OutlierRule::kFiveMedians};
 
-/// "none", "3 sigma", "5 medians".
-[[nodiscard]] std::string_view name_of(OutlierRule rule);
+RONDURE_WORDS(OutlierRule, {kNone, "none"}, {kThreeSigma, "3 sigma"}, {kFiveMedians, "5 medians"});
 
 /// The points that remain after a rule was applied.
 struct WithoutOutliers {
