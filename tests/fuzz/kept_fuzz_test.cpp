@@ -67,7 +67,7 @@ TEST(KeptFuzz, NoDamagedArchiveUpsetsTheHistory) {
   ASSERT_GT(seed_bytes.size(), 10'000U);
   const fs::path file = work_folder() / "archive.db";
   const std::vector<std::string> tables = {"rondure_run", "rondure_result", "rondure_result"};
-  try_cases({300, 100'000}, [&](unsigned seed) {
+  try_cases({300, 30'000}, [&](unsigned seed) {
     std::mt19937 random(seed);
     std::string bytes = seed_bytes;
     const bool by_rows = random() % 3 != 0;
@@ -104,7 +104,7 @@ TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
   ASSERT_TRUE(read);
   const auto evaluation = evaluation::evaluate(read->record);
   ASSERT_TRUE(evaluation);
-  try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
+  try_cases({600, 30'000}, [&](unsigned seed) -> std::string {
     const auto parsed = reports::parse_earlier(mutation.input(seed));
     if (!parsed) return wrong_with_text(core::printable(core::to_line(parsed.error())));
     for (const reports::RunChart& chart : reports::run_charts(read->record, *evaluation, *parsed)) {

@@ -24,7 +24,7 @@ void try_door(const Counts& counts, const std::vector<std::string>& tables,
   });
 }
 
-TEST(VerbFuzz, NoDamagedPointsUpsetAFit) { try_door({40, 10'000}, point_tables(), try_fit); }
+TEST(VerbFuzz, NoDamagedPointsUpsetAFit) { try_door({40, 3'000}, point_tables(), try_fit); }
 
 TEST(VerbFuzz, NoDamagedBallsUpsetTheRotaryAxes) {
   try_door({300, 30'000}, ball_tables(), try_rotary_axes);
