@@ -492,7 +492,11 @@ int main_of(int argc, char** argv) {
   // The verbs of `fit` and `devices` follow their parents in the list, and take precedence.
   const auto given = std::find_if(verbs.rbegin(), verbs.rend(),
                                   [](const Verb& verb) { return verb.table->parsed(); });
-  if (given != verbs.rend()) return given->run();
+  if (given != verbs.rend()) {
+    const CLI::Option* const quiet = given->table->get_option_no_throw("--quiet");
+    const WaitingLine waiting(quiet != nullptr && quiet->count() > 0);
+    return given->run();
+  }
   say(app.got_subcommand("completion") ? bash_completion(app) : manual_page(app));
   return kAllWell;
 }

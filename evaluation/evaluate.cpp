@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
+#include "core/watch.h"
 #include "evaluation/analysis.h"
 #include "evaluation/defect.h"
 #include "evaluation/internal/conformance.h"
@@ -580,7 +581,12 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   // The verdict on a surface may need other features, such as a datum: all are evaluated before one
   // is judged. An analysis is judged at once: a later one may take a value of it, unless it is
   // void.
+  const auto evaluating = [&record](std::size_t i) {
+    return fmt::format("evaluating {} of {}: {}", i + 1, record.features.size(),
+                       record.features[i].id);
+  };
   for (std::size_t i = 0; i < record.features.size(); ++i) {
+    const core::Working work(evaluating(i));
     const int index = static_cast<int>(i);
     if (record::is_analysis(record.features[i].shape)) {
       FeatureResult analysed = evaluate_analysis(record, index, out.probe, out.features);
@@ -600,6 +606,7 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   for (std::size_t i = 0; i < out.features.size(); ++i) {
     FeatureResult& feature = out.features[i];
     if (record::is_analysis(feature.feature.shape)) continue;
+    const core::Working work(evaluating(i));
     decide(record, out.rule, out.probe, found[i], feature);
     apply_calibration(out.fixture, feature);
   }

@@ -156,7 +156,11 @@ const std::vector<std::string>& formats_of(const RunArguments& arguments, const 
 }
 
 int conclude(const RunToFinish& ending, plans::Run& run) {
-  const auto evaluated = read_and_evaluate(ending.directory);
+  const auto evaluated = [&ending] {
+    const StopsAtOnce until_evaluated(fmt::format(
+        "\nrondure: every touch is kept; to finish the run: {}\n", resume_command(ending)));
+    return read_and_evaluate(ending.directory);
+  }();
   if (!evaluated) return fail_run(evaluated.error(), ending.live);
   return conclude_evaluated(ending, *evaluated, &run);
 }

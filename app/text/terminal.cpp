@@ -10,12 +10,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
 #include "core/utf8.h"
+#include "core/watch.h"
 #include "record/files.h"
 
 namespace rondure::app {
@@ -23,12 +27,34 @@ namespace {
 
 std::atomic<int> g_stop = 0;  ///< Set by signals and by threads.
 static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<const char*> g_last_words = nullptr;  ///< Not null: a stop ends the program at once.
+static_assert(std::atomic<const char*>::is_always_lock_free);
+std::atomic<WaitingLine*> g_waiting = nullptr;
 int g_output_error = 0;  ///< System error of the first failed write to standard output.
 
 extern "C" void on_stop(int signal) {
-  if (g_stop.exchange(1) == 0) return;
+  const char* const said = g_last_words;
+  if (g_stop.exchange(1) == 0 && said == nullptr) return;
+  if (said != nullptr) (void)!::write(STDERR_FILENO, said, std::strlen(said));
   std::signal(signal, SIG_DFL);
   std::raise(signal);
+}
+
+/// "0:40"
+std::string minutes(double time_s) {
+  const auto seconds = static_cast<long>(time_s + 0.5);
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+/// "evaluating 3 of 10: CYL A, trial 1200 of 3000, about 0:40".
+std::string line_of(const core::Watch::Work& work, double elapsed_s) {
+  if (work.most == 0) return work.what;
+  const std::size_t done = std::min(work.done, work.most);
+  std::string out = fmt::format("{}, trial {} of {}", work.what, done, work.most);
+  if (done == 0 || elapsed_s < 1.0) return out;
+  const double left_s =
+      elapsed_s * static_cast<double>(work.most - done) / static_cast<double>(done);
+  return out + fmt::format(", about {}", minutes(left_s));
 }
 
 std::string line_of(const plans::Progress& progress, double elapsed_s) {
@@ -44,8 +70,7 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
   if (progress.touches > 0) {
     const double left = elapsed_s * static_cast<double>(expected - progress.touches) /
                         static_cast<double>(progress.touches);
-    const auto seconds = static_cast<long>(left + 0.5);
-    out += fmt::format("  left {}:{:02}", seconds / 60, seconds % 60);
+    out += fmt::format("  left {}", minutes(left));
   }
   return out;
 }
@@ -78,6 +103,10 @@ std::string without_controls(std::string_view text) {
 
 void write_to_terminal(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
+void hide_waiting() {
+  if (WaitingLine* const line = g_waiting) line->hide();
+}
+
 }  // namespace
 
 void hold_standard_streams() {
@@ -91,6 +120,7 @@ void hold_standard_streams() {
 }
 
 void say(std::string_view text) {
+  hide_waiting();
   const std::string safe = without_controls(text);
   if (std::fwrite(safe.data(), 1, safe.size(), stdout) != safe.size()) g_output_error = errno;
 }
@@ -108,6 +138,7 @@ bool output_reached() {
 }
 
 void tell(std::string_view line) {
+  hide_waiting();
   const bool ends = line.ends_with('\n');
   if (ends) line.remove_suffix(1);
   write_to_terminal(core::printable(line) + (ends ? "\n" : ""));
@@ -138,6 +169,51 @@ void ProgressLine::show(const plans::Progress& progress) {
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   write_to_terminal(fmt::format("\r{:.100}\x1b[K", core::printable(line_of(progress, elapsed_s))));
 }
+
+WaitingLine::WaitingLine(bool quiet) {
+  if (quiet || isatty(STDERR_FILENO) != 1) return;
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+    g_waiting = this;
+  } catch (const std::system_error&) {  // no thread to be had: no line
+  }
+}
+
+WaitingLine::~WaitingLine() {
+  thread_ = {};
+  hide();
+  g_waiting = nullptr;
+}
+
+void WaitingLine::hide() {
+  const std::scoped_lock lock(mutex_);
+  if (std::exchange(drawn_, false)) write_to_terminal("\r\x1b[K");
+}
+
+void WaitingLine::watch(const std::stop_token& stop) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point busy_since = Clock::now();
+  Clock::time_point trials_since = busy_since;
+  std::size_t number = 0;
+  std::unique_lock lock(mutex_);
+  while (!woken_.wait_for(lock, stop, std::chrono::milliseconds(200),
+                          [&stop] { return stop.stop_requested(); })) {
+    const core::Watch::Work work = core::watch().work();
+    const auto now = Clock::now();
+    if (std::exchange(number, work.number) != work.number) trials_since = now;
+    if (work.what.empty()) busy_since = now;
+    if (now - busy_since < std::chrono::seconds(1)) continue;
+    drawn_ = true;
+    const double elapsed_s = std::chrono::duration<double>(now - trials_since).count();
+    write_to_terminal(fmt::format("\r{:.79}\x1b[K", core::printable(line_of(work, elapsed_s))));
+  }
+}
+
+StopsAtOnce::StopsAtOnce(std::string said) : said_(std::move(said)) {
+  g_last_words = said_.c_str();
+}
+
+StopsAtOnce::~StopsAtOnce() { g_last_words = nullptr; }
 
 void listen_for_stop() {
   struct sigaction action = {};

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -49,6 +53,27 @@ class ProgressLine {
   Clock::time_point last_ = start_;
 };
 
+/// A status line for everything that takes longer than a second or two: what the program is at
+/// (core::watch()), the trial, the time left. Not shown when standard error is not a terminal.
+/// say() and tell() remove it before they write.
+class WaitingLine {
+ public:
+  explicit WaitingLine(bool quiet);
+  ~WaitingLine();
+  WaitingLine(const WaitingLine&) = delete;
+  WaitingLine& operator=(const WaitingLine&) = delete;
+
+  void hide();
+
+ private:
+  void watch(const std::stop_token& stop);
+
+  std::mutex mutex_;
+  std::condition_variable_any woken_;
+  bool drawn_ = false;
+  std::jthread thread_;
+};
+
 /// Installs signal handlers: Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after
 /// the current touch; a second signal ends the program at once. Every touch is on disk by then. A
 /// pipe whose reader has closed it no longer ends the program.
@@ -56,5 +81,18 @@ void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 /// Requests the same stop from within the program; callable from any thread.
 void request_stop();
+
+/// While it exists, already the first signal ends the program at once, after `said`: for work that
+/// can be done again from what is on disk.
+class StopsAtOnce {
+ public:
+  explicit StopsAtOnce(std::string said);
+  ~StopsAtOnce();
+  StopsAtOnce(const StopsAtOnce&) = delete;
+  StopsAtOnce& operator=(const StopsAtOnce&) = delete;
+
+ private:
+  std::string said_;
+};
 
 }  // namespace rondure::app

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/watch.h"
 #include "evaluation/factors/internal/outliers.h"
 #include "evaluation/results/feature_values.h"
 #include "record/tasks/form_facts.h"
@@ -246,6 +247,7 @@ core::Result<RunComparison> compare_run(const Evaluation& evaluation) {
     const std::string& id = feature.feature.id;
     for (const CharacteristicResult& characteristic : feature.characteristics) {
       const std::string place = fmt::format("{} / {}", id, characteristic.characteristic.id);
+      const core::Working work(fmt::format("comparing {}", place));
       auto study = study_factors(feature, characteristic);
       if (study) out.studies.push_back(*std::move(study));
       if (!study) out.without.push_back(study.error().at(place));

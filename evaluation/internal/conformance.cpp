@@ -10,6 +10,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/part/contacts.h"
@@ -540,6 +541,7 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
 
 PartFindings find_all(const record::RunRecord& record, std::span<FeatureResult> features,
                       const std::optional<fit::ProbeTip>& probe) {
+  const core::Working work("evaluating the call-outs");
   PartFindings out(features.size());
   const std::vector<MeasuredSurface> part = surfaces_of(features);
   const PartState as_read(part);

@@ -10,6 +10,7 @@
 
 #include "core/decompositions.h"
 #include "core/noise.h"
+#include "core/watch.h"
 #include "evaluation/results/measured_cloud.h"
 #include "evaluation/uncertainty/internal/chains.h"
 #include "evaluation/uncertainty/internal/error_modes.h"
@@ -631,11 +632,13 @@ class PartTrials::Part::Run {
     if (most == 0) return;
     // The first trials show what the searches take.
     const std::size_t first = std::min(each(kLeastTrials), most);
+    core::watch().expect(most * chains_.size());
     more(first);
     double pivots = 0.0;
     for (const Values& chain : values_) pivots += chain.pivots;
     const auto trials = static_cast<double>(first * chains_.size());
     most = std::max(first, each(part_.most_trials(questions_, pivots / trials)));
+    core::watch().expect((most - first) * chains_.size());
     const std::size_t least = std::min(each(options.least_trials), most);
     more(std::max(first, options.tolerance_mm > 0.0 ? least : most) - first);
     while (options.tolerance_mm > 0.0) {
@@ -682,6 +685,7 @@ class PartTrials::Part::Run {
                   for (std::size_t k = first; k < last; ++k) {
                     for (std::size_t t = 0; t < each; ++t) {
                       part_.draw_one(questions_, *chains_[k], values_[k]);
+                      core::watch().drawn();
                     }
                   }
                 });

@@ -9,6 +9,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/prediction/internal/expected_form.h"
 
@@ -250,6 +251,7 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
         "only intervals of CYLt and RONt are predicted; the run computes those of the others");
   }
   if (auto why = why_no_interval(expected, of)) return none(*std::move(why));
+  const core::Working work(fmt::format("predicting U: {}, {}", of.id, asked.id));
   auto rehearsal = TrialInspection::of(expected, feature);
   if (!rehearsal) return none(rehearsal.error().what);
   std::string repeatability = assume_repeatability(expected, *rehearsal);

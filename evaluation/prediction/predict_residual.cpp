@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "core/watch.h"
 #include "fit/rotary/ball_center.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/settings.h"
@@ -45,6 +46,7 @@ core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expec
     return core::fail_with(core::Code::kBadOption, "feature {} is no calibration of a fixture",
                            feature);
   }
+  const core::Working work("predicting U of the calibration");
   TRY(const auto task, record::task_of<record::RotaryTask>(
                            expected.features[static_cast<std::size_t>(feature)].settings));
   if (!task.uncertainty) {

@@ -13,6 +13,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "evaluation/results/stated_value.h"
 #include "evaluation/spindle/internal/probe_influences.h"
 #include "evaluation/spindle/result.h"
@@ -579,7 +580,9 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
   const auto turns = [&](const Asked& one) {  // a random field has no core
     return characteristics[one.index].form != Form::kMotionAsynchronous;
   };
+  core::watch().expect(static_cast<std::size_t>(count));
   for (int t = 0; t < count; ++t) {
+    core::watch().drawn();
     const State state = trials.draw(t, false);
     const State core = trials.core(t);
     for (Asked& one : wanted) {

@@ -7,6 +7,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "core/watch.h"
 #include "evaluation/uncertainty/internal/chains.h"
 #include "evaluation/uncertainty/internal/statement.h"
 
@@ -62,6 +63,7 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
   const std::size_t most = each(most_asked);
   const std::size_t least = std::min(each(options.least_trials), most);
   const std::size_t budget = options.budget_trials > 0 ? each(options.budget_trials) : 0;
+  core::watch().expect(most * static_cast<std::size_t>(options.chains));
   chains.run(options.tolerance_mm > 0.0 ? least : most, budget);
   TRY_DO(check_all_values(chains));
   while (options.tolerance_mm > 0.0) {

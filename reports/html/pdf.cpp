@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/utf8.h"
+#include "core/watch.h"
 #include "record/external_program.h"
 #include "record/files.h"
 #include "record/sha256.h"
@@ -170,6 +171,7 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
   if (auto done = record::write_file(folder / "report.html", page); !done) {
     return not_printed(done.error().what);
   }
+  const core::Working work("printing report.pdf");
   const auto ran = record::run_program(
       {browser, print_arguments(folder), print_environment(folder), folder / "said", time_limit});
   if (!ran) return not_printed(core::printable(ran.error().what));

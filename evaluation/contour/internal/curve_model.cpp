@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/statistics.h"
+#include "core/watch.h"
 #include "evaluation/uncertainty/curve_trials.h"
 #include "evaluation/uncertainty/internal/chains.h"
 
@@ -55,7 +56,9 @@ std::vector<UncertaintyStatus> states(const CurveModel& model, const std::vector
     found[a].core_mm.resize(count);
     found[a].core_center_mm = asked[a].value(model.core_center);
   }
+  core::watch().expect(static_cast<std::size_t>(options.least_trials));
   const auto run = [&](std::size_t index) {
+    core::watch().drawn();
     const auto trial = static_cast<int>(index);
     Curves curves = model.draw(trial);
     Curves core = model.core_draw ? model.core_draw(trial) : Curves();

@@ -5,6 +5,8 @@
 #include <system_error>
 #include <thread>
 
+#include "core/watch.h"
+
 namespace rondure::evaluation {
 namespace {
 
@@ -92,6 +94,7 @@ void FormChains::change(Chain& chain, const FormDraw& draw, double value, ChainV
 }
 
 void FormChains::draw_one(Chain& chain, ChainValues& out, std::size_t budget) const {
+  core::watch().drawn();
   const std::size_t done = out.sampled_mm.size();
   const FormDraw& draw = chain.forms.next();
   const double value = chain.value.of(draw.form_mm);
