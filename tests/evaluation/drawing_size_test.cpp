@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/units.h"
@@ -353,6 +354,36 @@ TEST(DrawingSize, OfABallIsThatOfItsSphere) {
   part.add("ball", record::Shape::kSphere, {points}).tip_radius_mm = 1.0;
   for (const SizeKind size : {SizeKind::kGG, SizeKind::kGN, SizeKind::kGX, SizeKind::kGC}) {
     EXPECT_NEAR(part.value(size_asked(size)), 24.9, kSizeDigits);
+  }
+}
+
+/// 25 points of a ball of radius 12 mm with an oval of 4 um, evenly over its cap of this half
+/// angle; its mean radius is 12 mm.
+DrawnSurface cap_of_a_ball(double half_deg) {
+  constexpr int kPoints = 25;
+  constexpr double kGolden = 2.399963229728653;
+  const double low = std::cos(half_deg * core::kDegree);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = low + (1.0 - low) * (i + 0.5) / kPoints;
+    const double r = std::sqrt(1.0 - z * z);
+    const Eigen::Vector3d n(r * std::cos(kGolden * i), r * std::sin(kGolden * i), z);
+    points.emplace_back((12.0 + 4e-3 * (1.5 * z * z - 0.5)) * n);
+  }
+  auto out = drawn({points}, kShaft);
+  out.of->feature.shape = record::Shape::kSphere;
+  return out;
+}
+
+// An oval turns into size on a cap: on half a ball by 0.8, on one of 30 deg by 1.8 of its height.
+TEST(DrawingSize, OfACapOfABallHasNoVerdict) {
+  for (const double half_deg : {20.0, 45.0, 60.0}) {
+    const Finding cap = found(cap_of_a_ball(half_deg), size_asked(SizeKind::kGG));
+    ASSERT_TRUE(cap.no_verdict) << half_deg;
+    EXPECT_THAT(cap.no_verdict->english(), testing::HasSubstr("25 points must reach 74 deg"));
+  }
+  for (const double half_deg : {80.0, 90.0, 120.0, 180.0}) {
+    EXPECT_FALSE(found(cap_of_a_ball(half_deg), size_asked(SizeKind::kGG)).no_verdict) << half_deg;
   }
 }
 

@@ -9,10 +9,12 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/part/internal/associated.h"
 #include "evaluation/part/internal/layout.h"
 #include "evaluation/results/internal/deviation.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
+#include "fit/least_squares/sphere.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -278,7 +280,31 @@ std::optional<core::Phrase> unseen_turn(const PreparedSurface& surface, const fi
   return unseen_words(unseen);
 }
 
+/// A ball is seen where its points reach round it as far as a pole and its equator do, less what
+/// each point stands for: one of n on half a ball for 2 pi / n. From a smaller cap lobes turn into
+/// size, as they do on an arc.
+std::optional<core::Phrase> unseen_of_ball(const PreparedSurface& surface) {
+  const auto ball = fit::ls_sphere(surface.points_mm);
+  if (!surface.as_measured || !ball) return std::nullopt;
+  std::vector<Eigen::Vector3d> directions;
+  for (const Eigen::Vector3d& p : surface.points_mm) {
+    directions.push_back((p - ball->center_mm).normalized());
+  }
+  // The least ball round directions of less than a half has the radius of their cap's rim.
+  const auto rim = associated_sphere(directions, record::Reference::kMinimumCircumscribed);
+  const double reach =
+      rim && rim->radius_mm < 1.0 ? std::asin(rim->radius_mm) : 0.25 * core::kTwoPi;
+  const double needed =
+      0.25 * core::kTwoPi - std::acos(1.0 - 1.0 / static_cast<double>(directions.size()));
+  if (reach >= needed) return std::nullopt;
+  return core::phrase(
+      "the points reach {:.0f} deg round one side of the ball, {} points must reach {:.0f} deg: "
+      "touch it from its pole to its equator",
+      core::degrees(reach), directions.size(), core::degrees(needed));
+}
+
 std::optional<core::Phrase> unseen_part(const PreparedSurface& surface) {
+  if (surface.of->feature.shape == record::Shape::kSphere) return unseen_of_ball(surface);
   const bool layers = has_layers(*surface.of) && !surface.sections.empty();
   return layers ? unseen_part(surface, surface.sections, surface.axis)
                 : unseen_turn(surface, surface.axis);

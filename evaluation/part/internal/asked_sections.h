@@ -61,7 +61,8 @@ void add_rows(const PreparedSurface& surface, std::span<const std::size_t> point
 /// The same of all points together, projected along the axis.
 [[nodiscard]] std::optional<core::Phrase> unseen_turn(const PreparedSurface& surface,
                                                       const fit::Axis& about);
-/// Of a whole surface about its own axis: of each layer or, without layers, of all points together.
+/// Of a whole surface about its own axis: of each layer or, without layers, of all points together;
+/// of a ball the cap that they cover.
 [[nodiscard]] std::optional<core::Phrase> unseen_part(const PreparedSurface& surface);
 /// Of a face: of its layers that are circles, and of windows over one side of it.
 [[nodiscard]] std::optional<core::Phrase> unseen_of_face(const PreparedSurface& surface);
