@@ -281,6 +281,8 @@ void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
                    "Harmonics with a higher noise gain are not recovered (default: 100)");
   verb->add_option("--probe-noise", a.task.probe_noise_um,
                    "um, standard deviation of a reading (default: estimated)");
+  verb->add_option("--tip-width", a.task.tip_width_mm,
+                   "mm, diameter of tip or spot, taken out of the part (default: a point)");
   add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.task.second_order,
                                               "auto (default), on or off");
   verb->add_option("--cutoff-upr", a.task.cutoff_upr,

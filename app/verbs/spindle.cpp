@@ -26,7 +26,7 @@ std::string harmonic_lines(const fit::ThreeProbeResult& s) {
   std::string out = "   UPR  amplitude um   phase deg       u um    gain  |G|\n";
   for (const fit::RecoveredHarmonic& h : s.harmonics) {
     out += fmt::format("  {:4}  ", h.order);
-    out += h.recovered
+    out += h.known()
                ? fmt::format("{:12.5f}  {:>10}  {:9.5f}", core::micrometres(h.amplitude_mm),
                              h.phase_rad ? fmt::format("{:.3f}", core::degrees(*h.phase_rad)) : "-",
                              core::micrometres(h.sigma_mm))

@@ -17,13 +17,13 @@ struct Gate {
     kVoids,   ///< Some values prove nothing.
   };
 
-  std::string code;             ///< Stable, kebab-case: "first-harmonic".
-  core::Phrase condition;       ///< What is compared: "chi2 of the first harmonic".
-  std::optional<double> found;  ///< None where it could not be computed.
-  std::optional<double> limit;
-  std::string unit;  ///< Of both: "um", "deg"; empty of a plain number.
+  std::string code;                  ///< Stable, kebab-case: "first-harmonic".
+  core::Phrase condition;            ///< What is compared: "chi2 of the first harmonic".
+  std::optional<double> found = {};  ///< None where it could not be computed.
+  std::optional<double> limit = {};
+  std::string unit = {};  ///< Of both: "um", "deg"; empty of a plain number.
   Outcome outcome = Outcome::kPassed;
-  core::Phrase reason;  ///< Why it did not pass, with numbers, and what to do; empty when passed.
+  core::Phrase reason = {};  ///< Why it did not pass, in numbers, and what to do; or empty.
 };
 
 }  // namespace rondure::evaluation

@@ -118,6 +118,7 @@ fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
   out.samples = task.samples;
   out.highest = task.highest_order;
   out.greatest_gain = task.greatest_gain;
+  out.tip_width_mm = task.tip_width_mm.value_or(0.0);
   if (task.probe_noise_um) out.noise_mm = *task.probe_noise_um * kMicrometre;
   if (task.uncertainty) {
     const auto& declared = *task.uncertainty;

@@ -96,7 +96,7 @@ core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
   for (const record::HarmonicLimit& line : asked.harmonic_limits) {
     for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
       if (h.order < line.first || h.order > line.last) continue;
-      if (!h.recovered) {
+      if (!h.known()) {
         out.void_because = core::phrase("harmonic {} was not recovered", h.order);
         continue;
       }
@@ -253,7 +253,11 @@ ValueOperator operator_of(const SpindleResult& facts, const record::Characterist
           FilterTerm(part         ? filter_text(facts)
                      : unfiltered ? core::phrase("before the filter")
                                   : core::phrase("unfiltered")),
-          SamplingTerm(how), TipTerm(core::phrase("displacement probes")),
+          SamplingTerm(how),
+          TipTerm(s.tip_width_mm > 0.0
+                      ? core::phrase("displacement probes, width of {:g} mm taken out of the part",
+                                     s.tip_width_mm)
+                      : core::phrase("displacement probes")),
           TemperatureTerm(temperature)};
 }
 

@@ -71,7 +71,8 @@ constexpr double kWeakShare = 0.25;
 /// amplitudes that stand out of the noise: most of a peak to valley, or the rms [mm].
 [[nodiscard]] double passed_beyond_mm(const SpindleResult& result, bool rms);
 /// Why roundness misses harmonics that the filter of the profile passes, or nothing: the cut-off is
-/// above the highest recovered, or those above it hold more than a tenth of the tolerance.
+/// above the highest recovered, those above it hold more than a tenth of the tolerance, or the
+/// readings were filtered before.
 [[nodiscard]] std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
                                                           const record::Characteristic& asked);
 /// Why nothing vouches for the arm of tracking probes: no eccentricity shows it and it is not

@@ -20,8 +20,8 @@ constexpr double kMissingGap = 1.6;
 constexpr double kFilteredRms = 0.01 * core::kMicrometre;
 constexpr double kFilteredShare = 0.01;
 constexpr double kFilterTraceFrom = 3.0;  ///< Start of the range, as a multiple of the cut-off.
-constexpr double kRoundOff = 1e-8;        ///< Amplitude that rounding to 0.001 um leaves [mm].
-constexpr double kLeastLine = 20.0;       ///< Least number of harmonics in the line.
+/// Of the undulations that the rows resolve, those that interpolation leaves as they are.
+constexpr double kInterpolated = 0.75;
 constexpr double kLeastRange = 0.05 * core::kMicrometre;
 constexpr double kGreatestRange = 1.0;  ///< mm
 
@@ -76,34 +76,6 @@ core::Result<void> check_contour_gap(const AngularProfile& profile, std::size_t 
           : "");
 }
 
-/// Fits a line to log2 of the amplitudes over k^2, from half the cut-off to three times it, or to
-/// where round-off begins; for a Gaussian filter its slope is -1/fc^2. Returns nothing if the line
-/// does not explain most of the fall.
-std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double cutoff) {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-  const auto last = std::min(amplitude.size() - 1, static_cast<std::size_t>(3.0 * cutoff));
-  for (auto k = static_cast<std::size_t>(0.5 * cutoff); k <= last; ++k) {
-    if (amplitude[k] < kRoundOff) break;
-    const double square = std::pow(static_cast<double>(k) / cutoff, 2);
-    const double height = std::log2(amplitude[k]);
-    n += 1.0;
-    x += square;
-    y += height;
-    xx += square * square;
-    xy += square * height;
-    yy += height * height;
-  }
-  if (n < kLeastLine) return std::nullopt;
-  const double sxx = xx - x * x / n;
-  const double sxy = xy - x * y / n;
-  const double syy = yy - y * y / n;
-  if (!(sxx > 0.0) || !(sxy < 0.0) || sxy * sxy < 0.5 * sxx * syy) return std::nullopt;
-  const double found = cutoff * std::sqrt(-sxx / sxy);
-  // Outside this range the harmonics show too little of the fall, or are lines of the form.
-  if (found < 0.5 * cutoff || found > 2.0 * cutoff) return std::nullopt;
-  return found;
-}
-
 /// Examines the content of a contour at uniform angles above the cut-off.
 /// @param resolved_upr  Undulations that the rows of the gauge resolve, half their number; below 4
 ///                      times the cut-off no statement is possible.
@@ -111,6 +83,7 @@ FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr
                          double resolved_upr) {
   const auto f = spectrum(deviation_mm);
   std::vector<double> amplitude(f.size());
+  const auto known = static_cast<std::size_t>(kInterpolated * resolved_upr);
   double form = 0.0;
   double upper = 0.0;
   for (std::size_t k = 2; k < f.size(); ++k) {
@@ -123,7 +96,7 @@ FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr
   out.upper_rms_mm = std::sqrt(upper);
   out.filtered = resolved_upr > 4.0 * cutoff_upr && out.upper_rms_mm < kFilteredRms &&
                  out.upper_rms_mm < kFilteredShare * std::sqrt(form);
-  if (out.filtered) out.cutoff_upr = fitted_cutoff(amplitude, cutoff_upr);
+  out.passed = passed_filter(std::span(amplitude).first(std::min(known, amplitude.size())));
   return out;
 }
 
@@ -140,13 +113,18 @@ void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options)
          fmt::format("above {} UPR only {:.2g} um rms are left{}: the gauge seems to have filtered "
                      "already, and the filter is applied twice; if so, say prefiltered",
                      from, upper_um,
-                     trace.cutoff_upr
-                         ? fmt::format(", falling as behind a Gaussian filter of {:.0f} "
-                                       "UPR",
-                                       *trace.cutoff_upr)
-                         : ""));
+                     trace.passed ? fmt::format(", falling as behind a Gaussian filter of {:.0f} "
+                                                "UPR",
+                                                trace.passed->cutoff_upr)
+                                  : ""));
   }
-  if (!trace.filtered && options.error.filtered_already) {
+  if (options.error.filtered_already && trace.other_than(options.error.filter.cutoff_upr)) {
+    warn(
+        out, core::Code::kInconsistent,
+        fmt::format("noise and roughness fall as behind a Gaussian filter of {:.0f} UPR, the gauge "
+                    "is said to have filtered at {:g} UPR: state the cut-off of the gauge",
+                    trace.passed->cutoff_upr, options.error.filter.cutoff_upr));
+  } else if (!trace.filtered && options.error.filtered_already) {
     warn(out, core::Code::kFilteredTwice,
          fmt::format("the contour is said to be filtered, but {:.2g} um rms stand above {} UPR; "
                      "without prefiltered the filter would be applied",

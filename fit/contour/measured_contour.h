@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/result.h"
 #include "fit/contour/error.h"
+#include "fit/profiles/passed_filter.h"
 
 namespace rondure::fit {
 
@@ -25,9 +26,14 @@ struct MeasuredContourOptions {
 /// times the cut-off; a ground surface has more.
 struct FilterTrace {
   double upper_rms_mm = 0.0;  ///< rms above 3 times the cut-off.
-  /// Cut-off of a Gaussian filter that fits the fall of the amplitudes, if there is one.
-  std::optional<double> cutoff_upr;
+  /// The Gaussian filter by which the amplitudes fall, if there is one.
+  std::optional<PassedFilter> passed;
   bool filtered = false;  ///< Less remains above the cut-off than on an unfiltered surface.
+
+  /// Whether that filter is another one than that of `cutoff_upr`.
+  [[nodiscard]] bool other_than(double cutoff_upr) const {
+    return passed && (passed->below(cutoff_upr) || passed->above(cutoff_upr));
+  }
 };
 
 /// A contour from a gauge as a contour error at the angles 2 pi m / M.
@@ -47,7 +53,8 @@ struct MeasuredContour {
 /// @return kMeaning (different lengths, direction not +-1), kTooFewPoints, kNotFinite (row),
 ///         kAngleOrder (row) where the angle decreases, kNotFullSection for a gap above 1 deg; the
 ///         errors of contour_error(). Warnings: kSparse for missing samples below 1 deg,
-///         kFilteredTwice for a contour that seems filtered and is filtered again, kUndersampled
+///         kFilteredTwice for a contour that seems filtered and is filtered again, kInconsistent
+///         for one that the gauge has filtered at another cut-off than stated, kUndersampled
 ///         for an unfiltered one of more rows than samples that contains more than 0.01 um rms
 ///         beyond them, kUnits for a contour below 0.05 um or above 1 mm.
 /// Source: methods, contour sections 4, 7 and 9.

@@ -137,7 +137,8 @@ SpindleCurves SeparationModel::separate(const std::array<std::vector<double>, 3>
       for (std::size_t i = 0; i < 3; ++i)
         transfer += std::polar(1.0, harmonic.order * angles[i]) * weights[i];
       part[k] = f[k] / transfer;
-      const Complex c = 2.0 / static_cast<double>(count) * part[k] *
+      const double raised = harmonic.tip > 0.0 ? 1.0 / harmonic.tip : 0.0;
+      const Complex c = 2.0 / static_cast<double>(count) * raised * part[k] *
                         std::polar(1.0, -harmonic.order * result_.profile.start_rad);
       out.profile_mm[row] = c.real();
       out.profile_mm[row + 1] = -c.imag();

@@ -11,6 +11,7 @@
 #include "core/result.h"
 #include "fit/geometry/swing_arm.h"
 #include "fit/profiles/closed_profile.h"
+#include "fit/profiles/passed_filter.h"
 #include "fit/spindle/probe_layout.h"
 
 namespace rondure::fit {
@@ -34,6 +35,7 @@ struct ThreeProbeOptions {
   double greatest_gain = 100.0;    ///< A harmonic with a greater gain is not recovered; >= 1.
   double warn_gain = 25.0;         ///< A harmonic with a greater gain is named in a warning.
   std::optional<double> noise_mm;  ///< Standard deviation of a reading; none: estimated.
+  double tip_width_mm = 0.0;       ///< Of tips or spots, 2 b; needs the radius of the part.
   bool resample = true;            ///< false: readings are taken as uniform in theta.
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
@@ -51,6 +53,11 @@ struct RecoveredHarmonic {
   double transfer = 0.0;            ///< |G|.
   double gain = 0.0;                ///< Noise gain g.
   double sigma_mm = 0.0;            ///< Standard uncertainty of the amplitude, g s sqrt(2/n).
+  /// What the width of the tips left of it, 2 J1(x)/x with x = k b / R: amplitude and sigma are
+  /// divided by it. 0: x is above 2.5, the order is void.
+  double tip = 1.0;
+
+  [[nodiscard]] bool known() const { return recovered && tip > 0.0; }
 };
 
 /// Motion of the part's centre, X and Y over the samples of one revolution [mm].
@@ -73,6 +80,7 @@ struct ThreeProbeResult {
   /// What the readings hold from there to twice the highest order, as far as the samples leave it
   /// unchanged. It is not in the profile, although a filter may pass it.
   std::vector<RecoveredHarmonic> beyond = {};
+  std::optional<PassedFilter> passed = {};  ///< That the readings have passed, by their fall.
 
   std::vector<CentreMotion> motion =
       {};                         ///< One per revolution, without eccentricity and probe zeros.
@@ -84,7 +92,8 @@ struct ThreeProbeResult {
   /// probe angles are counted in the wrong sense.
   double against_work_mm = 0.0;
 
-  double noise_mm = 0.0;  ///< s: stated or estimated.
+  double tip_width_mm = 0.0;  ///< Taken out of the profile; 0: not stated.
+  double noise_mm = 0.0;      ///< s: stated or estimated.
   /// Estimated from the scatter of the revolutions; for a single one, from the weighted sum above
   /// the highest harmonic.
   bool noise_estimated = false;
@@ -127,6 +136,7 @@ struct ThreeProbeResult {
 /// domain. The motion follows from H_i(theta) - r(theta + Phi_i) by least squares over the three
 /// probes; the best fit of c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) over the work
 /// angle is removed: over theta, to which the swing of a tracked pin adds, it would take motion.
+/// The width of the tips is taken out of the profile, not out of the motion.
 ///
 /// @return kRank (layout); the errors of check_swing_arm(); kSampling (lengths differ, too few
 ///         readings, highest above N/2 - 1, or no data to estimate the noise); kNotFinite (row);

@@ -25,7 +25,7 @@ constexpr double kSecondOrderSettled = 0.01;
 constexpr double kPhaseFrom = 3.0;     ///< In standard uncertainties of an amplitude.
 constexpr double kBelowProbes = 1e-5;  ///< Fraction of the readings; no probe is that linear.
 
-core::Result<void> check_options(const ThreeProbeOptions& options) {
+core::Result<void> check_options(const ThreeProbeOptions& options, double part_radius_mm) {
   const auto refuse = [](std::string what) {
     return core::fail(Code::kBadOption, std::move(what));
   };
@@ -38,6 +38,9 @@ core::Result<void> check_options(const ThreeProbeOptions& options) {
   }
   if (options.noise_mm && !(*options.noise_mm >= 0.0)) return refuse("probe noise is negative");
   if (options.samples < 0) return refuse("the number of samples is negative");
+  if (options.tip_width_mm > 0.0 && !(part_radius_mm > 0.0)) {
+    return refuse("the width of the tips is taken out by the radius of the part; state it");
+  }
   return {};
 }
 
@@ -100,6 +103,43 @@ std::vector<RecoveredHarmonic> beyond_of(const Spectrum& sum, const Guard& guard
     harmonic.amplitude_mm = 2.0 * std::abs(part) / static_cast<double>(count);
   }
   return out;
+}
+
+/// The low pass that the readings have passed, from all probes together.
+std::optional<PassedFilter> passed_by(const ProbeSamples& samples, int highest) {
+  std::vector<double> amplitude(static_cast<std::size_t>(last_untouched(samples.count, highest)));
+  for (const auto& h : samples.mean_mm) {
+    const Spectrum of_probe = spectrum(h);
+    for (std::size_t k = 0; k < amplitude.size(); ++k) {
+      const double now = 2.0 * std::abs(of_probe[k]) / static_cast<double>(samples.count);
+      amplitude[k] = std::hypot(amplitude[k], now);
+    }
+  }
+  return passed_filter(amplitude);
+}
+
+/// Divides the part by what the mean over tips leaves of it: 2 J1(x)/x. The motion, for which
+/// counts what the probes see, is separated before. Source: methods, analyses_uncertainty 2.1.
+void take_out_tips(double width_mm, double part_radius_mm, Spectrum part,
+                   ThreeProbeResult& result) {
+  constexpr double kWidest = 2.5;
+  result.tip_width_mm = width_mm;
+  double power = 0.0;
+  for (auto* const table : {&result.harmonics, &result.beyond}) {
+    for (RecoveredHarmonic& h : *table) {
+      const double x = h.order * 0.5 * width_mm / part_radius_mm;
+      h.tip = x > kWidest ? 0.0 : 2.0 * std::cyl_bessel_j(1.0, x) / x;
+      const double raised = h.tip > 0.0 ? 1.0 / h.tip : 0.0;
+      h.amplitude_mm *= raised;
+      h.sigma_mm *= raised;
+      if (h.tip == 0.0) h.phase_rad.reset();
+      if (table == &result.beyond) continue;
+      part[static_cast<std::size_t>(h.order)] *= raised;
+      if (h.recovered) power += h.sigma_mm * h.sigma_mm;
+    }
+  }
+  result.profile_sigma_mm = std::sqrt(power);
+  result.profile.r_mm = series_of(part, result.profile.r_mm.size());
 }
 
 /// Computes the half spectrum of the part, and its harmonics as a table.
@@ -276,7 +316,7 @@ void judge_sense(const ProbeSamples& samples, const Guard& guard, ThreeProbeResu
 core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& readings,
                                                     const SwingArm& arm, const ProbeLayout& layout,
                                                     const ThreeProbeOptions& options) {
-  TRY_DO(check_options(options));
+  TRY_DO(check_options(options, arm.pin_radius_mm));
   TRY_DO(check_swing_arm(arm));
   TRY(auto sampled, sample_readings(readings, arm, options));
   ProbeSamples samples = std::move(sampled);
@@ -310,6 +350,7 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   TRY_DO(refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result));
   judge_residual(sum, part, samples, result);
   result.beyond = beyond_of(sum, guard, samples.count);
+  result.passed = passed_by(samples, options.highest);
   result.mean_readings_mm = samples.mean_mm;
   result.drift_mm = drift_per_turn(samples);
   result.scatter_mm = scatter_by_order_mm(samples, layout, options.highest);
@@ -317,6 +358,9 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   warn_of_sampling(samples, options, result);
   find_contradictions(readings, samples, arm, options, result);
   judge_sense(samples, guard, result);
+  if (options.tip_width_mm > 0.0) {
+    take_out_tips(options.tip_width_mm, arm.pin_radius_mm, std::move(part), result);
+  }
   return result;
 }
 

@@ -123,9 +123,11 @@ void check_spindle(const FeaturePlan& feature, const std::string& where, Finding
                                  plan.samples, plan.highest_order, 2 * plan.highest_order + 2,
                                  7 * plan.highest_order));
   }
-  if (plan.second_order == SpindleTask::SecondOrder::kOn && !(plan.pin_radius_mm > 0.0)) {
+  const bool second = plan.second_order == SpindleTask::SecondOrder::kOn;
+  if ((second || plan.tip_width_mm) && !(plan.pin_radius_mm > 0.0)) {
     findings.meaning(Code::kMissingKey, where + "/pin_radius_mm",
-                     "this key is missing: the second order needs the radius of the part");
+                     fmt::format("this key is missing: {} needs the radius of the part",
+                                 second ? "the second order" : "tip_width_mm"));
   }
 }
 

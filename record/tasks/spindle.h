@@ -37,6 +37,7 @@ struct SpindleTask {
   double cutoff_upr = 50.0;
   std::optional<SpindleInfluencesTask> uncertainty;
   std::optional<double> probe_range_um;  ///< Whole range of a probe; none: not stated.
+  std::optional<double> tip_width_mm;    ///< Of tip or spot; none: a point.
 };
 
 RONDURE_WORDS(SpindleTask::Layout, {kAngles, "angles"}, {kPublishedA, "published-a"},
@@ -105,6 +106,11 @@ void describe_recovery(Visitor& v, SpindleTask& p) {
                  "Whole measuring range of each probe, half of it to either side of reading 0. "
                  "Readings in its outer tenth void the feature; uncertainty/quadratic_1 refers to "
                  "it."));
+  v.number("tip_width_mm", p.tip_width_mm,
+           above(0.0, 100.0,
+                 "Diameter of the flat tip or of the spot of each probe, 2 b: undulations of order "
+                 "k are divided by 2 J1(x)/x, x = k b / pin_radius_mm, which the mean over it "
+                 "leaves; orders with x above 2.5 are void. Left out: a point."));
 }
 
 template <class Visitor>

@@ -13,12 +13,12 @@ Json layout_json(const fit::ProbeLayout& layout) {
 
 Json harmonic_json(const fit::RecoveredHarmonic& h) {
   return {{"order", h.order},
-          {"recovered", h.recovered},
-          {"amplitude_um", h.recovered ? Json(in_um(h.amplitude_mm)) : Json(nullptr)},
+          {"recovered", h.known()},
+          {"amplitude_um", h.known() ? Json(in_um(h.amplitude_mm)) : Json(nullptr)},
           {"phase_deg", h.phase_rad ? Json(in_deg(*h.phase_rad)) : Json(nullptr)},
           {"transfer", h.transfer},
           {"gain", h.gain < 1e300 ? Json(h.gain) : Json(nullptr)},
-          {"u_um", h.recovered ? Json(in_um(h.sigma_mm)) : Json(nullptr)}};
+          {"u_um", h.known() ? Json(in_um(h.sigma_mm)) : Json(nullptr)}};
 }
 
 Json motion_json(const fit::AxisMotion& motion) {

@@ -131,7 +131,7 @@ std::string harmonic_plots(const evaluation::SpindleResult& facts,
   std::vector<Bar> amplitudes;
   std::vector<Bar> gains;
   for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
-    amplitudes.push_back({h.order, h.amplitude_mm / core::kMicrometre, !h.recovered});
+    amplitudes.push_back({h.order, h.amplitude_mm / core::kMicrometre, !h.known()});
     gains.push_back({h.order, h.recovered ? h.gain : 0.0, !h.recovered});
   }
   const std::string orders = tr("undulations per revolution");
@@ -148,17 +148,16 @@ std::string harmonic_plots(const evaluation::SpindleResult& facts,
 std::string harmonic_table(const fit::ThreeProbeResult& s) {
   std::vector<fit::RecoveredHarmonic> shown = s.harmonics;
   std::stable_sort(shown.begin(), shown.end(), [](const auto& a, const auto& b) {
-    return a.recovered != b.recovered ? b.recovered : a.amplitude_mm > b.amplitude_mm;
+    return a.known() != b.known() ? b.known() : a.amplitude_mm > b.amplitude_mm;
   });
   const std::size_t count = std::min(shown.size(), s.unrecovered.size() + 10);
   TableRows rows;
   for (std::size_t i = 0; i < count; ++i) {
     const fit::RecoveredHarmonic& h = shown[i];
-    rows.push_back(
-        {std::to_string(h.order),
-         h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
-         h.phase_rad ? deg(*h.phase_rad, 2) : "–",
-         h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2)});
+    rows.push_back({std::to_string(h.order),
+                    h.known() ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
+                    h.phase_rad ? deg(*h.phase_rad, 2) : "–",
+                    h.known() ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2)});
   }
   return scrolling(table("short", "rrrrr", spoken_caption(tr("Harmonics of the part")),
                          {"UPR", tr("Amplitude µm"), tr("Phase °"), "u µm", tr("Gain")}, rows)) +

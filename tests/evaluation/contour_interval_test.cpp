@@ -414,6 +414,33 @@ TEST(ContourGates, FilteringTwiceVoidsTheContour) {
   EXPECT_THAT(result.characteristics[0].reason.english(), testing::HasSubstr("done-by-gauge"));
 }
 
+// The plan says 50 UPR for all of them.
+TEST(ContourGates, AGaugeThatHasFilteredAtAnotherCutOffVoidsTheContour) {
+  for (const double cutoff_upr : {15.0, 50.0, 150.0}) {
+    SCOPED_TRACE(cutoff_upr);
+    Pins pins;
+    pins.keep(2);
+    core::KeyedNoise noise(7, {1});
+    for (std::vector<double>& pin : pins.pins) {
+      for (double& r : pin) r += 0.2 * kMicrometre * noise.normal();
+      fit::FilterOptions filter;
+      filter.cutoff_upr = cutoff_upr;
+      pin = fit::filter_closed(pin, filter).value().r_mm;
+    }
+    const FeatureResult result = pins.judged();
+    const Gate& found = contour_gate(result, "gauge-filter");
+    if (cutoff_upr == 50.0) {
+      EXPECT_EQ(found.outcome, Gate::Outcome::kPassed) << found.reason.english();
+      EXPECT_NE(result.characteristics[0].verdict, Verdict::kVoid);
+      continue;
+    }
+    EXPECT_EQ(found.outcome, Gate::Outcome::kVoids);
+    EXPECT_NEAR(found.found.value(), cutoff_upr, 0.25 * cutoff_upr);
+    EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
+    EXPECT_THAT(result.characteristics[0].reason.english(), testing::HasSubstr("at 50 UPR"));
+  }
+}
+
 TEST(ContourGates, AnEccentricPinIsVoidUnlessTheCircleIsGeometric) {
   Pins pins;
   pins.keep(2);

@@ -17,6 +17,7 @@
 #include "evaluation/evaluate.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/spindle/result.h"
+#include "fit/profiles/profile_filter.h"
 #include "fit/spindle/axis_motion.h"
 #include "fit/spindle/first_harmonic.h"
 #include "fit/spindle/separation_model.h"
@@ -47,6 +48,7 @@ struct World {
   int samples = 1024;
   std::uint64_t seed = 2;
   std::vector<fit::Wave> chatter;  ///< Of the part, beside the profile of the worked cases.
+  double tip_mm = 0.0;             ///< Diameter of the spot of each probe.
   bool specified = false;          ///< Noise as the specification draws it: turn, probe, sample.
 };
 
@@ -55,6 +57,20 @@ double x_um(double a) {
 }
 double y_um(double a) {
   return 0.9 * std::cos(3 * a) + 0.5 * std::sin(4 * a + 0.7) + 0.25 * std::cos(13 * a);
+}
+
+/// The mean of cos(k s / R) over a disc of this diameter, by its series; 2 J1(x)/x.
+double mean_over_disc(int order, double diameter_mm) {
+  const double half = 0.25 * order * diameter_mm / kArm.pin_radius_mm;
+  double term = 1.0;
+  double sum = 1.0;
+  for (int m = 1; m < 30; ++m) sum += term *= -half * half / (m * (m + 1.0));
+  return sum;
+}
+
+double seen(std::vector<fit::Wave> waves, double theta, double tip_mm) {
+  for (fit::Wave& wave : waves) wave.amplitude_um *= mean_over_disc(wave.order, tip_mm);
+  return fit::sum_of(waves, theta);
 }
 
 /// The exact distance along the line of probe i.
@@ -66,7 +82,7 @@ double exact_um(const World& world, std::size_t i, double alpha) {
   const double along = y_um(alpha) * std::cos(direction) + x_um(alpha) * std::sin(direction);
   const double across = x_um(alpha) * std::cos(direction) - y_um(alpha) * std::sin(direction);
   const auto profile = [&](double theta) {
-    return fit::sum_of(part.profile, theta) + fit::sum_of(world.chatter, theta) +
+    return seen(part.profile, theta, world.tip_mm) + seen(world.chatter, theta, world.tip_mm) +
            world.eccentricity_um * std::cos(theta - 35.0 * kDegree);
   };
   const double radius_um = kArm.pin_radius_mm / kMicrometre;
@@ -690,6 +706,96 @@ TEST(SpindleGates, DoNotJudgeRoundnessWithoutTheChatterThatItsFilterPasses) {
   EXPECT_EQ(gate(whole, "band").outcome, Gate::Outcome::kPassed);
   EXPECT_NEAR(*whole.characteristics.at(0).value_mm() / kMicrometre, truth_um, 0.03);
   EXPECT_EQ(whole.characteristics.at(0).verdict, Verdict::kDoesNotConform);
+}
+
+/// A shaft that turns on a fixed axis, read with 0.2 um of noise by amplifiers of that cut-off; 0:
+/// without a filter.
+void read_a_shaft(fit::ProbeReadings& readings, double cutoff_upr, std::uint64_t seed) {
+  constexpr std::size_t kTurn = 1024;
+  const auto places = fit::reference_layout().angles_rad();
+  const fit::SpindleCase part;
+  core::KeyedNoise noise(seed, {9});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::vector<double>& h = readings.h_mm[i];
+    for (std::size_t m = 0; m < h.size(); ++m) {
+      const double alpha = readings.alpha_rad[m];
+      h[m] = (fit::sum_of(part.profile, alpha + places[i]) + y_um(alpha) * std::cos(places[i]) +
+              x_um(alpha) * std::sin(places[i]) + 6.0 * std::cos(alpha + places[i]) +
+              0.2 * noise.normal()) *
+             kMicrometre;
+    }
+    fit::FilterOptions filter;
+    filter.cutoff_upr = cutoff_upr;
+    for (std::size_t first = 0; cutoff_upr > 0.0 && first < h.size(); first += kTurn) {
+      const auto low = fit::filter_closed(std::span(h).subspan(first, kTurn), filter).value().r_mm;
+      std::copy(low.begin(), low.end(), h.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+  }
+}
+
+// The filter of the amplifiers is at 15 UPR, the profile is stated at 50 UPR.
+TEST(SpindleGates, DoNotJudgeRoundnessOfReadingsThatWereFilteredBelowTheCutOff) {
+  World world = readings_of_a_wrong_gain();
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    for (const double cutoff_upr : {15.0, 140.0, 0.0}) {
+      auto run = run_of(world, probes(0.002, 0.02), [&](fit::ProbeReadings& readings) {
+        read_a_shaft(readings, cutoff_upr, seed);
+      });
+      auto task = record::task_of<record::SpindleTask>(run.features[0].settings);
+      task->crank_radius_mm = 0.0;
+      run.features[0].settings = record::settings_of_task(*task);
+      const Gate band = gate(result_of(run), "band");
+      EXPECT_EQ(band.outcome, cutoff_upr == 15.0 ? Gate::Outcome::kVoids : Gate::Outcome::kPassed)
+          << "seed " << seed << ", " << cutoff_upr << " UPR: " << band.reason.english();
+      if (cutoff_upr != 15.0) continue;
+      EXPECT_THAT(band.reason.english(), HasSubstr("50 UPR"));
+      EXPECT_THAT(band.reason.english(), ::testing::ContainsRegex("filter of 1[2-9] UPR"));
+    }
+  }
+}
+
+// A spot of 2 mm on a radius of 24.56 mm leaves 0.56 of 50 UPR (methods, analyses_uncertainty 2.1).
+TEST(SpindleTips, AreTakenOutOfThePart) {
+  EXPECT_NEAR(mean_over_disc(50, 2.0), 0.56, 0.005);
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  world.chatter = {{37, 0.8, 0.3}};
+  const auto evaluated = [&](double tip_mm, std::optional<double> stated_mm, double cutoff_upr) {
+    world.tip_mm = tip_mm;
+    auto run = run_of(world, probes(0.002, 0.02));
+    auto task = record::task_of<record::SpindleTask>(run.features[0].settings);
+    task->tip_width_mm = stated_mm;
+    task->cutoff_upr = cutoff_upr;
+    run.features[0].settings = record::settings_of_task(*task);
+    record::Characteristic mask = asked("mask", record::Form::kHarmonicLimits, std::nullopt);
+    mask.harmonic_limits = {{3, 3, 10.0 * kMicrometre}, {45, 45, kMicrometre}};
+    run.features[0].characteristics.push_back(mask);
+    return result_of(run);
+  };
+  const auto value = [](const FeatureResult& result, std::size_t c) {
+    return *result.characteristics.at(c).value_mm() / kMicrometre;
+  };
+  const FeatureResult point = evaluated(0.0, std::nullopt, 50.0);
+  const FeatureResult wide = evaluated(2.0, std::nullopt, 50.0);
+  const FeatureResult mended = evaluated(2.0, 2.0, 50.0);
+  EXPECT_GT(std::abs(value(wide, 0) - value(point, 0)), 0.1);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(value(mended, c), value(point, c), 0.01) << c;
+    const auto stated = mended.characteristics[c].value->uncertainty().result();
+    const auto of_point = point.characteristics[c].value->uncertainty().result();
+    ASSERT_TRUE(stated && of_point) << c;
+    EXPECT_NEAR(stated->sampled.low_mm, of_point->sampled.low_mm, 0.02 * kMicrometre) << c;
+    EXPECT_NEAR(stated->sampled.high_mm, of_point->sampled.high_mm, 0.02 * kMicrometre) << c;
+  }
+  EXPECT_THAT(mended.characteristics[0].value->operator_text().english(), HasSubstr("2 mm"));
+  // 3 mm: x is 2.5 at the order 40.9.
+  const FeatureResult too_wide = evaluated(3.0, 3.0, 50.0);
+  EXPECT_EQ(too_wide.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(too_wide.characteristics[0].reason.english(), HasSubstr("up to 40 only"));
+  EXPECT_NE(too_wide.characteristics.at(2).verdict, Verdict::kVoid) << "motion knows no tip";
+  EXPECT_EQ(too_wide.characteristics.at(3).verdict, Verdict::kVoid);
+  EXPECT_THAT(too_wide.characteristics[3].reason.english(), HasSubstr("harmonic 45"));
+  EXPECT_NE(evaluated(3.0, 3.0, 40.0).characteristics.at(0).verdict, Verdict::kVoid);
 }
 
 // Layout A comes to probes in line at an arm 0.19 mm longer: what an arm known to 0.15 mm does has

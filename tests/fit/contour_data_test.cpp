@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -174,10 +175,67 @@ TEST(MeasuredContour, SeesThatTheGaugeHasFiltered) {
     const auto twice = measured_contour(gauge.angle, gauge.deviation).value();
     ASSERT_EQ(twice.warnings.size(), 1U);
     EXPECT_EQ(twice.warnings[0].code, core::Code::kFilteredTwice);
-    EXPECT_NEAR(twice.filter.cutoff_upr.value(), 50.0, 12.0);
+    EXPECT_NEAR(twice.filter.passed.value().cutoff_upr, 50.0, 12.0);
     MeasuredContourOptions options;
     options.error.filtered_already = true;
     EXPECT_TRUE(measured_contour(gauge.angle, gauge.deviation, options).value().warnings.empty());
+  }
+}
+
+/// What a gauge of that cut-off writes of a pin with harmonics 2 to 8 and white roughness, in steps
+/// of 0.001 um.
+Gauge filtered_gauge(std::uint64_t seed, double rough_um, double cutoff_upr) {
+  Gauge out(seed, rough_um);
+  core::KeyedNoise noise(seed, {4});
+  for (int k = 3; k <= 8; ++k) {
+    const double amplitude_mm = kMicrometre * noise.normal() / std::pow(k, 1.5);
+    const double phase = core::kTwoPi * noise.uniform();
+    for (std::size_t m = 0; m < 1440; ++m) {
+      out.deviation[m] += amplitude_mm * std::cos(k * out.angle[m] - phase);
+    }
+  }
+  FilterOptions filter;
+  filter.cutoff_upr = cutoff_upr;
+  out.deviation = filter_closed(out.deviation, filter).value().r_mm;
+  for (double& r : out.deviation) r = 1e-6 * std::round(1e6 * r);
+  return out;
+}
+
+/// Of `seeds` such pins, those of which another cut-off is found than `stated_upr`.
+int of_another_cutoff(int seeds, double rough_um, double cutoff_upr, double stated_upr) {
+  int out = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Gauge gauge = filtered_gauge(static_cast<std::uint64_t>(seed), rough_um, cutoff_upr);
+    MeasuredContourOptions options;
+    options.error.filtered_already = true;
+    options.error.filter.cutoff_upr = stated_upr;
+    const auto found = measured_contour(gauge.angle, gauge.deviation, options).value();
+    if (!found.filter.other_than(stated_upr)) continue;
+    ++out;
+    EXPECT_NEAR(std::log(found.filter.passed->cutoff_upr / cutoff_upr), 0.0, std::log(1.35))
+        << seed;
+    EXPECT_TRUE(std::ranges::any_of(found.warnings, [](const core::Error& warning) {
+      return warning.code == core::Code::kInconsistent;
+    })) << seed;
+  }
+  return out;
+}
+
+TEST(MeasuredContour, FindsTheCutOffAtWhichTheGaugeHasFiltered) {
+  constexpr int kSeeds = 40;
+  const int low = of_another_cutoff(kSeeds, 0.2, 15.0, 50.0);
+  const int middle = of_another_cutoff(kSeeds, 0.2, 50.0, 150.0);
+  const int high = of_another_cutoff(kSeeds, 0.2, 150.0, 50.0);
+  std::printf("40 pins of 0.2 um, 15 for 50 UPR found: %d, 50 for 150: %d, 150 for 50: %d\n", low,
+              middle, high);
+  EXPECT_GE(low, 34);
+  EXPECT_GE(middle, 36);
+  EXPECT_GE(high, 36);
+  for (const double rough_um : {0.2, 0.05, 0.02, 0.005}) {
+    SCOPED_TRACE(rough_um);
+    for (const double cutoff_upr : {15.0, 50.0, 150.0}) {
+      EXPECT_EQ(of_another_cutoff(kSeeds, rough_um, cutoff_upr, cutoff_upr), 0) << cutoff_upr;
+    }
   }
 }
 

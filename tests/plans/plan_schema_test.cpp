@@ -26,8 +26,8 @@ TEST(PlanSchema, HasTheDefaultsOfTheTask) {
     }
     ++found;
   }
-  EXPECT_EQ(found + 7, keys.size()) << "seven keys have no default: three angles, the noise, the "
-                                       "range of the probes, the feature "
+  EXPECT_EQ(found + 8, keys.size()) << "eight keys have no default: three angles, the noise, the "
+                                       "range and the tips of the probes, the feature "
                                        "that gives the wheel radius and the declared influences";
 }
 

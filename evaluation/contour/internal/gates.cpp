@@ -37,13 +37,7 @@ void void_total(ContourResult& facts, const core::Phrase& reason) {
 }
 
 Gate stroke_unchecked(const ContourResult& facts) {
-  Gate out{"stroke-unchecked",
-           core::phrase("positions of X recorded with every trace"),
-           {},
-           {},
-           "",
-           Outcome::kPassed,
-           {}};
+  Gate out{"stroke-unchecked", core::phrase("positions of X recorded with every trace")};
   const auto unchecked =
       std::ranges::find_if(facts.study.parts, [](const auto& part) { return !part.positions; });
   if (unchecked == facts.study.parts.end()) return out;
@@ -63,13 +57,8 @@ std::vector<Gate> eccentric_gauge(std::span<const record::Characteristic> asked,
   }
   const bool exact = facts.options.error.base == fit::BaseCircle::kGeometric;
   std::vector<Gate> out;
-  Gate place{"eccentric-gauge",
-             core::phrase("eccentricity of a pin on the gauge"),
-             largest_mm,
-             kEccentricity,
-             "mm",
-             Outcome::kPassed,
-             {}};
+  Gate place{"eccentric-gauge", core::phrase("eccentricity of a pin on the gauge"), largest_mm,
+             kEccentricity, "mm"};
   if (!exact && largest_mm > kEccentricity) {
     place.outcome = Outcome::kVoids;
     place.reason = core::phrase(
@@ -90,11 +79,7 @@ std::vector<Gate> eccentric_gauge(std::span<const record::Characteristic> asked,
   const double limit_mm = kShareOfTolerance * *tolerance_mm;
   Gate share{"eccentricity-error",
              core::phrase("error of the base circle by the eccentricity, limit T/20"),
-             error_mm / kMicrometre,
-             limit_mm / kMicrometre,
-             "um",
-             Outcome::kPassed,
-             {}};
+             error_mm / kMicrometre, limit_mm / kMicrometre, "um"};
   if (error_mm > limit_mm) {
     share.outcome = Outcome::kVoids;
     share.reason = core::phrase(
@@ -112,17 +97,37 @@ bool filters(const fit::ContourStudyOptions& options) {
   return !options.prefiltered && options.error.filter.filter != fit::ProfileFilter::kNone;
 }
 
-Gate filter_twice(ContourResult& facts) {
-  Gate out{
-      "filter-twice", core::phrase("contours filtered once"), {}, {}, "", Outcome::kPassed, {}};
-  for (std::size_t i = 0; filters(facts.options) && i < facts.study.parts.size(); ++i) {
+/// Contours are filtered once: here, or by the gauge at the cut-off that is stated.
+Gate filter_of_gauge(ContourResult& facts) {
+  const double stated_upr = facts.options.error.filter.cutoff_upr;
+  const bool by_gauge = facts.options.prefiltered;
+  Gate out{"filter-twice", core::phrase("contours filtered once")};
+  if (by_gauge) {
+    out.code = "gauge-filter";
+    out.condition = core::phrase(
+        "cut-off of the gauge by the fall of noise and roughness, against the one stated");
+    out.limit = stated_upr;
+    out.unit = "UPR";
+  }
+  for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const fit::FilterTrace& trace = facts.study.parts[i].pin.filter;
-    if (!trace.filtered) continue;
+    if (by_gauge && trace.passed && !out.found) out.found = trace.passed->cutoff_upr;
+    const bool twice = filters(facts.options) && trace.filtered;
+    if (!twice && !(by_gauge && trace.other_than(stated_upr))) continue;
     out.outcome = Outcome::kVoids;
-    out.reason = core::phrase(
-        "part {}: above three times the cut-off only {:.2g} um rms are left; the gauge has "
-        "filtered already, and the filter would act twice: say filter done-by-gauge",
-        facts.names[i], trace.upper_rms_mm / kMicrometre);
+    if (by_gauge) out.found = trace.passed->cutoff_upr;
+    out.reason =
+        twice
+            ? core::phrase(
+                  "part {}: above three times the cut-off only {:.2g} um rms are left; the gauge "
+                  "has filtered already, and the filter would act twice: say filter "
+                  "done-by-gauge",
+                  facts.names[i], trace.upper_rms_mm / kMicrometre)
+            : core::phrase(
+                  "part {}: noise and roughness fall as after a Gaussian filter of {:.0f} UPR, the "
+                  "plan says that the gauge has filtered at {:g} UPR: state its cut-off "
+                  "(cutoff_upr), or measure with that of the plan",
+                  facts.names[i], *out.found, stated_upr);
     void_total(facts, out.reason);
     break;
   }
@@ -138,9 +143,7 @@ Gate trace_sampling(ContourResult& facts) {
            core::phrase("samples of the control in an undulation at the cut-off"),
            {},
            fit::kSamplesPerUndulation,
-           "",
-           Outcome::kPassed,
-           {}};
+           ""};
   const fit::FilterOptions& filter = facts.options.error.filter;
   if (filter.filter == fit::ProfileFilter::kNone) return out;
   out.found = least / filter.highest_cutoff_upr();
@@ -156,13 +159,7 @@ Gate trace_sampling(ContourResult& facts) {
 }
 
 Gate trace_skew(ContourResult& facts) {
-  Gate out{"trace-skew",
-           core::phrase("time between the traces of C and X declared"),
-           {},
-           {},
-           "ms",
-           Outcome::kPassed,
-           {}};
+  Gate out{"trace-skew", core::phrase("time between the traces of C and X declared"), {}, {}, "ms"};
   const bool declared = facts.influences && facts.influences->skew_ms;
   const double u_ms = declared ? record::u_of(facts.influences->skew_ms) : 0.0;
   if (declared) out.found = u_ms;
@@ -184,11 +181,7 @@ Gate sense(ContourResult& facts) {
   const auto parts = static_cast<double>(found.parts);
   Gate out{"sense",
            core::phrase("parts whose contour fits the negated or mirrored f better, at most half"),
-           static_cast<double>(std::max(found.negated_better, found.mirrored_better)),
-           0.5 * parts,
-           "",
-           Outcome::kPassed,
-           {}};
+           static_cast<double>(std::max(found.negated_better, found.mirrored_better)), 0.5 * parts};
   if (!found.sign_suspect() && !found.sense_suspect()) return out;
   out.outcome = Outcome::kVoids;
   const double given_um = found.rms_difference_mm / kMicrometre;
@@ -215,11 +208,7 @@ Gate phase(ContourResult& facts) {
   const double limit = kDeviations * std::hypot(offset.u_rad, zero);
   Gate out{"phase",
            core::phrase("angle by which correlation would turn f onto t, all parts together"),
-           std::abs(offset.angle_rad) / kDegree,
-           limit / kDegree,
-           "deg",
-           Outcome::kPassed,
-           {}};
+           std::abs(offset.angle_rad) / kDegree, limit / kDegree, "deg"};
   if (!offset.at_edge && std::abs(offset.angle_rad) <= limit) return out;
   out.outcome = Outcome::kVoids;
   out.reason = core::phrase(
@@ -237,9 +226,7 @@ Gate gain(ContourResult& facts) {
                         "where the parts differ in sign"),
            {},
            kDeviations,
-           "",
-           Outcome::kPassed,
-           {}};
+           ""};
   if (facts.study.parts.size() < 2 || facts.study.sense.sense_suspect()) return out;
   const double sign = facts.study.sense.sign_suspect() ? -1.0 : 1.0;  // "sense" says so
   const double declared = facts.influences ? record::u_of(facts.influences->gauge_gain_1) : 0.0;
@@ -271,10 +258,7 @@ Gate gain(ContourResult& facts) {
 /// Whether pins and mains see the same sources: correlation of n with the main journal, of all
 /// parts that have both.
 Gate indirect(ContourResult& facts) {
-  Gate out{"indirect", core::phrase("correlation of n with the main journals"),
-           {},         kLikeness,
-           "",         Outcome::kPassed,
-           {}};
+  Gate out{"indirect", core::phrase("correlation of n with the main journals"), {}, kLikeness};
   std::vector<double> rest;
   std::vector<double> mains;
   for (const fit::ContourPartResult& part : facts.study.parts) {
@@ -300,17 +284,16 @@ Gate indirect(ContourResult& facts) {
 std::vector<Gate> position_gates(std::span<const fit::ContourPart> parts,
                                  const fit::ContourStudyOptions& options) {
   std::optional<fit::PositionCheck> worst;
-  Gate stroke{"stroke", core::phrase("stroke of X against twice the crank radius"),
-              {},       fit::PositionCheck::kStrokeLimit,
-              "mm",     Outcome::kPassed,
-              {}};
+  Gate stroke{"stroke",
+              core::phrase("stroke of X against twice the crank radius"),
+              {},
+              fit::PositionCheck::kStrokeLimit,
+              "mm"};
   Gate course{"stroke-course",
               core::phrase("rms of the positions of X off the ideal motion"),
               {},
               fit::PositionCheck::kCourseLimit,
-              "mm",
-              Outcome::kPassed,
-              {}};
+              "mm"};
   for (const fit::ContourPart& part : parts) {
     if (part.trace.x_mm.empty()) continue;
     const auto turn = fit::last_turn(part.trace, options.axes);
@@ -347,7 +330,7 @@ std::vector<Gate> contour_gates(std::span<const record::Characteristic> asked,
   std::vector<Gate> out;
   out.push_back(stroke_unchecked(facts));
   for (Gate& gate : eccentric_gauge(asked, facts)) out.push_back(std::move(gate));
-  out.push_back(filter_twice(facts));
+  out.push_back(filter_of_gauge(facts));
   out.push_back(trace_sampling(facts));
   out.push_back(trace_skew(facts));
   out.push_back(sense(facts));
@@ -366,6 +349,8 @@ bool is_gate(const core::Error& warning, const fit::ContourStudyOptions& options
       return warning.where.ends_with("/axes");
     case Code::kFilteredTwice:
       return warning.where.ends_with("/pin") && filters(options);
+    case Code::kInconsistent:  // filter_of_gauge()
+      return warning.where.ends_with("/pin");
     default:
       return false;
   }
