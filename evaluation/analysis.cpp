@@ -185,7 +185,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
   result.complete = is_complete(record, static_cast<std::size_t>(index));
   if (result.feature.shape == record::Shape::kRotaryAxes) {  // its data are touches
     if (probe) result.tip_radius_mm = probe->radius_mm;
-    keep(evaluate_rotary(record, index, result), result);
+    keep(evaluate_rotary(record, index, probe, result), result);
   } else {
     result.temperatures = temperatures_of_series(record, index);
     evaluate_series(record, index, earlier, result);

@@ -372,6 +372,13 @@ void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& a) {
   add_list(*verb, "--at", a.place_mm, "mm, a place of the part: its point uncertainty is stated",
            "X,Y,Z");
   verb->add_flag("--keep-outliers", a.keep_outliers, "No ball is left out");
+  verb->add_option("--repeat-urad", a.repeat_urad,
+                   "Standard uncertainty by the axis' repeatability")
+      ->check(CLI::Range(0.0, 1e4));
+  verb->add_option("--tool-um", a.tool_um,
+                   "Standard uncertainty of y and z of the tools on which balls were set up one by "
+                   "one (left out: a plate carries all)")
+      ->check(CLI::Range(0.0, 1e4));
   verb->add_flag("--json", a.json, "JSON instead of text");
   verb->footer(
       "\nColumns: axis,station_deg,ball,x_mm,y_mm,z_mm,u_um (or ux_um,uy_um,uz_um)[,direction].\n"

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "core/units.h"
 #include "fit/rotary/axes.h"
 #include "fit/rotary/model.h"
+#include "fit/rotary/reading.h"
 #include "record/csv/balls.h"
 #include "record/files.h"
 
@@ -384,6 +386,29 @@ core::Result<std::vector<NamedAxis>> read_rotary_axes(const RotaryAxesArguments&
   return out;
 }
 
+/// Adds what is declared of the axis, and of the tools that hold the balls.
+void declare(const RotaryAxesArguments& a, fit::RotaryMeasurement& m) {
+  const double repeat_rad = a.repeat_urad * core::kMicroradian;
+  if (m.references.empty() || (repeat_rad == 0.0 && !a.tool_um)) return;
+  const fit::Matrix6 of_plate =
+      fit::turn_covariance(m.axis.direction, Vector3d::Zero(), repeat_rad);
+  std::map<std::string, Vector3d> places;
+  for (const auto& reference : m.references) {
+    for (const fit::BallCentre& ball : reference) {
+      places.emplace(ball.ball, ball.centre_mm - m.axis.origin_mm);
+    }
+  }
+  std::vector<Vector3d> balls;
+  for (const auto& [name, place_mm] : places) balls.push_back(place_mm);
+  for (fit::RotaryPose& pose : m.stations) {
+    pose.placing_covariance =
+        a.tool_um ? fit::setup_covariance(balls, m.axis, pose.angle_rad - m.reference_rad,
+                                          repeat_rad, *a.tool_um * core::kMicrometre)
+                  : of_plate;
+  }
+  if (!a.tool_um) m.reference_placing = of_plate / static_cast<double>(m.references.size());
+}
+
 fit::RotaryOptions options_of(const RotaryAxesArguments& a) {
   fit::RotaryOptions out;
   if (a.method == "linear") out.solver = fit::RotaryOptions::Solver::kLinear;
@@ -398,9 +423,10 @@ core::Result<std::vector<RotaryAxisResult>> identify(const RotaryAxesArguments& 
   if (!arguments.place_mm.empty() && arguments.place_mm.size() != 3) {
     return core::fail(Code::kBadOption, "--at needs three numbers: X,Y,Z");
   }
-  TRY(const auto axes, read_rotary_axes(arguments));
+  TRY(auto axes, read_rotary_axes(arguments));
   std::vector<RotaryAxisResult> out;
-  for (const NamedAxis& axis : axes) {
+  for (NamedAxis& axis : axes) {
+    declare(arguments, axis.measurement);
     auto study = fit::identify_rotary_axis(axis.measurement, options_of(arguments));
     if (!study) return core::fail(study.error().at(fmt::format("axis {}", axis.name)));
     RotaryAxisResult result;

@@ -167,6 +167,10 @@ struct RotaryAxesArguments {
   std::string curve = "spline";
   std::vector<double> place_mm;  ///< Place whose uncertainty is stated; empty: the origin.
   bool keep_outliers = false;
+  double repeat_urad = 0.0;  ///< Of the axis.
+  /// Of the coordinates y and z at which tools hold the balls, each set up by itself; none: all
+  /// balls stand on one plate.
+  std::optional<double> tool_um;
   bool json = false;
 };
 [[nodiscard]] int rotary_axes(const RotaryAxesArguments& arguments);

@@ -95,7 +95,9 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
   out.placing_u_rad = std::hypot(record::u_of(said.reading_urad) * kMicroradian, out.repeat_u_rad);
   const double radius_mm = 0.5 * task.ball_diameter_mm + tip_mm;
   double squares_mm2 = 0.0;
-  int freedoms = 0;
+  double sum_mm = 0.0;
+  double per_radius = 0.0;
+  int freedoms = -1;  // a radius of all balls
   for (const record::PoseVisit& visit : record.poses) {
     if (visit.feature != index) continue;
     std::map<int, std::vector<Vector3d>> tips;
@@ -112,6 +114,8 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
       TRY(const auto center, center_of(points, radius_mm, record.artefact.form_limit_mm,
                                        out.names[static_cast<std::size_t>(ball)], visit.commanded));
       squares_mm2 += center.sum_squares_mm2;
+      sum_mm += center.sum_mm;
+      per_radius += center.sum_per_radius;
       freedoms += static_cast<int>(points.size()) - 3;
       balls.centers[ball] = center;
     }
@@ -119,7 +123,9 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index,
   }
   if (freedoms <= 0) return core::fail(core::Code::kNoPoints, "no ball was touched");
   // Touches without scatter, as in an error-free simulation, are still rounded to their digits.
-  out.touch_sigma_mm = std::max(1e-9, std::sqrt(squares_mm2 / freedoms));
+  // The error of the tip radius is in all residuals alike, and is no scatter of a touch.
+  if (per_radius < 0.0) squares_mm2 -= sum_mm * sum_mm / -per_radius;
+  out.touch_sigma_mm = std::max(1e-9, std::sqrt(std::max(0.0, squares_mm2) / freedoms));
   return out;
 }
 
@@ -534,11 +540,43 @@ core::Result<void> weigh_combined(RotaryResult& facts) {
   return {};
 }
 
-core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, double tip_mm,
-                                    std::vector<Gate>& gates) {
+/// A tip of another radius shifts every ball to the side on which it is touched, whatever the pose;
+/// the zero poses turn their shift with the body. What is left is common to all stations. At the
+/// combined poses both axes together cancel it.
+core::Result<void> add_tip_radius(const Measurement& measured, RotaryResult& facts) {
+  constexpr double kLeast_mm = 1e-9;
+  if (facts.tip_u_mm < kLeast_mm) return {};
+  Vector3d side = Vector3d::Zero();
+  double count = 0.0;
+  for (const VisitBalls& visit : measured.visits) {
+    for (const auto& [ball, center] : visit.centers) side += center.per_radius;
+    count += static_cast<double>(visit.centers.size());
+  }
+  side *= facts.tip_u_mm / count;
+  const auto add = [&](const fit::RotaryTable& table, auto& motion,
+                       std::vector<fixture::ErrorVector>& mode) -> core::Result<void> {
+    std::vector<fixture::AxisStation> stations = motion->stations();
+    for (fixture::AxisStation& station : stations) {
+      fixture::ErrorVector& by = mode.emplace_back(fixture::ErrorVector::Zero());
+      by.head<3>() = side - table.axis.turn(station.angle_rad - table.reference_rad) * side;
+      station.covariance += by * by.transpose();
+    }
+    TRY(motion, fixture::StationMotion::through(std::move(stations)));
+    return {};
+  };
+  fixture::Calibration& c = facts.calibration;
+  fixture::CommonMode mode{kTipRadius, {}, {}};
+  TRY_DO(add(facts.alpha.table, c.alpha, mode.alpha));
+  TRY_DO(add(facts.beta.table, c.beta, mode.beta));
+  c.common_modes.push_back(std::move(mode));
+  return {};
+}
+
+core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index,
+                                    const fit::ProbeTip& probe, std::vector<Gate>& gates) {
   TRY(const auto task,
       record::task_of<RotaryTask>(record.features[static_cast<std::size_t>(index)].settings));
-  TRY(auto measured, measure(record, index, task, tip_mm));
+  TRY(auto measured, measure(record, index, task, probe.radius_mm));
   RotaryResult facts;
   fixture::Calibration& c = facts.calibration;
   TRY_DO(date_calibration(record, task, c));
@@ -558,10 +596,12 @@ core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, 
   facts.poses = measured.visits.size();
   facts.touches = measured.touches;
   facts.touch_sigma_mm = measured.touch_sigma_mm;
+  facts.tip_u_mm = probe.radius_per_touch * measured.touch_sigma_mm;
   TRY_DO(check_balls(measured, facts));
   judge_balls(measured, facts);
   verify_combined(measured, facts);
   TRY_DO(weigh_combined(facts));
+  TRY_DO(add_tip_radius(measured, facts));
   gates = rotary_gates(facts, placing_of(record, task, measured, nominal));
   return facts;
 }
@@ -612,6 +652,7 @@ void warn_rotary(const RotaryResult& facts, const std::vector<Gate>& gates,
 }  // namespace
 
 core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int index,
+                                           const std::optional<fit::ProbeTip>& probe,
                                            FeatureResult& result) {
   result.temperatures = temperatures_of(record, ball_touches(record, index));
   if (record.ending != "finished") {
@@ -620,10 +661,8 @@ core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int 
                           ? fmt::format("not measured to its end: {}", record.failure->what)
                           : "the run ended before all poses were measured");
   }
-  if (!result.tip_radius_mm) {
-    return core::fail(core::Code::kCalibration, "the probe was not qualified");
-  }
-  TRY(auto facts, facts_of(record, index, *result.tip_radius_mm, result.gates));
+  if (!probe) return core::fail(core::Code::kCalibration, "the probe was not qualified");
+  TRY(auto facts, facts_of(record, index, *probe, result.gates));
   if (auto growth = growth_gate(facts, result)) result.gates.push_back(*std::move(growth));
   // Those of the temperature are listed with the gates of every analysis.
   facts.withheld = voided_by(temperature_gates(record, result));

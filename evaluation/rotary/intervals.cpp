@@ -24,6 +24,11 @@ std::vector<InfluenceStatement> declaration_of(const RotaryResult& facts, bool o
   return {{"ball-centre", true,
            core::phrase("ball centre, scatter of the touches included: u = {} um",
                         core::um(facts.noise_mm))},
+          {kTipRadius, true,
+           of_poses ? core::phrase("radius of the tip: both axes together cancel it")
+                    : core::phrase("radius of the tip, by the scatter of its qualification: u = {} "
+                                   "um",
+                                   core::um(facts.tip_u_mm))},
           statement_of("axis-repeatability", said.repeat_urad, 1.0,
                        core::phrase("repeatability of an axis [urad]"),
                        core::phrase("repeatability of an axis: not declared (repeat_urad)")),

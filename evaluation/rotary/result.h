@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "evaluation/results/analysis_value.h"
+#include "fit/least_squares/probe_tip.h"
 #include "fit/rotary/axes.h"
 #include "fixture/error_model.h"
 #include "record/tasks/analysis_influences.h"
@@ -13,6 +14,9 @@
 namespace rondure::evaluation {
 
 struct FeatureResult;  // results/evaluation.h
+
+/// Name of the common mode by the qualified tip radius.
+inline constexpr const char* kTipRadius = "tip-radius";
 
 /// Residual at one combined pose.
 struct CombinedPose {
@@ -36,6 +40,7 @@ struct RotaryResult {
   std::vector<std::string> balls;
   std::size_t poses = 0;
   std::size_t touches = 0;
+  double tip_u_mm = 0.0;        ///< Of the qualified tip radius, by that scatter.
   double touch_sigma_mm = 0.0;  ///< Pooled scatter of a touch about its ball.
   double center_u_mm = 0.0;     ///< Root mean square standard uncertainty of a centre coordinate.
   double condition = 0.0;       ///< Condition of the set of balls; see fit::setup_condition().
@@ -55,9 +60,11 @@ struct RotaryResult {
 };
 
 /// Evaluates feature `index` of a record.
-/// @param result  Holds the feature and the tip radius; receives the warnings and the temperatures.
+/// @param probe   As qualified; the scatter of its radius moves all balls alike.
+/// @param result  Holds the feature; receives the warnings and the temperatures.
 /// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int index,
+                                                         const std::optional<fit::ProbeTip>& probe,
                                                          FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const RotaryResult& result,

@@ -39,9 +39,8 @@ core::Result<ProbeTip> qualify_tip(SpacePoints tip_centers_mm, double sphere_rad
   ProbeTip tip;
   tip.sphere_center_mm = sphere->center_mm;
   tip.radius_mm = sphere->radius_mm - sphere_radius_mm;
-  tip.radius_sigma_mm =
-      sphere->rms_mm *
-      std::sqrt(n / (n - 4.0) * radius_variance(tip_centers_mm, sphere->center_mm));
+  tip.radius_per_touch = std::sqrt(radius_variance(tip_centers_mm, sphere->center_mm));
+  tip.radius_sigma_mm = sphere->rms_mm * std::sqrt(n / (n - 4.0)) * tip.radius_per_touch;
   tip.form_mm = sphere->deviation_mm;
   return tip;
 }

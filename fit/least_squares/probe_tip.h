@@ -11,8 +11,9 @@ namespace rondure::fit {
 struct ProbeTip {
   Eigen::Vector3d sphere_center_mm = Eigen::Vector3d::Zero();
   double radius_mm = 0.0;  ///< rho: effective (pre-travel included), usually below the nominal one.
-  double radius_sigma_mm = 0.0;  ///< Standard deviation of rho from the residuals.
-  double form_mm = 0.0;          ///< Probing form: peak to valley of the residuals.
+  double radius_sigma_mm = 0.0;   ///< Standard deviation of rho from the residuals.
+  double radius_per_touch = 0.0;  ///< The same for touches with standard deviation 1.
+  double form_mm = 0.0;           ///< Probing form: peak to valley of the residuals.
 };
 
 /// Determines the effective tip radius: fits a least-squares sphere to the tip centres and

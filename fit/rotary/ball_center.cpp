@@ -23,8 +23,9 @@ core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
   for (int i = 0; i < kSteps; ++i) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    Eigen::Vector3d outward = Eigen::Vector3d::Zero();
     Extremes range;
-    out.sum_squares_mm2 = 0.0;
+    out.sum_squares_mm2 = out.sum_mm = 0.0;
     for (const Eigen::Vector3d& p : points_mm) {
       const Eigen::Vector3d v = p - out.center_mm;
       const double distance = v.norm();
@@ -32,10 +33,14 @@ core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
       const double residual = distance - radius_mm;
       normal += n * n.transpose();
       right += residual * n;
+      outward += n;
+      out.sum_mm += residual;
       out.sum_squares_mm2 += residual * residual;
       range.take(residual);
     }
     out.cofactor = normal.inverse();
+    out.per_radius = -out.cofactor * outward;
+    out.sum_per_radius = -static_cast<double>(points_mm.size()) - outward.dot(out.per_radius);
     out.deviation_mm = range.width();
     const Eigen::Vector3d step = out.cofactor * right;
     if (!step.allFinite()) break;

@@ -13,6 +13,10 @@ struct BallCenter {
   /// Covariance of the centre for touches with standard deviation 1 along their direction; multiply
   /// by the variance of a touch.
   Eigen::Matrix3d cofactor = Eigen::Matrix3d::Zero();
+  /// Its change per change of the radius that is held.
+  Eigen::Vector3d per_radius = Eigen::Vector3d::Zero();
+  double sum_mm = 0.0;           ///< Sum of the radial residuals.
+  double sum_per_radius = 0.0;   ///< Its change likewise; <= 0.
   double sum_squares_mm2 = 0.0;  ///< Sum of squares of the radial residuals.
   double deviation_mm = 0.0;     ///< Radial peak to valley about the centre [mm].
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Dense>
+
 namespace rondure::fit {
 
 Matrix6 turn_covariance(const Eigen::Vector3d& direction, const Eigen::Vector3d& through_mm,
@@ -10,6 +12,25 @@ Matrix6 turn_covariance(const Eigen::Vector3d& direction, const Eigen::Vector3d&
   Vector6 v;
   v << -direction.cross(through_mm), direction;
   return u_rad * u_rad * v * v.transpose();
+}
+
+Matrix6 setup_covariance(std::span<const Eigen::Vector3d> p_mm, const RotaryAxis& axis,
+                         double turned_rad, double repeat_rad, double tool_mm) {
+  const Eigen::Matrix3d turn = axis.turn(turned_rad);
+  const Eigen::Matrix<double, 3, 2> tool =
+      tool_mm * (turn - Eigen::Matrix3d::Identity()).rightCols<2>();
+  Matrix6 normal = Matrix6::Zero();
+  Matrix6 sum = Matrix6::Zero();
+  for (const Eigen::Vector3d& p : p_mm) {
+    const Eigen::Vector3d here = turn * p;
+    Matrix36 rows;
+    rows << Eigen::Matrix3d::Identity(), -cross_matrix(here);
+    const Eigen::Vector3d repeat = repeat_rad * axis.direction.cross(here);
+    normal += rows.transpose() * rows;
+    sum += rows.transpose() * (tool * tool.transpose() + repeat * repeat.transpose()) * rows;
+  }
+  const Matrix6 inverse = normal.inverse();
+  return inverse * sum * inverse;
 }
 
 Matrix6 turned_covariance(const Matrix6& covariance, const Eigen::Matrix3d& turn) {

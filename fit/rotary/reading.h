@@ -18,6 +18,15 @@ namespace rondure::fit {
 [[nodiscard]] Matrix6 turn_covariance(const Eigen::Vector3d& direction,
                                       const Eigen::Vector3d& through_mm, double u_rad);
 
+/// Covariance of the six errors of a station by balls that were set up one by one: at each the axis
+/// repeats anew, and each stands off by what its tool was set wrong in y and z, which the control
+/// takes for an error of the axis.
+/// @param p_mm  At least 3 balls in the reference pose, from the origin of the axis.
+/// Source: methods, analyses_uncertainty 3.1.
+[[nodiscard]] Matrix6 setup_covariance(std::span<const Eigen::Vector3d> p_mm,
+                                       const RotaryAxis& axis, double turned_rad, double repeat_rad,
+                                       double tool_mm);
+
 /// The covariance of (t; w) after a turn of the frame, the origin unchanged.
 [[nodiscard]] Matrix6 turned_covariance(const Matrix6& covariance, const Eigen::Matrix3d& turn);
 

@@ -48,6 +48,28 @@ TEST(FitRotaryAxes, GivesTheWorkedExample) {
   }
 }
 
+// A plate is turned as a whole; balls that were set up one by one say less of it, and a tool that
+// is set wrong looks like an error away from the reference pose.
+TEST(FitRotaryAxes, HoldsRepeatabilityAndToolsWhereTheyAreStated) {
+  const auto station = [](std::vector<std::string> options, std::size_t at) {
+    options.insert(options.begin(), rotary_data("c_axis.csv"));
+    return found_in(options).at("axes").at(0).at("stations").at(at);
+  };
+  const auto u = [](const json& of, const char* key, std::size_t k) {
+    return of.at(key).at(k).get<double>();
+  };
+  const json plain = station({}, 3);
+  const json plate = station({"--repeat-urad", "3"}, 3);
+  EXPECT_NEAR(std::pow(u(plate, "u_w_urad", 2), 2) - std::pow(u(plain, "u_w_urad", 2), 2),
+              9.0 * (1.0 + 1.0 / 3.0), 1e-6);
+  EXPECT_NEAR(u(plate, "u_t_um", 2), u(plain, "u_t_um", 2), 1e-9);
+  const json tools = station({"--tool-um", "0.3"}, 3);
+  EXPECT_GT(u(tools, "u_t_um", 0), u(plain, "u_t_um", 0));
+  EXPECT_NEAR(u(station({"--tool-um", "0.3"}, 0), "u_t_um", 0), u(station({}, 0), "u_t_um", 0),
+              1e-9);
+  EXPECT_EQ(tools.at("t_um"), plain.at("t_um"));
+}
+
 TEST(FitRotaryAxes, FindsThePlantedFixtureWithinItsUncertainties) {
   const json axes = found_in({rotary_data("fixture.csv"), "--origin", "250,180,320"}).at("axes");
   ASSERT_EQ(axes.size(), 2U);

@@ -37,7 +37,7 @@ double least_redundancy(const fit::RotaryStudy& study, double angle_rad) {
 
 /// The errors of one trial: those of the stations, with the common noise of the reference pose.
 std::vector<double> with_common(std::vector<double> errors_mm, const AxisCurve& curve,
-                                const Eigen::Vector3d& draw) {
+                                const Eigen::Vector4d& draw) {
   for (std::size_t s = 0; s < errors_mm.size(); ++s) errors_mm[s] += curve.common_mm[s].dot(draw);
   return errors_mm;
 }
@@ -59,10 +59,15 @@ AxisCurve axis_curve(const RotaryResult& result, const record::Characteristic& c
   const Eigen::Matrix3d of_reference = table.reference_covariance.block<3, 3>(place - k, place - k);
   const Eigen::Matrix3d parts = scale * independent_parts(factor * of_reference);
   AxisCurve out;
-  for (const fixture::AxisStation& station : axis.motion->stations()) {
+  const auto& modes = result.calibration.common_modes;
+  const auto tip = std::ranges::find(modes, kTipRadius, &fixture::CommonMode::name);
+  for (std::size_t s = 0; s < axis.motion->stations().size(); ++s) {
+    const fixture::AxisStation& station = axis.motion->stations()[s];
     const double turned_rad = station.angle_rad - table.reference_rad;
     if (std::abs(turned_rad) <= kReferencePose_rad) continue;
-    const Eigen::Vector3d common = (table.axis.turn(turned_rad) * parts).row(k).transpose();
+    const double by_tip = tip == modes.end() ? 0.0 : (beta ? tip->beta : tip->alpha)[s](place);
+    Eigen::Vector4d common;
+    common << (table.axis.turn(turned_rad) * parts).row(k).transpose(), scale * by_tip;
     const double alone_mm2 =
         scale * scale * station.covariance(place, place) - common.squaredNorm();
     out.angle_rad.push_back(station.angle_rad);
@@ -118,8 +123,8 @@ UncertaintyStatus axis_error_interval(const RotaryResult& result,
   std::vector<AxisExtreme> drawn;
   std::vector<double> core_mm;
   for (int t = 0; t < trials; ++t) {
-    Eigen::Vector3d common;
-    for (int i = 0; i < 3; ++i) {
+    Eigen::Vector4d common;
+    for (int i = 0; i < 4; ++i) {
       common(i) = normal_draw(options.seed, "rotary.zero-pose", static_cast<std::uint64_t>(i), t);
     }
     drawn.push_back(axis_extreme(with_common(draws.draw(t), curve, common), middle_mm));
@@ -138,10 +143,11 @@ UncertaintyStatus axis_error_interval(const RotaryResult& result,
     values.values_mm.push_back(axis_value_mm(characteristic, one));
   }
   const std::size_t s = measured.station;
-  auto stated = statement_of_trials(
-      std::move(values),
-      {{"axis-station", curve.u_mm[s]}, {"zero-pose", curve.common_mm[s].norm()}},
-      std::move(declaration), options);
+  auto stated = statement_of_trials(std::move(values),
+                                    {{"axis-station", curve.u_mm[s]},
+                                     {"zero-pose", curve.common_mm[s].head<3>().norm()},
+                                     {kTipRadius, std::abs(curve.common_mm[s](3))}},
+                                    std::move(declaration), options);
   return stated ? UncertaintyStatus::stated(*std::move(stated), options.coverage)
                 : UncertaintyStatus::none(stated.error().said());
 }

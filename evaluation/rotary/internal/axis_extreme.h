@@ -16,9 +16,9 @@ struct AxisCurve {
   std::vector<double> angle_rad;
   std::vector<double> found_mm;
   std::vector<double> u_mm;  ///< Standard uncertainty of the station alone.
-  /// What the three independent parts of the noise of the reference pose, common to all stations,
-  /// add at each station per standard uncertainty.
-  std::vector<Eigen::Vector3d> common_mm;
+  /// What is common to all stations adds at each per standard uncertainty: the three independent
+  /// parts of the noise of the reference pose, and the radius of the tip.
+  std::vector<Eigen::Vector4d> common_mm;
   std::vector<double> redundancy;  ///< Least of the coordinates of the balls at each station.
 };
 
