@@ -5,7 +5,7 @@
 
 #include "benchmarks/sections.h"
 #include "benchmarks/timing.h"
-#include "record/csv/points.h"
+#include "record/points/points.h"
 
 namespace rondure::benchmarks {
 namespace {
@@ -38,7 +38,7 @@ void register_text(const Extent& extent) {
   benchmark::RegisterBenchmark(name("text/ours").c_str(), [=](benchmark::State& state) {
     fill();
     for ([[maybe_unused]] auto _ : state) {
-      const auto table = record::parse_feature_csv(*text, "points.csv", "");
+      const auto table = record::read_points(*text, "points.csv");
       keep(table);
     }
   });

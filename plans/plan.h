@@ -17,6 +17,7 @@
 #include "plans/wheel_plan.h"
 #include "plans/zaber_plan.h"
 #include "record/decision_rule.h"
+#include "record/points/points.h"
 #include "record/report_words.h"
 #include "record/run_record.h"
 #include "record/tasks/characteristic.h"
@@ -221,7 +222,10 @@ struct SourcePlan {
   std::string file;  ///< CSV of tip centres or of series, relative to the plan.
   std::optional<double>
       tip_diameter_mm;  ///< Diameter of the probe tip used; none: radii stay tip-centre radii.
-  std::vector<ColumnPlan> columns;  ///< For series whose file uses other names.
+  std::vector<ColumnPlan> columns;         ///< Where the file names or has them otherwise.
+  std::optional<record::LengthUnit> unit;  ///< Of points; none: as the file says, or mm.
+  record::PointsAre points = record::PointsAre::kTipCentres;
+  std::optional<record::LayersFrom> layers;  ///< Of points; none: the column, where there is one.
   std::string feature;       ///< Only the rows whose column `feature` says this; empty: all rows.
   std::string clamping;      ///< Files of one name were measured in one clamping.
   std::string measured_utc;  ///< When the data were measured; may be empty.

@@ -30,7 +30,9 @@ Json place_json(const FitPlace& place) {
   }
   Json center = three_json(place.center_mm);
   if (place.coordinates == 2) center.erase(2);
-  return {{"center_mm", center}};
+  Json out = {{"center_mm", center}};
+  if (place.normal) out["normal"] = three_json(*place.normal);
+  return out;
 }
 
 Json rows_json(const std::vector<fit::Contact>& contacts) {
@@ -113,7 +115,11 @@ std::string place_lines(const FitReference& found) {
   if (found.place.coordinates == 2) {
     return fmt::format("    centre ({:.6f}, {:.6f}) mm\n", c.x(), c.y());
   }
-  return fmt::format("    centre ({:.6f}, {:.6f}, {:.6f}) mm\n", c.x(), c.y(), c.z());
+  const Eigen::Vector3d n = found.place.normal.value_or(Eigen::Vector3d::Zero());
+  return fmt::format("    centre ({:.6f}, {:.6f}, {:.6f}) mm{}\n", c.x(), c.y(), c.z(),
+                     found.place.normal
+                         ? fmt::format(", normal ({:.9f}, {:.9f}, {:.9f})", n.x(), n.y(), n.z())
+                         : "");
 }
 
 std::string radii_line(const FitReference& found) {
@@ -180,6 +186,7 @@ nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
   Json out = {{"shape", outcome.shape}};
   if (!outcome.feature.empty()) out["feature"] = outcome.feature;
   out["points"] = outcome.points;
+  out["read"] = outcome.read;
   for (const FitOutcome::Entry& entry : outcome.references) {
     out[entry.name] = entry.found ? reference_json(*entry.found) : Json(nullptr);
   }
@@ -191,7 +198,8 @@ nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
 std::string fit_table(const FitOutcome& outcome) {
   std::string out =
       fmt::format("{}{}, {} points\n", outcome.shape,
-                  outcome.feature.empty() ? std::string() : " " + outcome.feature, outcome.points);
+                  outcome.feature.empty() ? std::string() : " " + outcome.feature, outcome.points) +
+      wrapped(outcome.read, "  read as ", "    ") + "\n";
   for (const FitOutcome::Entry& entry : outcome.references) out += reference_lines(entry);
   if (outcome.sizes) out += sizes_lines(*outcome.sizes);
   return out + warnings_text(outcome.warnings);

@@ -25,7 +25,8 @@ struct FitPlace {
   std::optional<fit::Axis> axis;
   std::optional<fit::Plane> plane;
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  int coordinates = 3;  ///< Coordinates of the centre: 2 for a circle.
+  int coordinates = 3;  ///< Coordinates of the centre: 2 for a circle of points x,y.
+  std::optional<Eigen::Vector3d> normal = {};  ///< Of a circle of points x,y,z.
 };
 
 /// The result of one reference, for any shape.
@@ -71,6 +72,7 @@ struct FitOutcome {
   std::string shape;
   std::string feature;  ///< Empty: the file has one.
   std::size_t points = 0;
+  std::string read;               ///< What the reader took for what.
   std::vector<Entry> references;  ///< Those requested, in the order of the names above.
   std::optional<FitSizes> sizes;
   std::vector<core::Error> warnings;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,7 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
@@ -45,7 +46,8 @@
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/sizes/global_sizes.h"
 #include "fit/sizes/local_sizes.h"
-#include "record/csv/points.h"
+#include "plans/checks/points_file.h"
+#include "record/words.h"
 
 namespace rondure::app {
 namespace {
@@ -115,7 +117,7 @@ class Collector {
  public:
   Collector(const FitArguments& arguments, std::size_t points) : wanted_(arguments.reference) {
     out_.shape = arguments.shape;
-    out_.feature = core::well_formed(arguments.feature);  // a file may be in any encoding
+    out_.feature = core::well_formed(arguments.points.feature);  // a file may be in any encoding
     out_.points = points;
   }
 
@@ -539,32 +541,82 @@ void warn_of_gross_points(const FitArguments& arguments, const record::PointTabl
   outcome.warnings.push_back({core::Code::kOutliers, std::move(said), {}});
 }
 
+/// All of standard input.
+core::Result<std::string> standard_input() {
+  std::string out;
+  std::string part(std::size_t{1} << 20, '\0');
+  while (std::cin.read(part.data(), static_cast<std::streamsize>(part.size())) ||
+         std::cin.gcount() > 0) {
+    out.append(part, 0, static_cast<std::size_t>(std::cin.gcount()));
+    if (out.size() > record::kMostPointsBytes) {
+      return core::fail_with(core::Code::kFile, "standard input has more than {} bytes, the limit",
+                             record::kMostPointsBytes);
+    }
+  }
+  return out;
+}
+
 core::Result<record::PointTable> load_points(const FitArguments& arguments) {
-  TRY(const auto bytes, record::read_file(arguments.file, record::kMostPointsBytes));
-  const std::string name = std::filesystem::path(arguments.file).filename().string();
-  auto table = record::parse_feature_csv(bytes, name, arguments.feature);
+  const bool piped = arguments.file == "-";
+  TRY(const auto bytes,
+      piped ? standard_input() : record::read_file(arguments.file, record::kMostPointsBytes));
+  const std::string name =
+      piped ? "standard input" : std::filesystem::path(arguments.file).filename().string();
+  auto table = record::read_points(bytes, name, arguments.points);
   if (!table) return table;
-  const int needed = arguments.shape == "circle" ? 2 : 3;
-  if (table->dimensions != needed) {
-    return core::fail(core::Code::kSyntax,
-                      fmt::format("a {} needs the columns {}, the file has {}", arguments.shape,
-                                  needed == 2 ? "x,y" : "x,y,z", needed == 2 ? "x,y,z" : "x,y"),
-                      name + ":1");
+  if (table->dimensions != 3 && arguments.shape != "circle") {
+    return core::fail(
+        core::Code::kSyntax,
+        fmt::format("a {} needs the columns x,y,z, the file has x,y", arguments.shape),
+        name + ":1");
   }
   return table;
+}
+
+/// The plane of the points of a circle, as a frame with z along the normal.
+Eigen::Isometry3d plane_of(const record::PointTable& table) {
+  const std::vector<int> one(table.points_mm.size(), 0);
+  Eigen::Vector3d normal =
+      fit::layer_normal(table.points_mm, one).value_or(Eigen::Vector3d::UnitZ());
+  Eigen::Index largest = 0;
+  normal.cwiseAbs().maxCoeff(&largest);
+  if (normal[largest] < 0.0) normal = -normal;
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.linear() << fit::across(normal), normal;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : table.points_mm) sum += p;
+  out.translation() = sum / static_cast<double>(table.points_mm.size());
+  return out;
 }
 
 }  // namespace
 
 int fit(const FitArguments& arguments) {
-  const auto table = load_points(arguments);
+  auto table = load_points(arguments);
   if (!table) return refuse(table.error());
+  std::optional<Eigen::Isometry3d> plane;
+  if (arguments.shape == "circle" && table->dimensions == 3) {
+    plane = plane_of(*table);
+    for (Eigen::Vector3d& p : table->points_mm) p = plane->inverse() * p;
+  }
   auto outcome = fit_shape(arguments, *table);
   if (!outcome) {
     const core::Error& error = outcome.error();
     return refuse(error.at(error.where.empty() ? arguments.file : error.where));
   }
+  const auto shape = record::value_named<record::Shape>(arguments.shape);
+  if (const auto doubt =
+          plans::doubtful_unit(shape.value_or(record::Shape::kPlane), *table, arguments.file)) {
+    return refuse(doubt->at(arguments.file));
+  }
+  outcome->read = table->read;
   warn_of_gross_points(arguments, *table, *outcome);
+  for (FitOutcome::Entry& entry : outcome->references) {
+    if (!plane || !entry.found) continue;
+    entry.found->place.center_mm = *plane * entry.found->place.center_mm;
+    entry.found->place.coordinates = 3;
+    entry.found->place.normal = plane->linear().col(2);
+  }
   return answer(fit_json(*outcome), arguments.json, [&] { return fit_table(*outcome); });
 }
 

@@ -200,12 +200,21 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
   auto* verb = app.add_subcommand(
       "fit", "Fits a circle, cylinder, cone, sphere, plane or line to a points file");
   verb->add_option("SHAPE", arguments.shape,
-                   "circle (columns x,y); cylinder, cone, sphere, plane, line (columns x,y,z); mm")
+                   "circle (x, y); cylinder, cone, sphere, plane, line (x, y, z)")
       ->check(CLI::IsMember({"circle", "cylinder", "cone", "sphere", "plane", "line"}));
   verb->add_option("FILE", arguments.file,
-                   "CSV with a header line, tip centres; # comments. Columns layer (whole numbers "
-                   "from 0) and feature may follow");
-  verb->add_option("--feature", arguments.feature,
+                   "Points, tip centres: a text table as programs write it; - for standard input.\n"
+                   "The first line of the result says what was taken for what");
+  add_list(*verb, "--columns", arguments.points.columns,
+           "Columns of x, y and z: numbers from 1, or names in the head line", "X,Y[,Z]")
+      ->expected(2, 3);
+  add_words<record::LengthUnit>(*verb, "--unit", arguments.points.unit,
+                                "Unit of the points (default: as the head says, otherwise mm)");
+  add_words<record::LayersFrom>(
+      *verb, "--layers", arguments.points.layers,
+      "column: the column layer; heights: groups of z; none (default: the column, if\n"
+      "there)");
+  verb->add_option("--feature", arguments.points.feature,
                    "Takes the rows with this name in the column feature")
       ->type_name("NAME");
   verb->add_option(

@@ -11,7 +11,7 @@
 #include "app/verbs/verbs.h"
 #include "core/units.h"
 #include "fit/profiles/roundness_evaluation.h"
-#include "record/csv/points.h"
+#include "record/points/points.h"
 
 namespace rondure::app {
 namespace {
@@ -225,7 +225,7 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
 
 core::Result<record::ProfileTable> load_profile(const std::string& file) {
   TRY(const auto bytes, record::read_file(file, record::kMostPointsBytes));
-  return record::parse_profile_csv(bytes, std::filesystem::path(file).filename().string());
+  return record::read_profile(bytes, std::filesystem::path(file).filename().string());
 }
 
 /// Refuses angles that fill one turn in radians and nothing in degrees.

@@ -10,6 +10,7 @@
 #include "app/text/answer.h"
 #include "fit/spindle/probe_layout.h"
 #include "record/archive/archive.h"
+#include "record/points/points.h"
 #include "record/report_words.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/spindle.h"
@@ -97,7 +98,7 @@ struct SignArguments {
 struct FitArguments {
   std::string shape;  ///< "circle", "cylinder", "cone", "sphere", "plane" or "line".
   std::string file;
-  std::string feature;  ///< Rows of the file; empty: it has no column `feature`.
+  record::PointsOptions points;  ///< How the file is read.
   std::string reference = "all";
   std::vector<std::string> sizes;  ///< "GG", "GN", "GX", "GC", "LP".
   std::optional<double> tip_diameter_mm;

@@ -286,8 +286,11 @@ void check_size(const Asked& asked) {
   const Shape shape = asked.feature().type;
   const std::string source = feature_pointer(asked.feature_index) + "/source";
   if (asked.feature().source && asked.findings.sound(source) &&
+      asked.feature().source->points == record::PointsAre::kTipCentres &&
       !asked.feature().source->tip_diameter_mm) {
-    asked.refuse("form", "a size needs the tip that took the points; add source.tip_diameter_mm",
+    asked.refuse("form",
+                 "a size needs the tip that took the points; add source.tip_diameter_mm, or state "
+                 "\"points\": \"surface\"",
                  Code::kMissingKey);
   }
   if (i.size == Size::kLS) {

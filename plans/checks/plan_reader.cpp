@@ -15,7 +15,6 @@
 #include "plans/schema/internal/plan_table.h"
 #include "plans/schema/internal/table_reader.h"
 #include "plans/schema/json_text.h"
-#include "record/csv/points.h"
 
 namespace rondure::plans {
 namespace {

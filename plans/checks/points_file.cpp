@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "fit/geometry/axis.h"
 #include "fit/geometry/points.h"
@@ -15,8 +15,8 @@
 #include "fit/least_squares/sphere.h"
 #include "plans/analyses/internal/series_file.h"
 #include "plans/checks/internal/plan_checks.h"
+#include "plans/checks/points_file.h"
 #include "plans/schema/json_text.h"
-#include "record/csv/points.h"
 
 namespace rondure::plans {
 
@@ -48,7 +48,8 @@ void check_without_layers(const FeaturePlan& feature, std::size_t index, Finding
     if ((!masked && form != record::Form::kRoundness) || !findings.sound(place)) continue;
     findings.meaning(Code::kMeaning, place + "/form",
                      fmt::format("the file has no column layer, so a cylinder from it has no {}; "
-                                 "add the column{}, or give each section as a \"circle\"",
+                                 "add the column, state source.layers \"heights\"{}, or give each "
+                                 "section as a \"circle\"",
                                  masked ? "harmonics" : "roundness",
                                  masked ? "" : ", ask for \"cylindricity\""));
   }
@@ -80,24 +81,22 @@ std::optional<double> shown_diameter(Shape shape, const record::PointTable& tabl
   return diameter(fit::ls_circle(flat));
 }
 
-/// Without a nominal diameter nothing tells the unit: refuses a size that is more common in another
-/// one. Up to 10 inches are less than 10; parts below 1 mm and above 1 m are none of this program.
-void check_unit(const FeaturePlan& feature, std::size_t index, const record::PointTable& table,
-                Findings& findings) {
-  if (feature.nominal.diameter_mm > 0.0) return;
-  const auto size = shown_diameter(feature.type, table);
-  if (!size || (*size >= 10.0 && *size <= 1000.0)) return;
-  const auto in_mm = [&](const char* unit, double factor) {
-    const double mm = factor * *size;
-    return mm < 1.0 || mm > 1000.0 ? std::string() : fmt::format(", in {} {:.6g} mm", unit, mm);
-  };
-  findings.meaning(
-      Code::kUnits, feature_pointer(index) + "/source/file",
-      fmt::format(
-          "the points of {} show a diameter of {:.6g}: in mm that is {:.6g} mm{}{}{}; state "
-          "nominal.diameter_mm where the file is in mm, else give its points in mm",
-          in_quotes(feature.source->file), *size, *size, in_mm("inches", 25.4),
-          in_mm("metres", 1000.0), in_mm("micrometres", 1e-3)));
+/// The longest side of the box about points.
+double extent(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  return box.sizes().maxCoeff();
+}
+
+/// Checks that a list names the columns of x, y and, where there is one, z.
+void check_columns(const SourcePlan& source, const std::string& where, Findings& findings) {
+  std::string names;
+  for (const ColumnPlan& column : source.columns) names += column.column;
+  std::ranges::sort(names);
+  if (names.empty() || names == "xy" || names == "xyz") return;
+  findings.meaning(Code::kMeaning, where,
+                   "name the columns of x and y, or of x, y and z, each once; in_file is the name "
+                   "in the head line, or the number of the column, from 1");
 }
 
 /// Refuses rows that no feature of the plan takes: a misspelt name is a defect left out. Said once
@@ -134,6 +133,37 @@ void check_other_rows(const Plan& plan, std::size_t index,
 
 }  // namespace
 
+record::PointsOptions points_options(const SourcePlan& source) {
+  record::PointsOptions out{source.feature, {}, source.unit, source.layers};
+  for (const std::string_view name : {"x", "y", "z"}) {
+    for (const ColumnPlan& column : source.columns) {
+      if (column.column == name) out.columns.push_back(column.in_file);
+    }
+  }
+  return out;
+}
+
+std::optional<core::Error> doubtful_unit(Shape shape, const record::PointTable& table,
+                                         std::string_view file) {
+  if (table.unit_stated) return std::nullopt;
+  // Up to 10 inches are less than 10; parts below 1 mm and above 1 m are none of this program.
+  auto size = shown_diameter(shape, table);
+  const bool other = shape == Shape::kPlane || shape == Shape::kCone;
+  if (other) size = extent(table.points_mm);
+  if (!size || (*size >= (other ? 1.0 : 10.0) && *size <= 1000.0)) return std::nullopt;
+  const auto in_mm = [&](const char* unit, double factor) {
+    const double mm = factor * *size;
+    return mm < 1.0 || mm > 1000.0 ? std::string() : fmt::format(", in {} {:.6g} mm", unit, mm);
+  };
+  return core::Error{
+      Code::kUnits,
+      fmt::format("the points of {} show {} of {:.6g}: in mm that is {:.6g} mm{}{}{}; state the "
+                  "unit: --unit mm, in a plan source.unit or nominal.diameter_mm",
+                  in_quotes(std::string(file)), other ? "an extent" : "a diameter", *size, *size,
+                  in_mm("inches", 25.4), in_mm("metres", 1000.0), in_mm("micrometres", 1e-3)),
+      {}};
+}
+
 void check_points_file(const Plan& plan, std::size_t index, Findings& findings) {
   const FeaturePlan& feature = plan.features[index];
   const std::string where = feature_pointer(index) + "/source/file";
@@ -141,12 +171,17 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
   const std::string& file = feature.source->file;
   const auto bytes = read_data_file(plan.folder / file, file);
   if (!bytes) return findings.meaning(bytes.error().code, where, bytes.error().what);
-  const auto table = record::parse_feature_csv(*bytes, file, feature.source->feature);
+  check_columns(*feature.source, feature_pointer(index) + "/source/columns", findings);
+  const auto table = record::read_points(*bytes, file, points_options(*feature.source));
   if (!table) {
     const core::Error& error = table.error();
     const bool of_key = error.where == file;  // no line of the file
     const std::string key = feature_pointer(index) + "/source/feature";
     return findings.meaning(error.code, of_key ? key : error.where, error.what);
+  }
+  if (feature.source->points == record::PointsAre::kSurface && feature.source->tip_diameter_mm) {
+    findings.meaning(Code::kMeaning, feature_pointer(index) + "/source/tip_diameter_mm",
+                     "has no effect: the points are those of the surface; remove it");
   }
   check_other_rows(plan, index, table->others, findings);
   const bool circle = feature.type == record::Shape::kCircle;
@@ -165,7 +200,10 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
         fmt::format("the file {} has {} points; a {} needs at least {}", in_quotes(file),
                     table->points_mm.size(), name_of(feature.type), needed));
   } else {
-    check_unit(feature, index, *table, findings);
+    if (feature.nominal.diameter_mm > 0.0) return;
+    if (const auto doubt = doubtful_unit(feature.type, *table, file)) {
+      findings.meaning(doubt->code, where, doubt->what);
+    }
   }
 }
 

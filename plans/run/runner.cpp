@@ -12,13 +12,13 @@
 #include "plans/cell/truth.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
+#include "plans/checks/points_file.h"
 #include "plans/resume/internal/plan_changes.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/inspection.h"
 #include "plans/run/internal/qualification.h"
 #include "plans/run/internal/run_head.h"
-#include "record/csv/points.h"
 #include "record/sha256.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -65,7 +65,7 @@ struct FeatureData {
 core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
   const std::string& name = plan.features[index].source->file;
   TRY(const auto bytes, record::read_file(plan.folder / name, record::kMostPointsBytes));
-  TRY(auto table, record::parse_feature_csv(bytes, name, plan.features[index].source->feature));
+  TRY(auto table, record::read_points(bytes, name, points_options(*plan.features[index].source)));
   return FeatureData{record::sha256_hex(bytes), std::move(table), {}};
 }
 
@@ -307,7 +307,14 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     head.features[i].points_sha256 = known.data[i].sha256;
-    if (const record::PointTable& points = known.data[i].points; !points.layers.empty()) {
+    const record::PointTable& points = known.data[i].points;
+    if (!points.read.empty()) {
+      const record::SourceSettings how{{}, {}, {}, points.read};
+      for (auto& setting : record::settings_of_task(how, "source/")) {
+        head.features[i].settings.push_back(std::move(setting));
+      }
+    }
+    if (!points.layers.empty()) {
       head.features[i].layers = points.layer_count();
       head.features[i].points_per_layer = points.least_points_per_layer();
     }

@@ -27,11 +27,11 @@ struct BallRow {
 /// `axis,station_deg,ball,x_mm,y_mm,z_mm`, either `u_um` or `ux_um,uy_um,uz_um`, and optionally
 /// `direction` (`+`, `-` or empty), in any order; then one row per ball. `station_deg` is a number
 /// or the word `reference`. Blank lines, `#` comments, CRLF and byte order mark as in
-/// parse_feature_csv().
+/// parse_series_csv().
 ///
 /// @param name  The file's name for `where` ("name:line").
 /// @return kWrongUnit when one of these columns has another unit (coordinates are in mm, u in um;
-/// other units are refused), kSyntax, kNotFinite, kNoPoints as parse_feature_csv(). O(bytes).
+/// other units are refused), kSyntax, kNotFinite, kNoPoints as read_points(). O(bytes).
 [[nodiscard]] core::Result<std::vector<BallRow>> parse_ball_csv(std::string_view text,
                                                                 std::string_view name);
 

@@ -117,7 +117,7 @@ core::Result<std::optional<double>> stated_temperature(std::string_view text,
   std::string_view rest = without_byte_order_mark(text);
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const std::string_view line = take_line(rest);
-    if (!holds_nothing(line)) break;
+    if (!holds_no_row(line)) break;
     const std::size_t at = line.find(kTemperatureColumn);
     if (at == std::string_view::npos ||
         line.substr(0, at).find_first_not_of("# \t") != std::string_view::npos) {

@@ -25,7 +25,8 @@ struct ColumnName {
 inline constexpr std::string_view kTemperatureColumn = "temperature_degC";
 
 /// Reads a table of numbers: a header line with the names of the columns, in any order, then one
-/// row per line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_feature_csv().
+/// row per line. Blank lines, `#` comments and a UTF-8 byte order mark are passed over; lines end
+/// with LF or CRLF.
 ///
 /// Without `names` every column must be a wanted one. With `names` a column is found under its name
 /// in the file, and other columns are skipped.
@@ -36,7 +37,7 @@ inline constexpr std::string_view kTemperatureColumn = "temperature_degC";
 /// @param name  The file's name for `where` ("name:line").
 /// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column
 ///          whose unit differs from that of the wanted column with the same name; kSyntax,
-///          kNotFinite, kNoPoints as parse_feature_csv(); kBadOption for a name in `names` that is
+///          kNotFinite, kNoPoints as read_points(); kBadOption for a name in `names` that is
 ///          not wanted. O(bytes).
 [[nodiscard]] core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,
                                                     std::span<const WantedColumn> wanted,

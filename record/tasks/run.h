@@ -29,6 +29,7 @@ struct SourceSettings {
   std::optional<std::string> measured_utc;  ///< When they were measured; none: not stated.
   std::optional<double> valid_for_days;     ///< How long they stand for the part.
   std::optional<SectionPlane> plane;        ///< Of a circle; none: not stated.
+  std::optional<std::string> read;          ///< What the reader of points took for what.
 };
 
 /// The fixture that carried the parts, at "fixture/".
@@ -59,6 +60,7 @@ void describe(Visitor& v, SourceSettings& p) {
   v.text("measured_utc", p.measured_utc, {.meaning = "When the data were measured."});
   v.number("valid_for_days", p.valid_for_days, range(0.0, 36'500.0, "How long they stand."));
   v.text("plane", p.plane, {.meaning = "In which a circle is evaluated."});
+  v.text("read", p.read, {.meaning = "What the reader of points took for what."});
 }
 
 template <class Visitor>

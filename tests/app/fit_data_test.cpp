@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -49,17 +50,17 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
       {"circle", square + "1\n", "bad.csv:6", "1 field"},
       {"circle", square + "1,\n", "bad.csv:6", "y is empty"},
       {"circle", square + "1,2,3\n", "bad.csv:6", "3 fields"},
-      {"circle", square + "1;2\n", "bad.csv:6", "semicolons"},
+      {"circle", square + "1;2\n", "bad.csv:6", "1 field in \"1;2\""},
       {"circle", square + "0x10,1\n", "bad.csv:6", "0x10"},
-      {"circle", "u,v\n1,2\n", "bad.csv:1", "\"u\""},
+      {"circle", "u,v\n1,2\n", "bad.csv:1", "\"u,v\" names none of the columns"},
       {"circle", "x,x\n1,2\n", "bad.csv:1", "twice"},
       {"circle", std::string("x,y\n1,\0\n", 8), "bad.csv:2", "NUL"},
       {"circle",
        "\x7f"
        "ELF\x02\x01\x01\xff\xfe\xfd\n\x01\x02",
-       "bad.csv:1", "unknown"},
-      {"circle", "\xff\xfex\1,\1y\1\n\1", "bad.csv:1", "UTF-16"},
-      {"circle", "x,y,z\n1,2,3\n", "bad.csv:1", "x,y"},
+       "bad.csv:1", "names no columns"},
+      {"circle", "\xff\xfex\1,\1y\1\n\1", "bad.csv:1", "names no columns"},
+      {"circle", "x,y,z\n1,2,3\n", "bad.csv", "[too-few-points]"},
       {"cylinder", square, "bad.csv:1", "x,y,z"},
       {"circle", "x,y\n1,1\n", "bad.csv", "[too-few-points]"},
       {"circle", "x,y\n0,0\n1,1\n2,2\n3,3\n", "bad.csv", "[collinear]"},
@@ -78,6 +79,11 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
       {"cone", "x,y,z,layer\n1,2,3,0\n1,2,3,2\n", "bad.csv", "none of layer 1"},
       {"sphere", "x,y,z\n1,2,3\n", "bad.csv", "[too-few-points]"},
       {"sphere", "x,y,z\n" + ring, "bad.csv", "(fit circle)"},
+      // The unit is in doubt.
+      {"circle", square, "bad.csv", "in mm that is 2 mm, in inches 50.8 mm"},
+      {"circle", "x,y\n1,0\n0,1.1\n-1,0\n0,-1\n", "bad.csv", "--unit mm"},
+      {"plane", "x,y,z\n0,0,0\n0.5,0,0\n0,0.5,0\n0.5,0.5,0\n", "bad.csv",
+       "an extent of 0.5: in mm that is 0.5 mm, in inches 12.7 mm"},
   };
   for (const BadFile& file : files) {
     SCOPED_TRACE(file.shape + ": " + ::testing::PrintToString(file.bytes));
@@ -89,6 +95,113 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
     EXPECT_THAT(outcome.out, IsEmpty());
   }
+}
+
+// What a measuring program of another country writes: the same circle of radius 25 each time.
+TEST(FitData, FilesOfOtherProgramsAreReadAndSaid) {
+  const std::string rows = "P1;25,0;0,0\r\nP2;0,0;25,0\r\nP3;-25,0;0,0\r\nP4;0,0;-25,0\r\n";
+  const std::string inches = "0.9842519685,0\n0,0.9842519685\n-0.9842519685,0\n0,-0.9842519685\n";
+  struct Case {
+    std::string bytes;
+    std::vector<std::string> options;
+    std::string read;
+  };
+  const std::vector<Case> cases = {
+      {"Welle 7\r\nMesspunkt;X-Ist;Y-Ist\r\n;[mm];[mm]\r\n" + rows,
+       {},
+       "semicolon, decimal comma, X-Ist Y-Ist in mm; 4 points, 50.0 x 50.0 mm"},
+      {"Messpunkt;U;V\r\n" + rows, {"--columns", "2,3"}, "columns 2 3 in mm (not stated); 4"},
+      {"Messpunkt;U;V\r\n" + rows, {"--columns", "U,V"}, "U V in mm (not stated); 4 points"},
+      {"x,y\n" + inches, {"--unit", "inch"}, "comma, decimal point, x y in inch; 4 points"},
+      {"x [in],y [in]\n" + inches, {}, "x [in] y [in] in inch; 4 points"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.read);
+    const TemporaryFolder folder;
+    write(folder / "export.txt", c.bytes);
+    std::vector<std::string> words = {"fit", "circle", folder / "export.txt", "--json"};
+    words.insert(words.end(), c.options.begin(), c.options.end());
+    const Outcome outcome = rondure(words);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto fit = nlohmann::json::parse(outcome.out);
+    EXPECT_NEAR(fit["ls"]["radius_mm"], 25.0, 1e-8);
+    EXPECT_THAT(fit["read"].get<std::string>(), HasSubstr(c.read));
+  }
+  EXPECT_THAT(rondure({"fit", "circle", "-"}).err, HasSubstr("standard input:1"));
+}
+
+// A circle of radius 25 about (100, 50, 30) whose plane leans by 20 deg, three lobes of 4 um.
+TEST(FitData, ACircleInSpaceHasCentreNormalAndRadius) {
+  const double lean = 20.0 * kPi / 180.0;
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 72; ++i) {
+    const double t = 2.0 * kPi * i / 72.0;
+    const double r = 25.0 + 0.004 * std::cos(3.0 * t);
+    text += fmt::format("{:.12f},{:.12f},{:.12f}\n", 100.0 + r * std::cos(t) * std::cos(lean),
+                        50.0 + r * std::sin(t), 30.0 - r * std::cos(t) * std::sin(lean));
+  }
+  const TemporaryFolder folder;
+  write(folder / "circle.csv", text);
+  const Outcome outcome = rondure({"fit", "circle", folder / "circle.csv", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto fit = nlohmann::json::parse(outcome.out);
+  EXPECT_NEAR(fit["mz"]["deviation_mm"], 0.008, 1e-6);
+  EXPECT_NEAR(fit["ls"]["radius_mm"], 25.0, 1e-6);
+  const auto near = [&](const char* key, std::vector<double> expected) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(fit["ls"][key][k], expected[k], 1e-6) << key;
+  };
+  near("center_mm", {100.0, 50.0, 30.0});
+  near("normal", {std::sin(lean), 0.0, std::cos(lean)});
+}
+
+// A plan reads what the verb reads: corrected hits of a bore of 50 mm in five heights, with three
+// lobes of 4 um, in inches and with decimal commas.
+TEST(FitData, APlanReadsTheSameFile) {
+  std::string text = "Bohrung 3\r\nPunkt;X-Ist;Y-Ist;Z-Ist;\r\n;inch;inch;inch;\r\n";
+  for (int i = 0; i < 5 * 72; ++i) {
+    const double t = 2.0 * kPi * (i % 72) / 72.0;
+    const double r = 25.0 + 0.004 * std::cos(3.0 * t);
+    const int layer = i / 72;
+    std::string row = fmt::format("{};{:.12f};{:.12f};{:.12f};\r\n", i, r * std::cos(t) / 25.4,
+                                  r * std::sin(t) / 25.4, (6.0 * layer + 0.01 * (i % 3)) / 25.4);
+    std::ranges::replace(row, '.', ',');
+    text += row;
+  }
+  const TemporaryFolder folder;
+  write(folder / "export.csv", text);
+  const nlohmann::json plan = {
+      {"plan", {{"name", "Bore"}, {"revision", "A"}}},
+      {"part", {{"id", "B-3"}}},
+      {"features",
+       {{{"id", "bore"},
+         {"type", "cylinder"},
+         {"side", "inside"},
+         {"nominal", {{"diameter_mm", 50}}},
+         {"source", {{"file", "export.csv"}, {"layers", "heights"}, {"points", "surface"}}},
+         {"characteristics",
+          {{{"id", "round"}, {"form", "roundness"}, {"filter", "none"}, {"tolerance_um", 20}},
+           {{"id", "size"},
+            {"form", "diameter"},
+            {"size", "GG"},
+            {"lower_um", -20},
+            {"upper_um", 20}}}}}}}};
+  write(folder / "plan.json", plan.dump());
+  const Outcome outcome = rondure(
+      {"run", folder / "plan.json", "--out", folder / "run", "--quiet", "--format", "json"});
+  ASSERT_LE(outcome.status, 1) << outcome.err;
+  const auto report = nlohmann::json::parse(read(folder / "run" / "report.json"));
+  const auto& found = report["features"][0]["characteristics"];
+  EXPECT_NEAR(found[0]["value_um"], 8.0, 0.001);
+  EXPECT_NEAR(found[1]["value_um"], 50000.0, 0.001);
+  EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
+  const auto journal = journal_of(folder / "run");
+  const auto& settings = journal.features.at(0).settings;
+  const auto said = std::ranges::find(settings, "source/read", &record::Setting::name);
+  ASSERT_NE(said, settings.end());
+  EXPECT_EQ(
+      said->text,
+      "semicolon, decimal comma, X-Ist Y-Ist Z-Ist in inch; 360 points, 50.0 x 50.0 x 24.0 mm, "
+      "5 heights taken as layers 1 to 5");
 }
 
 TEST(FitData, WhatIsNoFileIsRefused) {

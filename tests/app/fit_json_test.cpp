@@ -124,7 +124,7 @@ TEST(FitJson, HoldsTheContractForACircle) {
   EXPECT_EQ(found["shape"], "circle");
   EXPECT_EQ(found["points"], 24);
   EXPECT_THAT(keys_of(found),
-              UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
+              UnorderedElementsAre("shape", "points", "read", "ls", "mz", "mc", "mi", "warnings"));
   EXPECT_THAT(keys_of(found["ls"]),
               UnorderedElementsAre("center_mm", "radius_mm", "deviation_mm", "rms_mm"));
   EXPECT_THAT(keys_of(found["mz"]),
@@ -148,7 +148,7 @@ TEST(FitJson, HoldsTheContractForACylinder) {
   EXPECT_EQ(found["shape"], "cylinder");
   EXPECT_EQ(found["points"], 184);
   EXPECT_THAT(keys_of(found),
-              UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
+              UnorderedElementsAre("shape", "points", "read", "ls", "mz", "mc", "mi", "warnings"));
   EXPECT_THAT(keys_of(found["ls"]),
               UnorderedElementsAre("axis", "radius_mm", "deviation_mm", "rms_mm"));
   EXPECT_THAT(keys_of(found["mz"]),
@@ -178,7 +178,7 @@ TEST(FitJson, HoldsTheContractForASphere) {
   }
   const json found = fit("sphere", file);
   EXPECT_THAT(keys_of(found),
-              UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
+              UnorderedElementsAre("shape", "points", "read", "ls", "mz", "mc", "mi", "warnings"));
   EXPECT_NEAR(found["mz"]["deviation_mm"], 0.01, 1e-12);
   EXPECT_NEAR(found["mz"]["inner_radius_mm"], 10.0, 1e-12);
   EXPECT_NEAR(found["mc"]["radius_mm"], 10.01, 1e-12);
@@ -193,7 +193,8 @@ TEST(FitJson, HoldsTheContractForALine) {
   const auto file = directory.path() / "edge.csv";
   std::ofstream(file) << "x,y,z\n5,0,0\n5,0.01,50\n5,0,100\n";
   const json found = fit("line", file);
-  EXPECT_THAT(keys_of(found), UnorderedElementsAre("shape", "points", "ls", "mz", "warnings"));
+  EXPECT_THAT(keys_of(found),
+              UnorderedElementsAre("shape", "points", "read", "ls", "mz", "warnings"));
   EXPECT_THAT(keys_of(found["ls"]), UnorderedElementsAre("axis", "deviation_mm", "rms_mm"));
   EXPECT_NEAR(found["mz"]["diameter_mm"], 0.01, 1e-12);
   EXPECT_NEAR(found["ls"]["deviation_mm"], 2.0 * 0.01 * 2.0 / 3.0, 1e-12);
@@ -249,9 +250,9 @@ TEST(FitJson, OneReferenceLeavesTheOthersOut) {
        {std::pair{"circle", "axle_mzc_3"}, std::pair{"cylinder", "nist_cyl_13"}}) {
     const auto file = source_dir() / "tests/data" / set / "points.csv";
     EXPECT_THAT(keys_of(fit(shape, file, "ls")),
-                UnorderedElementsAre("shape", "points", "ls", "warnings"));
+                UnorderedElementsAre("shape", "points", "read", "ls", "warnings"));
     EXPECT_THAT(keys_of(fit(shape, file, "mz")),
-                UnorderedElementsAre("shape", "points", "mz", "warnings"));
+                UnorderedElementsAre("shape", "points", "read", "mz", "warnings"));
   }
 }
 

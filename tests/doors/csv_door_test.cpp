@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "record/csv/balls.h"
-#include "record/csv/points.h"
 #include "record/csv/series.h"
+#include "record/points/points.h"
 #include "tests/app/files.h"
 #include "tests/doors/exact.h"
 #include "tests/fuzz/cases.h"
@@ -32,6 +32,11 @@ const std::vector<std::string>& good_tables() {
     const auto shaft = app::testing::read(app::testing::example("15_shaft.csv"));
     out.push_back(shaft.substr(0, shaft.find('\n', 3000) + 1));
     out.emplace_back("\xef\xbb\xbf# temperature_degC: 20.3\r\n\r\nalpha_deg , H1_um\r\n0,1\r\n");
+    using namespace std::string_literals;
+    out.emplace_back(
+        "Teil;7\r\nPunkt;X-Ist [mm];Y-Ist [mm];Z-Ist [mm];\xb5\r\n1;52,68;-17;1,0;a\r\n");
+    out.emplace_back("\xff\xfeX\0\t\0Y\0\n\0001\0,\0005\0\t\0002\0\n\0"s);
+    out.emplace_back("//X Y Z I\n2\n1.5 2.5 3.5 4\n5 6 7 8\n");
     out.emplace_back("x,y,z,layer,feature\n1,2,3,0,bore\n 1, 2,4,1,bore\n1,1e2,3,0,journal\n");
     return out;
   }();
@@ -70,9 +75,12 @@ std::string wrong_with_series(std::string_view text) {
 std::string wrong_with_table(const std::string& text) {
   const Exact exact(text);
   for (const auto& wrong :
-       {wrong_with(record::parse_feature_csv(exact.view(), "table.csv", "")),
-        wrong_with(record::parse_feature_csv(exact.view(), "table.csv", "bore")),
-        wrong_with(record::parse_profile_csv(exact.view(), "table.csv")),
+       {wrong_with(record::read_points(exact.view(), "table.csv")),
+        wrong_with(
+            record::read_points(exact.view(), "a.stl", {"", {}, {}, record::LayersFrom::kHeights})),
+        wrong_with(record::read_points(exact.view(), "a.csv", {"", {"2", "1", "y"}})),
+        wrong_with(record::read_points(exact.view(), "table.xyz", {"bore"})),
+        wrong_with(record::read_profile(exact.view(), "table.csv")),
         wrong_with(record::parse_ball_csv(exact.view(), "table.csv")),
         wrong_with_series(exact.view())}) {
     if (!wrong.empty()) return wrong;

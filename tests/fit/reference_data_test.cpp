@@ -16,7 +16,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "record/csv/points.h"
+#include "record/points/points.h"
 
 namespace rondure::fit {
 namespace {
@@ -33,8 +33,7 @@ Set load(const std::string& name) {
   const fs::path folder = fs::path(RONDURE_SOURCE_DIR) / "tests/data" / name;
   Set set;
   set.certified = json::parse(record::read_file(folder / "certified.json").value());
-  set.table =
-      record::parse_feature_csv(record::read_file(folder / "points.csv").value(), name, "").value();
+  set.table = record::read_points(record::read_file(folder / "points.csv").value(), name).value();
   return set;
 }
 

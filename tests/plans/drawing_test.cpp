@@ -107,12 +107,12 @@ TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
   };
   EXPECT_EQ(problems(""), "");
   EXPECT_EQ(
-      problems("1,2,3,0,c\n1,2,3,0,\"C\"\n4,5,6,0,c\n"),
+      problems("1,2,3,0,c\n1,2,3,0,\"A\"\n1,2,3,0,\"C c\"\n4,5,6,0,c\n"),
       fmt::format("/features/0/source/feature: the file \"shaft.csv\" has rows that no feature "
                   "of the plan takes: {} (2 rows from line {} on), {} (1 rows from line {} "
                   "on); correct the names, which count letter by letter, plan a feature for "
                   "them, or take them out [meaning]\n",
-                  in_quotes("c"), lines + 1, in_quotes("\"C\""), lines + 2));
+                  in_quotes("c"), lines + 1, in_quotes("C c"), lines + 3));
   std::filesystem::remove_all(folder);
 }
 
@@ -138,7 +138,8 @@ TEST(PlanDrawing, ASizeThatLooksLikeAnotherUnitNeedsItsNominal) {
   EXPECT_THAT(problems(1.0 / 25.4, ""),
               ::testing::HasSubstr("/features/0/source/file: the points of \"c.csv\" show a "
                                    "diameter of 1.1811: in mm that is 1.1811 mm, in inches 30 mm; "
-                                   "state nominal.diameter_mm"));
+                                   "state the unit: --unit mm, in a plan source.unit or "
+                                   "nominal.diameter_mm"));
   EXPECT_THAT(problems(1e-3, ""), ::testing::HasSubstr(", in metres 30 mm; state"));
   EXPECT_THAT(problems(1e3, ""), ::testing::HasSubstr(", in micrometres 30 mm; state"));
   EXPECT_EQ(problems(0.2, R"("nominal": {"diameter_mm": 6}, )"), "");

@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
-#include "record/csv/points.h"
 #include "record/journal/journal.h"
+#include "record/points/points.h"
 
 namespace rondure::plans::testing {
 

@@ -248,7 +248,6 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   refuse("/wheel", "the feature is no wheel");
   refuse("/contour", "the feature is touched, not ground after axis traces");
   refuse("/rotary_axes", "the feature is a surface, not the fixture");
-  refuse("/source/columns", "points have the columns x,y or x,y,z");
   if (feature.type != record::Shape::kCircle) refuse("/source/plane", "it is that of a circle");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");

@@ -60,6 +60,7 @@ record::Feature feature_of(const Plan& whole, const FeaturePlan& plan) {
     out.points_per_layer = plan.sampling.points_per_layer;
   } else if (plan.source && kind == nullptr) {
     out.points_file = plan.source->file;
+    if (plan.source->points == record::PointsAre::kSurface) out.tip_radius_mm = 0.0;
     if (plan.source->tip_diameter_mm) out.tip_radius_mm = 0.5 * *plan.source->tip_diameter_mm;
   }
   if (out.strategy == record::Strategy::kVirtual) {
@@ -96,7 +97,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
     std::erase_if(out, [](const record::Setting& s) { return !s.number && s.text.empty(); });
   }
   if (feature.source) {
-    record::SourceSettings source{{}, feature.source->valid_for_days, feature.source->plane};
+    record::SourceSettings source{{}, feature.source->valid_for_days, feature.source->plane, {}};
     if (!feature.source->measured_utc.empty()) source.measured_utc = feature.source->measured_utc;
     append(record::settings_of_task(source, "source/"), out);
   }

@@ -415,9 +415,12 @@ void describe(Visitor& v, ColumnPlan& p) {
   v.text("column", p.column,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "Name that the analysis gives it, with its unit, e.g. H1_um."});
+          .meaning = "Name that the analysis gives it, with its unit, e.g. H1_um; of points x, y "
+                     "or z."});
   v.text("in_file", p.in_file,
-         {.required = true, .empty_allowed = false, .meaning = "Name in the file."});
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name in the file; of points also the number of the column, from 1."});
 }
 
 template <class Visitor>
@@ -425,10 +428,8 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("file", p.file,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z, beside them "
-                     "layer (whole numbers from 0, the lowest; of a plane its circles) and "
-                     "feature (a name); for a "
-                     "spindle, of readings (docs/spindle.md). Relative to the plan."});
+          .meaning = "Points: a text table of tip centres (docs/points.md); for a spindle, of "
+                     "readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -436,9 +437,19 @@ void describe(Visitor& v, SourcePlan& p) {
        .above = true,
        .meaning =
            "Of the probe that took the points; without it radii stay those of the tip centre."});
+  v.text("points", p.points,
+         {.meaning = "tip-centres: of the tip that took them; surface: corrected hits, the points "
+                     "of a scanner or a mesh, whose sizes need no tip."});
   v.list("columns", p.columns,
-         {.meaning = "Columns that the file of a spindle names otherwise; with this list columns "
-                     "that nobody asks for are passed over."});
+         {.meaning = "Of points, which columns are x, y and z. Of a spindle, columns that its file "
+                     "names otherwise; with this list others are passed over."});
+  v.text("unit", p.unit,
+         {.meaning = "Of the points. Left out: as the head of the file says, otherwise mm."});
+  v.text(
+      "layers", p.layers,
+      {.meaning =
+           "Where the layers of points come from: column, the column layer; heights, "
+           "groups of z; none, they are a cloud. Left out: the column, where the file has one."});
   v.text("feature", p.feature,
          {.meaning = "Takes only the rows whose column feature says this. All features of a file "
                      "were measured in one clamping."});

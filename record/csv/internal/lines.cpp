@@ -44,7 +44,7 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-bool holds_nothing(std::string_view line) {
+bool holds_no_row(std::string_view line) {
   const std::size_t first = line.find_first_not_of(kBlanks);
   return first == std::string_view::npos || line[first] == '#';
 }

@@ -28,7 +28,7 @@ inline constexpr std::size_t kMostRows = 20'000'000;
 [[nodiscard]] core::Error syntax_error(std::string what);
 
 /// Whether a line is blank or a comment.
-[[nodiscard]] bool holds_nothing(std::string_view line);
+[[nodiscard]] bool holds_no_row(std::string_view line);
 
 /// The fields of a line without blanks around them.
 [[nodiscard]] std::vector<std::string_view> split_fields(std::string_view line);
@@ -65,14 +65,11 @@ inline constexpr std::size_t kMostRows = 20'000'000;
 /// @param row      Takes a row and its line number; returns core::Result<void>.
 /// @param no_rows  Takes whether the table has a header; returns the sentence for a table without
 ///                 rows.
-/// @param plain    Fast reader, tried first at each row: takes the text from the start of the row,
-///                 and returns the bytes of the row with its line end, or 0 for a line that `row`
-///                 must read.
 /// @return  The error of `header` or `row` with its place, kSyntax for UTF-16 and for more than
 ///          kMostRows rows, kNoPoints.
-template <class Header, class Row, class NoRows, class Plain>
+template <class Header, class Row, class NoRows>
 core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
-                              const Row& row, const NoRows& no_rows, const Plain& plain) {
+                              const Row& row, const NoRows& no_rows) {
   std::string_view rest = without_byte_order_mark(text);
   std::size_t number = 0;  // line number, from 1
   const auto here = [&] { return fmt::format("{}:{}", name, std::max<std::size_t>(number, 1)); };
@@ -84,13 +81,8 @@ core::Result<void> read_table(std::string_view text, std::string_view name, cons
   while (!rest.empty()) {
     ++number;
     if (rows == kMostRows) return core::fail(too_many_rows().at(here()));
-    if (const std::size_t bytes = in_rows ? plain(rest) : 0; bytes > 0) {
-      rest.remove_prefix(bytes);
-      ++rows;
-      continue;
-    }
     const std::string_view line = take_line(rest);
-    if (holds_nothing(line)) continue;
+    if (holds_no_row(line)) continue;
     const core::Result<void> read = in_rows ? row(line, number) : header(line);
     if (!read) return core::fail(read.error().at(here()));
     rows += in_rows ? 1 : 0;
@@ -98,12 +90,6 @@ core::Result<void> read_table(std::string_view text, std::string_view name, cons
   }
   if (rows > 0) return {};
   return core::fail(core::Code::kNoPoints, no_rows(in_rows), here());
-}
-template <class Header, class Row, class NoRows>
-core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
-                              const Row& row, const NoRows& no_rows) {
-  return read_table(text, name, header, row, no_rows,
-                    [](std::string_view) { return std::size_t{0}; });
 }
 
 }  // namespace rondure::record

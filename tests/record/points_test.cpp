@@ -1,4 +1,4 @@
-#include "record/csv/points.h"
+#include "record/points/points.h"
 
 #include <bit>
 #include <charconv>
@@ -22,13 +22,13 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 PointTable points(std::string_view text) {
-  auto table = parse_feature_csv(text, "pin.csv", "");
+  auto table = read_points(text, "pin.csv");
   EXPECT_TRUE(table) << core::to_line(table.error());
   return table ? *std::move(table) : PointTable{};
 }
 
 core::Error point_refusal(std::string_view text) {
-  const auto table = parse_feature_csv(text, "pin.csv", "");
+  const auto table = read_points(text, "pin.csv");
   EXPECT_FALSE(table) << text;
   return table ? core::Error{} : table.error();
 }
@@ -45,9 +45,11 @@ TEST(PointsCsv, ReadsTwoAndThreeColumns) {
 
 TEST(PointsCsv, PassesOverWhatCarriesNoMeaning) {
   const Eigen::Vector3d point(1, 2, 3);
-  for (const char* text : {"x,y,z\n1,2,3", "x,y,z\r\n1,2,3\r\n", "\xef\xbb\xbfx,y,z\n1,2,3\n",
-                           "z,x,y\n3,1,2\n", "# pin 3\n\n  # of 5\nx,y,z\n# here\n \n1,2,3\n\n",
-                           " x , y,\tz \n 1 ,\t2 , 3 \n", "x,y,z\n+1,+2.0,3e0\n"}) {
+  for (const char* text :
+       {"x,y,z\n1,2,3", "x,y,z\r\n1,2,3\r\n", "\xef\xbb\xbfx,y,z\n1,2,3\n", "z,x,y\n3,1,2\n",
+        "# pin 3\n\n  # of 5\nx,y,z\n# here\n \n1,2,3\n\n", "x,y,z\n1,2,3,\n", "x,y,z,\n1,2,3,\n",
+        "x y z\n1 2 3\n", "x,y,z\n1 2 3\n", "\"x\",\"y\",\"z\"\n\"1\",2,3\n", "x,y,z\r1,2,3\r",
+        " x , y,\tz \n 1 ,\t2 , 3 \n", "x,y,z\n+1,+2.0,3e0\n"}) {
     SCOPED_TRACE(text);
     const PointTable table = points(text);
     ASSERT_EQ(table.points_mm.size(), 1U);
@@ -68,24 +70,15 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"# only\n\n", kNoPoints, "pin.csv:2", "only comments and blank lines"},
       {"x,y,z\n", kNoPoints, "pin.csv:1", "a header line and no points"},
       {"x,y,z\n# later\n", kNoPoints, "pin.csv:2", "a header line and no points"},
-      {"1,2,3\n4,5,6\n", kSyntax, "pin.csv:1", "column \"1\" is unknown"},
-      {"x,y,z,d\n", kSyntax, "pin.csv:1", "column \"d\" is unknown; the first line must name"},
-      {"X,Y,Z\n", kSyntax, "pin.csv:1", "column \"X\" is unknown"},
-      {"x,y,\n", kSyntax, "pin.csv:1", "column \"\" is unknown"},
-      {"x,y,x\n", kSyntax, "pin.csv:1", "column \"x\" stands twice"},
+      {"x,y,x\n1,2,3\n", kSyntax, "pin.csv:1", "column \"x\" stands twice"},
+      {"X,Y,Z,X-Ist\n1,2,3,4\n", kSyntax, "pin.csv:1", "column \"x\" stands twice"},
       {"x,z\n1,2\n", kSyntax, "pin.csv:1", "column \"y\" is missing"},
-      {"y\n1\n", kSyntax, "pin.csv:1", "column \"x\" is missing"},
-      {"x;y;z\n", kSyntax, "pin.csv:1", "separated by semicolons"},
-      {"x y z\n", kSyntax, "pin.csv:1", "separated by blanks"},
-      {"\"x\",\"y\"\n", kSyntax, "pin.csv:1", "holds quotes"},
-      {"x,y\n\"1\",2\n", kSyntax, "pin.csv:2", "holds quotes"},
-      {"x,y\n1;2\n", kSyntax, "pin.csv:2", "separated by semicolons"},
-      {"x,y\n1\t2\n", kSyntax, "pin.csv:2", "separated by blanks"},
-      {"x,y\n1\n", kSyntax, "pin.csv:2", "1 field in \"1\", 2 expected (x,y)"},
-      {"x,y,z\n1,2\n", kSyntax, "pin.csv:2", "2 fields in \"1,2\", 3 expected (x,y,z)"},
-      {"x,y\n1,2,3\n", kSyntax, "pin.csv:2", "3 fields in \"1,2,3\", 2 expected (x,y)"},
-      {"x,y\n1,2,\n", kSyntax, "pin.csv:2", "3 fields"},
-      {"x,y\n1,5,2,5\n", kSyntax, "pin.csv:2", "write decimals with a point, not a comma"},
+      {"y\n1\n", kSyntax, "pin.csv:1", "\"y\" names no columns x,y"},
+      {"x,y\n1\n", kSyntax, "pin.csv:2", "1 field in \"1\", 2 expected (comma"},
+      {"x,y,z\n1,2\n", kSyntax, "pin.csv:2", "2 fields in \"1,2\", 3 expected"},
+      {"x,y\n1,2\n1,2,3\n", kSyntax, "pin.csv:3", "3 fields in \"1,2,3\", 2 expected"},
+      {"x,y\n1,5,2,5\n", kSyntax, "pin.csv:2", "\"1,5\" may be one number, \"1.5\", or two"},
+      {"x,y\n1,2\n1,5,2,5\n", kSyntax, "pin.csv:3", "\"1,5\" may be one number"},
       {"y,x\n1,2\n3,four\n", kSyntax, "pin.csv:3", "x is \"four\"; a number in mm"},
       {"x,y\n1,\n", kSyntax, "pin.csv:2", "y is empty; a number in mm"},
       {"x,y\n1,2 # first\n", kSyntax, "pin.csv:2", "a comment needs a line of its own"},
@@ -97,17 +90,37 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"x,y\n\n1,nan\n", kNotFinite, "pin.csv:3", "y is \"nan\"; a finite number"},
       {"x,y\n-inf,2\n", kNotFinite, "pin.csv:2", "x is \"-inf\""},
       {"x,y\n1e999,2\n", kNotFinite, "pin.csv:2", "x is \"1e999\", beyond the range"},
-      {"x,y\n1,2\n1e155,2\n", core::Code::kOutOfRange, "pin.csv:3",
+      {"x,y\n1,2\n1e155,2\n", kOutOfRange, "pin.csv:3",
        "x is 1e155 mm, beyond the limit of 1e+09 mm for any number"},
-      {"x,y\n1, -1000000001\n", core::Code::kOutOfRange, "pin.csv:2",
-       "y is -1000000001 mm, beyond"},
-      {"x,y\n1,1e100 \n", core::Code::kOutOfRange, "pin.csv:2", "y is 1e100 mm, beyond"},
+      {"x,y\n1, -1000000001\n", kOutOfRange, "pin.csv:2", "y is -1000000001 mm, beyond"},
+      {"x,y\n1,1e100 \n", kOutOfRange, "pin.csv:2", "y is 1e100 mm, beyond"},
+      {"x [m],y [m]\n1,1e8\n", kOutOfRange, "pin.csv", "the limit is 1e+09 mm"},
       {"x,y\n1,2\r3,4\r5,6\n", kSyntax, "pin.csv:2", "carriage return without a line feed"},
-      {"\xff\xfex\0,\0", kSyntax, "pin.csv:1", "saved as UTF-16"},
-      {"\xfe\xff", kSyntax, "pin.csv:1", "saved as UTF-16"},
       {"x,y\n1,\xc2\xa0"
        "2\n",
        kSyntax, "pin.csv:2", "y is \"\\xc2\\xa02\""},
+      // Wrong in silence, if they were read.
+      {"x,y,z\n52,683941,-17,491,101,0\n", kSyntax, "pin.csv:2",
+       "\"52,683941\" may be one number, \"52.683941\", or two"},
+      {"x;y;z\n1,052.684;982.509;1,101.000\n", kSyntax, "pin.csv:2",
+       "x is \"1,052.684\", with a comma and a point"},
+      {"1,052.684;982.509;1,101.000\n", kSyntax, "pin.csv:1", "no row of two or three numbers"},
+      {"52,683941,-17,491,101,0\n46,4,-6,6,101,0\n", kSyntax, "pin.csv:1",
+       "6 columns of numbers and no head line; name the columns"},
+      {"1,5,2,5\n", kSyntax, "pin.csv:1", "\"1,5\" may be one number, \"1.5\""},
+      {"x;y;z\n1,5;2,5;3\n1.5;2;3\n", kSyntax, "pin.csv:3", "other numbers have a decimal comma"},
+      {"x;y;z\n1.5;2;3\n1,5;2;3\n", kSyntax, "pin.csv:3", "other numbers have a decimal point"},
+      {"1 20.5 30.5\n2 21.5 31.5\n3 22.5 32.5\n", kSyntax, "pin.csv:1", "column 1 counts the rows"},
+      {"r;phi;z\n10.5;20.5;30.5\n", kSyntax, "pin.csv:1", "names none of the columns x,y"},
+      {"dx,dy,dz\n1.5,2.5,3.5\n", kSyntax, "pin.csv:1", "names none of the columns x,y"},
+      {"a\nb\nc\n1.5,2.5,3.5\n", kSyntax, "pin.csv:3", "names none of the columns x,y"},
+      {"1,2,3\nx,y,z\n4,5,6\n", kSyntax, "pin.csv:1", "above the head line in line 2"},
+      {"x,y,z\n1,2,3\nx,y,z\n4,5,6\n", kSyntax, "pin.csv:3", "x is \"x\""},
+      {"x [ft];y [ft];z [ft]\n1;2;3\n", kUnits, "pin.csv:1", "unknown unit \"ft\""},
+      {"# x[ft] y[ft] z[ft]\n1 2 3\n", kUnits, "pin.csv:1", "unknown unit \"ft\""},
+      {"x [mm];y [inch];z [mm]\n1;2;3\n", kUnits, "pin.csv:1", "in mm and in inch"},
+      {"Units: inch\nx [mm];y [mm]\n1;2\n", kUnits, "pin.csv:1", "says mm and inch"},
+      {"//X Y Z I\n3\n1 2 3 4\n5 6 7 8\n", kSyntax, "pin.csv:4", "announces 3 of them, 2 follow"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
@@ -119,11 +132,11 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
 }
 
 TEST(ProfileCsv, ReadsAnglesOrPointsInAnyOrderOfColumns) {
-  const auto polar = parse_profile_csv("# spindle 2\nr_um,theta_deg\n1.5,0\n-2,90\n", "p.csv");
+  const auto polar = read_profile("# spindle 2\nr_um,theta_deg\n1.5,0\n-2,90\n", "p.csv");
   ASSERT_TRUE(polar);
   EXPECT_TRUE(polar->polar);
   EXPECT_EQ(polar->rows[1], Eigen::Vector2d(90.0, -2.0));
-  const auto points = parse_profile_csv("y,x\n1,2\n", "p.csv");
+  const auto points = read_profile("y,x\n1,2\n", "p.csv");
   ASSERT_TRUE(points);
   EXPECT_FALSE(points->polar);
   EXPECT_EQ(points->rows[0], Eigen::Vector2d(2.0, 1.0));
@@ -138,20 +151,21 @@ TEST(ProfileCsv, RefusesEverythingElseWithLineValueAndExpectation) {
   };
   const Case cases[] = {
       {"", core::Code::kNoPoints, "p.csv:1", "a header line theta_deg,r_um or x,y"},
-      {"theta_rad,r_um\n", core::Code::kSyntax, "p.csv:1", "column \"theta_rad\" is unknown"},
-      {"theta_deg,x\n", core::Code::kSyntax, "p.csv:1", "column \"x\" is unknown"},
+      {"theta_rad,r_um\n", core::Code::kSyntax, "p.csv:1",
+       "names no columns theta_deg,r_um or x,y"},
+      {"theta_rad,r_um\n0,1\n1,2\n", core::Code::kSyntax, "p.csv:1",
+       "names none of the columns theta_deg,r_um or x,y"},
       {"theta_deg,theta_deg\n", core::Code::kSyntax, "p.csv:1", "stands twice"},
-      {"r_um\n1\n", core::Code::kSyntax, "p.csv:1", "column \"theta_deg\" is missing"},
-      {"x,y,z\n", core::Code::kSyntax, "p.csv:1", "column \"z\" is unknown"},
+      {"x,y,z\n1,2,3\n", core::Code::kSyntax, "p.csv:1", "x, y and z"},
       {"theta_deg,r_um\n0,1\n1,nan\n", core::Code::kNotFinite, "p.csv:3", "a finite number in um"},
       {"theta_deg,r_um\n,1\n", core::Code::kSyntax, "p.csv:2",
        "theta_deg is empty; a number in deg"},
-      {"theta_deg,r_um\n1\n", core::Code::kSyntax, "p.csv:2", "2 expected (theta_deg,r_um)"},
+      {"theta_deg,r_um\n1\n", core::Code::kSyntax, "p.csv:2", "1 field in \"1\", 2 expected"},
       {"theta_deg,r_um\n", core::Code::kNoPoints, "p.csv:1", "no points"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
-    const auto table = parse_profile_csv(c.text, "p.csv");
+    const auto table = read_profile(c.text, "p.csv");
     ASSERT_FALSE(table);
     EXPECT_EQ(table.error().code, c.code);
     EXPECT_EQ(table.error().where, c.where);
@@ -161,8 +175,8 @@ TEST(ProfileCsv, RefusesEverythingElseWithLineValueAndExpectation) {
 
 TEST(PointsCsv, RefusesZeroBytes) {
   using namespace std::string_view_literals;
-  EXPECT_THAT(point_refusal("x,y\n1,\0002\n"sv).what, HasSubstr("a NUL byte (\"1,\\x002\")"));
-  EXPECT_THAT(point_refusal("\0x\0,\0y"sv).what, HasSubstr("not as UTF-16"));
+  EXPECT_THAT(point_refusal("x,y\n1,\0002\n"sv).what, HasSubstr("a NUL byte"));
+  EXPECT_THAT(point_refusal("\xff\xfe\0\0x\0\0\0"sv).what, HasSubstr("UTF-32"));
 }
 
 TEST(PointsCsv, ShowsOnlyTheBeginningOfAHugeLine) {
@@ -229,7 +243,7 @@ TEST(PointsCsv, ReadsDecimalsToTheBitsOfFromChars) {
 TEST(PointsCsv, NumbersTheLinesAmongRowsOfBothKinds) {
   // Plain rows, rows that need a second look, and lines without a row, before the bad one.
   const core::Error error =
-      point_refusal("x,y,z\n1,2,3\n\n 1 , 2,3\r\n# note\n4,5,6\r\n+1,2,3\n1,2,3,\n");
+      point_refusal("x,y,z\n1,2,3\n\n 1 , 2,3\r\n# note\n4,5,6\r\n+1,2,3\n1,2,3,4\n");
   EXPECT_EQ(error.where, "pin.csv:8");
   EXPECT_THAT(error.what, HasSubstr("4 fields"));
 }
@@ -243,7 +257,7 @@ TEST(PointsCsv, NeverCrashesOnRandomText) {
       text += kAlphabet[core::splitmix64(state) % kAlphabet.size()];
     }
     SCOPED_TRACE(text);
-    const auto table = parse_feature_csv(text, "pin.csv", "");
+    const auto table = read_points(text, "pin.csv");
     if (table) {
       EXPECT_FALSE(table->points_mm.empty());
     } else {
@@ -273,10 +287,123 @@ TEST(PointsCsv, ReadsAMillionRowsInATenthOfASecondOrSoOfAProcessor) {
 #endif
 }
 
+TEST(PointsText, ReadsWhatProgramsWrite) {
+  using namespace std::string_view_literals;
+  const std::vector<Eigen::Vector3d> expected = {
+      {52.683941, -17.491, 101.0}, {46.431122, -6.667203, 101.0}, {33.931813, -6.665358, 107.5}};
+  const std::string rows =
+      "52,683941;-17,491;101,0\r\n46,431122;-6,667203;101,0\r\n33,931813;-6,665358;107,5\r\n";
+  std::string wide = "\xff\xfe";
+  for (const char c :
+       "X\tY\tZ\r\n52,683941\t-17,491\t101,0\r\n46,431122\t-6,667203\t101,0\r\n"
+       "33,931813\t-6,665358\t107,5\r\n"sv) {
+    wide += c;
+    wide += '\0';
+  }
+  std::string turned;
+  for (std::size_t i = 2; i < wide.size(); i += 2) {
+    turned += wide[i + 1];
+    turned += wide[i];
+  }
+  const std::vector<std::pair<std::string, std::string_view>> files = {
+      {"x,y,z\n52.683941,-17.491,101.0\n46.431122,-6.667203,101.0\n33.931813,-6.665358,107.5\n",
+       "comma, decimal point, x y z in mm (not stated); 3 points, 18.8 x 10.8 x 6.5 mm"},
+      {"\xef\xbb\xbfPunkt;X [mm];Y [mm];Z [mm];Pr\xc3\xbc"
+       "fer\r\n1;52,683941;-17,491;101,0;Wei\xc3\x9f\r\n2;46,431122;-6,667203;101,0;Wei\xc3\x9f\r\n"
+       "3;33,931813;-6,665358;107,5;Wei\xc3\x9f\r\n",
+       "semicolon, decimal comma, X [mm] Y [mm] Z [mm] in mm; 3 points"},
+      {wide, "UTF-16 LE, tab, decimal comma, X Y Z in mm (not stated)"},
+      {wide.substr(2), "UTF-16 LE, tab"},
+      {turned, "UTF-16 BE, tab"},
+      {"# gemessen bei 20,4 \xb0"
+       "C\r\nX;Y;Z\r\n" +
+           rows,
+       "Windows-1252, semicolon, decimal comma, X Y Z"},
+      {"X [\xb5m];Y [\xb5m];Z [\xb5m]\n52683,941;-17491;101000\n46431,122;-6667,203;101000\n"
+       "33931,813;-6665,358;107500\n",
+       "Windows-1252, semicolon, decimal comma"},
+      {"52.683941  -17.491  101.0\n46.431122  -6.667203  101.0\n 33.931813 -6.665358 107.5\n",
+       "blanks, decimal point, columns 1 2 3 in mm (not stated)"},
+      {"//X Y Z Intensity\n3\n52.683941 -17.491 101.0 120\n46.431122 -6.667203 101.0 120\n"
+       "33.931813 -6.665358 107.5 121\n",
+       "blanks, decimal point, X Y Z"},
+      {"Messprotokoll;;;;\nTeil;Welle 7;;;\nPr\xfc"
+       "fer;M. Wei\xdf;;;\n\nMesspunkt;X-Ist;Y-Ist;Z-Ist;X-Soll\n;mm;mm;mm;mm\n"
+       "P1;52,683941;-17,491;101,0;52,7\nP2;46,431122;-6,667203;101,0;46,4\n"
+       "P3;33,931813;-6,665358;107,5;33,9\n",
+       "Windows-1252, semicolon, decimal comma, X-Ist Y-Ist Z-Ist in mm;"},
+      {"\"x_mm\",\"y_mm\",\"z_mm\"\n\"52,683941\",\"-17,491\",\"101,0\"\n"
+       "\"46,431122\",\"-6,667203\",\"101,0\"\n\"33,931813\",\"-6,665358\",\"107,5\"\n",
+       "comma, decimal comma, x_mm y_mm z_mm in mm; 3 points"},
+      {"x,y,z,i,j,k\r52.683941,-17.491,101.0,0,0,1\r46.431122,-6.667203,101.0,0,0,1\r"
+       "33.931813,-6.665358,107.5,0,0,1\r",
+       "comma, decimal point, x y z"},
+      {"# x y z r g b\n52.683941 -17.491 101 9 9 9\n46.431122 -6.667203 101 9 9 9\n"
+       "33.931813 -6.665358 107.5 9 9 9\n",
+       "blanks, decimal point, x y z"},
+      {"sep=;\nZActual;XActual;YActual;\n101;52,683941;-17,491;\n101;46,431122;-6,667203;\n"
+       "107,5;33,931813;-6,665358;\n",
+       "semicolon, decimal comma, XActual YActual ZActual"},
+      {"part 7|of 9\nX Koordinate (mm)|Y Koordinate (mm)|Z Koordinate (mm)\n"
+       "5.2683941E+01|-17.491|101\n46.431122|-6.667203|+101\n33.931813|-6.665358|107.5\n",
+       "bar, decimal point"},
+      {"P1 52.683941 -17.491 101.0\nP2 46.431122 -6.667203 101.0\nP3 33.931813 -6.665358 107.5\n",
+       "blanks, decimal point, columns 2 3 4"},
+  };
+  for (const auto& [text, read] : files) {
+    SCOPED_TRACE(text);
+    const PointTable table = points(text);
+    EXPECT_THAT(table.read, ::testing::StartsWith(std::string(read)));
+    ASSERT_EQ(table.points_mm.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_LE((table.points_mm[i] - expected[i]).norm(), table.unit_stated ? 5e-14 : 0.0);
+    }
+  }
+}
+
+TEST(PointsText, TakesWhatIsSaidBeforehand) {
+  const auto read = [](std::string_view text, const PointsOptions& options) {
+    const auto table = read_points(text, "pin.csv", options);
+    EXPECT_TRUE(table) << core::to_line(table.error());
+    return table ? *table : PointTable{};
+  };
+  const std::string plain = "1,2,3,4\n2,5,6,7\n3,8,9,10\n";
+  const PointTable numbered = read(plain, {.feature = "", .columns = {"4", "2", "3"}});
+  EXPECT_EQ(numbered.points_mm.at(1), Eigen::Vector3d(7, 5, 6));
+  const PointTable named = read("Nr;A [m];B [m];C [m];X;Y\n1;2;3;4;5;6\n",
+                                {.feature = "", .columns = {"a [M]", "B [m]", "C [m]"}});
+  EXPECT_EQ(named.points_mm.at(0), Eigen::Vector3d(2000, 3000, 4000));
+  EXPECT_TRUE(named.unit_stated);
+  const PointTable inches = read("x,y,z\n1,2,3\n", {.feature = "", .unit = LengthUnit::kInch});
+  EXPECT_EQ(inches.points_mm.at(0), Eigen::Vector3d(25.4, 50.8, 25.4 * 3));
+  EXPECT_THAT(inches.read, HasSubstr("x y z in inch;"));
+  const PointTable cloud =
+      read("x,y,z,layer\n1,2,3,7\n", {.feature = "", .layers = LayersFrom::kNone});
+  EXPECT_TRUE(cloud.layers.empty());
+  EXPECT_FALSE(read_points("x,y,z\n1,2,3\n", "p", {.feature = "", .layers = LayersFrom::kColumn}));
+  const auto missing = read_points(plain, "pin.csv", {.feature = "", .columns = {"A", "B"}});
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().what, HasSubstr("names a column \"A\""));
+}
+
+TEST(PointsText, CountsLayersFromNoughtOrOne) {
+  EXPECT_EQ(points("x,y,z,Schicht\n1,2,3,1\n4,5,6,2\n").layers, (std::vector<int>{0, 1}));
+  EXPECT_EQ(points("x,y,z,layer\n1,2,3,1\n4,5,6,0\n").layers, (std::vector<int>{1, 0}));
+}
+
+TEST(PointsText, LeavesOutFewRowsWithoutValuesAndSaysSo) {
+  std::string text = "x;y;z\n1,5;---;3\n";
+  for (int i = 0; i < 99; ++i) text += "1,5;2,5;3,5\n";
+  const PointTable table = points(text);
+  EXPECT_EQ(table.points_mm.size(), 99U);
+  EXPECT_THAT(table.read, HasSubstr("1 row without values left out"));
+  EXPECT_EQ(point_refusal(text + "1,5;*****;3\n").where, "pin.csv:2");
+}
+
 TEST(FeatureCsv, GivesTheRowsOfOneFeatureWithTheirLayers) {
   const std::string text =
       "x,feature,y,z,layer\n1,A,2,3,1\n# a comment\n4, B ,5,6,0\r\n7,A,8,9,0\n7,A,8,10,0\n";
-  const auto a = parse_feature_csv(text, "shaft.csv", "A");
+  const auto a = read_points(text, "shaft.csv", {"A"});
   ASSERT_TRUE(a) << a.error().what;
   ASSERT_EQ(a->points_mm.size(), 3U);
   EXPECT_EQ(a->points_mm[0], Eigen::Vector3d(1.0, 2.0, 3.0));
@@ -284,7 +411,7 @@ TEST(FeatureCsv, GivesTheRowsOfOneFeatureWithTheirLayers) {
   EXPECT_EQ(a->layer_count(), 2);
   EXPECT_EQ(a->least_points_per_layer(), 1);
   EXPECT_EQ(a->dimensions, 3);
-  const auto b = parse_feature_csv(text, "shaft.csv", "B");
+  const auto b = read_points(text, "shaft.csv", {"B"});
   ASSERT_TRUE(b) << b.error().what;
   EXPECT_EQ(b->points_mm.size(), 1U);
 }
@@ -293,7 +420,7 @@ TEST(FeatureCsv, HasALimitOfRows) {
   if (!test::full()) GTEST_SKIP() << "80 MB of text; RONDURE_FULL=1 reads them";
   std::string text = "x,y\n";
   for (int i = 0; i <= 20'000'000; ++i) text += "1,2\n";
-  const auto refused = parse_feature_csv(text, "long.csv", "");
+  const auto refused = read_points(text, "long.csv");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().what,
             "the file has more than 20000000 rows, which is the limit; take fewer points");
@@ -302,7 +429,7 @@ TEST(FeatureCsv, HasALimitOfRows) {
 
 TEST(FeatureCsv, NamesWhatDoesNotFit) {
   const auto code_of = [](const std::string& text, const std::string& feature) {
-    const auto table = parse_feature_csv(text, "shaft.csv", feature);
+    const auto table = read_points(text, "shaft.csv", {feature});
     return table ? core::Code::kInternal : table.error().code;
   };
   const std::string two = "x,y,z,feature\n1,2,3,A\n4,5,6,B\n";

@@ -1,0 +1,278 @@
+#include "record/points/internal/head.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/utf8.h"
+#include "record/csv/internal/lines.h"
+
+namespace rondure::record {
+namespace {
+
+using NameWords = std::vector<std::string>;
+
+constexpr std::size_t kMostFields = 1000;
+constexpr auto kUnitWords = std::to_array<std::pair<std::string_view, LengthUnit>>(
+    {{"mm", LengthUnit::kMm},          {"millimeter", LengthUnit::kMm},
+     {"millimetre", LengthUnit::kMm},  {"millimeters", LengthUnit::kMm},
+     {"millimetres", LengthUnit::kMm}, {"um", LengthUnit::kUm},
+     {"\u00b5m", LengthUnit::kUm},     {"\u03bcm", LengthUnit::kUm},
+     {"micron", LengthUnit::kUm},      {"microns", LengthUnit::kUm},
+     {"micrometer", LengthUnit::kUm},  {"mikrometer", LengthUnit::kUm},
+     {"cm", LengthUnit::kCm},          {"m", LengthUnit::kM},
+     {"meter", LengthUnit::kM},        {"metre", LengthUnit::kM},
+     {"meters", LengthUnit::kM},       {"inch", LengthUnit::kInch},
+     {"inches", LengthUnit::kInch},    {"zoll", LengthUnit::kInch},
+     {"in", LengthUnit::kInch}});
+/// NameWords beside x, y and z that say: as measured. One that says nominal or deviation is another
+/// column.
+constexpr auto kMeasuredWords = std::to_array<std::string_view>(
+    {"ist",      "istwert",     "actual",       "act",        "measured", "meas",  "mess",
+     "messwert", "gemessen",    "koordinate",   "coordinate", "coord",    "koord", "wert",
+     "value",    "val",         "position",     "pos",        "achse",    "axis",  "real",
+     "mesure",   "mesur\u00e9", "mesur\u00e9e", "medido",     "misurato", "实测",  "实测值",
+     "坐标",     "座標",        "測定値"});
+constexpr auto kLayerWords =
+    std::to_array<std::string_view>({"layer", "layers", "schicht", "ebene", "schnitt", "section",
+                                     "couche", "strato", "capa", "层"});
+
+bool is_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return out;
+}
+
+NameWords words_in(std::string_view text) {
+  NameWords out;
+  bool inside = false;
+  for (const char c : lower_case(text)) {
+    if (is_word(c) && !inside) out.emplace_back();
+    inside = is_word(c);
+    if (inside) out.back() += c;
+  }
+  return out;
+}
+
+std::optional<LengthUnit> unit_named(std::string_view word) {
+  for (const auto& [name, unit] : kUnitWords) {
+    if (name == word) return unit;
+  }
+  return std::nullopt;
+}
+
+bool is_measured(std::string_view word) {
+  return std::ranges::find(kMeasuredWords, word) != kMeasuredWords.end();
+}
+
+/// "x", "xactual", "posx": the coordinate that a word names.
+std::optional<Role> coordinate(std::string_view word) {
+  const auto role = [](char letter) { return static_cast<Role>(letter - 'x'); };
+  const auto letter = [](char c) { return c >= 'x' && c <= 'z'; };
+  if (word.empty()) return std::nullopt;
+  const bool alone = word.size() == 1;
+  if (letter(word.front()) && (alone || is_measured(word.substr(1)))) return role(word.front());
+  if (letter(word.back()) && is_measured(word.substr(0, word.size() - 1))) return role(word.back());
+  return std::nullopt;
+}
+
+struct Column {
+  Role role = Role::kNone;
+  std::optional<LengthUnit> unit = {};
+  std::string unknown_unit = {};
+};
+
+/// Reads "X-Ist [mm]".
+Column column_of(std::string_view field) {
+  Column out;
+  const std::size_t open = field.find_first_of("[(");
+  std::string_view bracket;
+  std::string_view outside = field;
+  if (open != std::string_view::npos) {
+    bracket = field.substr(open);
+    outside = field.substr(0, open);
+  }
+  NameWords words = words_in(outside);
+  for (const std::string& word : words_in(bracket)) {
+    if (const auto unit = unit_named(word)) {
+      out.unit = unit;
+    } else if (!is_measured(word)) {
+      out.unknown_unit = word;
+    }
+  }
+  while (words.size() > 1 && unit_named(words.back()) && !out.unit) {
+    out.unit = unit_named(words.back());
+    words.pop_back();
+    if (words.size() > 1 && words.back() == "in") words.pop_back();  // "X in mm"
+  }
+  std::optional<Role> role;
+  for (const std::string& word : words) {
+    const auto named = coordinate(word);
+    if ((named && role) || (!named && !is_measured(word))) {
+      role.reset();
+      break;
+    }
+    if (named) role = named;
+  }
+  if (role) {
+    out.role = *role;
+  } else if (words.size() == 1 && words[0] == "feature") {
+    out.role = Role::kFeature;
+  } else if (words.size() == 1 && std::ranges::find(kLayerWords, words[0]) != kLayerWords.end()) {
+    out.role = Role::kLayer;
+  }
+  return out;
+}
+
+/// A column of a profile: exactly its name.
+Column polar_column(std::string_view field) {
+  return {field == "theta_deg" ? Role::kX : field == "r_um" ? Role::kY : Role::kNone};
+}
+
+core::Error fault_of(core::Code code, std::string what) { return {code, std::move(what), {}}; }
+
+/// The place of a named column, as it stands in the file or in other capitals.
+std::optional<std::size_t> place_named(std::string_view name,
+                                       const std::vector<std::string_view>& fields) {
+  if (const auto place = place_of_column(name)) return place;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (lower_case(fields[i]) == lower_case(name)) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  const std::string_view blanks = separator == '\t' ? " " : " \t";
+  const std::string_view ends = separator == ' ' ? " \t" : std::string_view(&separator, 1);
+  std::vector<std::string_view> out;
+  const auto skip = [&] {
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  };
+  while (out.size() <= kMostFields) {
+    skip();
+    const std::size_t close = line.starts_with('"') ? line.find('"', 1) : std::string_view::npos;
+    const bool quoted = close != std::string_view::npos;
+    const std::size_t end = std::min(line.find_first_of(ends, quoted ? close : 0), line.size());
+    // what follows the quotes would be lost without them
+    const bool whole = quoted && line.find_first_not_of(blanks, close + 1) >= end;
+    std::string_view field = whole ? line.substr(1, close - 1) : line.substr(0, end);
+    const std::size_t last = field.find_last_not_of(" \t");
+    field = field.substr(0, last == std::string_view::npos ? 0 : last + 1);
+    field.remove_prefix(std::min(field.find_first_not_of(" \t"), field.size()));
+    out.push_back(field);
+    line.remove_prefix(end);
+    if (separator == ' ') skip();
+    if (line.empty()) break;
+    if (separator != ' ') line.remove_prefix(1);
+  }
+  return out;
+}
+
+std::size_t filled_fields(const std::vector<std::string_view>& fields) {
+  std::size_t out = fields.size();
+  while (out > 0 && fields[out - 1].empty()) --out;
+  return out;
+}
+
+std::optional<std::size_t> place_of_column(std::string_view column) {
+  std::size_t number = 0;
+  const char* const end = column.data() + column.size();
+  const auto [stop, problem] = std::from_chars(column.data(), end, number);
+  if (problem != std::errc() || stop != end || number < 1 || number > kMostFields) {
+    return std::nullopt;
+  }
+  return number - 1;
+}
+
+std::optional<Head> head_of(const std::vector<std::string_view>& fields,
+                            const PointsOptions& options, const WantedColumns& wanted) {
+  const std::size_t count = filled_fields(fields);
+  std::vector<Column> columns;
+  std::size_t coordinates = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    columns.push_back(wanted.polar ? polar_column(fields[i]) : column_of(fields[i]));
+    coordinates += columns.back().role <= Role::kZ ? 1 : 0;
+  }
+  if (!options.columns.empty()) {
+    bool named = false;
+    for (Column& column : columns) {
+      if (column.role <= Role::kZ) column.role = Role::kNone;
+    }
+    for (std::size_t k = 0; k < options.columns.size(); ++k) {
+      const auto place = place_named(options.columns[k], fields);
+      if (!place || *place >= count) return std::nullopt;
+      named = named || !place_of_column(options.columns[k]);
+      columns[*place].role = static_cast<Role>(k);
+    }
+    if (named) coordinates = 2;
+  }
+  if (coordinates < 2) return std::nullopt;
+  Head out;
+  std::array<bool, 5> seen{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Column& column = columns[i];
+    out.roles.push_back(column.role);
+    if (column.role == Role::kNone) continue;
+    const auto role = static_cast<std::size_t>(column.role);
+    if (std::exchange(seen.at(role), true) && !out.fault) {
+      out.fault = fault_of(
+          core::Code::kSyntax,
+          fmt::format("column {} stands twice; name the columns to read: --columns {}, in a plan "
+                      "source.columns",
+                      quoted_text(role < 3 ? wanted.names.at(role) : fields[i]),
+                      "X-Ist,Y-Ist,Z-Ist or 2,3,4"));
+    }
+    if (role >= 3) continue;
+    out.names.at(role) = core::printable(fields[i].substr(0, 40));
+    if (!column.unit && !column.unknown_unit.empty() && !options.unit && !out.fault) {
+      out.fault = fault_of(core::Code::kUnits,
+                           fmt::format("{} is in the unknown unit {}; known are mm, um, cm, m and "
+                                       "inch: give --unit, in a plan source.unit",
+                                       quoted_text(fields[i]), quoted_text(column.unknown_unit)));
+    }
+    if (column.unit && out.unit && column.unit != out.unit && !out.fault) {
+      out.fault = fault_of(core::Code::kUnits,
+                           fmt::format("the columns are in {} and in {}; one unit is expected",
+                                       name_of(*out.unit), name_of(*column.unit)));
+    }
+    if (column.unit) out.unit = column.unit;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (seen.at(i) || out.fault) continue;
+    out.fault =
+        fault_of(core::Code::kSyntax, fmt::format("column \"{}\" is missing; the columns are {}",
+                                                  wanted.names.at(i), wanted.list));
+  }
+  return out;
+}
+
+std::optional<LengthUnit> unit_in_text(std::string_view line) {
+  bool said = false;
+  std::optional<LengthUnit> out;
+  for (const std::string& word : words_in(line)) {
+    if (const auto unit = unit_named(word); unit && said) out = unit;  // the last: "in mm"
+    said = said || word == "unit" || word == "units" || word == "einheit" || word == "einheiten" ||
+           word == "单位";
+  }
+  return out;
+}
+
+std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields) {
+  std::optional<LengthUnit> out;
+  for (const std::string_view field : fields) {
+    const NameWords words = words_in(field);
+    if (words.size() == 1 && unit_named(words[0])) out = out ? out : unit_named(words[0]);
+    if (words.size() > 1 || (words.size() == 1 && !unit_named(words[0]))) return std::nullopt;
+  }
+  return out;
+}
+
+}  // namespace rondure::record

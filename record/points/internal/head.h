@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "record/points/points.h"
+
+namespace rondure::record {
+
+/// What a column holds.
+enum class Role : std::uint8_t { kX, kY, kZ, kLayer, kFeature, kNone };
+
+/// Columns that a table may have. The coordinates of a profile are angle and deviation.
+struct WantedColumns {
+  std::array<std::string_view, 3> names = {"x", "y", "z"};  ///< For messages.
+  std::array<std::string_view, 3> units = {"mm", "mm", "mm"};
+  bool polar = false;
+  std::string_view list = "x,y or x,y,z, beside them layer and feature";
+};
+
+/// The fields of a line without blanks and quotes around them; no more than 1001.
+/// @param separator  ' ' stands for any number of blanks.
+[[nodiscard]] std::vector<std::string_view> fields_of(std::string_view line, char separator);
+
+/// The number of fields up to the last one that is not empty.
+[[nodiscard]] std::size_t filled_fields(const std::vector<std::string_view>& fields);
+
+/// A line that names columns.
+struct Head {
+  std::vector<Role> roles;         ///< One a field, up to the last that is not empty.
+  std::optional<LengthUnit> unit;  ///< Of the coordinates.
+  std::array<std::string, 3> names;
+  std::optional<core::Error> fault;  ///< Why it cannot be used.
+};
+
+/// The head that the fields are, or nothing where they name fewer than two coordinates.
+[[nodiscard]] std::optional<Head> head_of(const std::vector<std::string_view>& fields,
+                                          const PointsOptions& options,
+                                          const WantedColumns& wanted);
+
+/// The unit that a line of text states: "Units: inch".
+[[nodiscard]] std::optional<LengthUnit> unit_in_text(std::string_view line);
+/// The unit of a row that holds nothing but units.
+[[nodiscard]] std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields);
+
+/// The place, from 0, that a column named by a number has.
+[[nodiscard]] std::optional<std::size_t> place_of_column(std::string_view column);
+
+}  // namespace rondure::record

@@ -1,0 +1,188 @@
+#include "record/points/points.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/numbers.h"
+#include "record/csv/internal/lines.h"
+#include "record/points/internal/encoding.h"
+#include "record/points/internal/text_table.h"
+
+namespace rondure::record {
+namespace {
+
+constexpr WantedColumns kPoints;
+constexpr std::string_view kProfileList = "theta_deg,r_um or x,y";
+constexpr WantedColumns kSection = {{"x", "y", "z"}, {"mm", "mm", "mm"}, false, kProfileList};
+constexpr WantedColumns kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, true, kProfileList};
+
+double mm_in(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::kMm:
+      return 1.0;
+    case LengthUnit::kUm:
+      return 1e-3;
+    case LengthUnit::kCm:
+      return 10.0;
+    case LengthUnit::kM:
+      return 1e3;
+    case LengthUnit::kInch:
+      return 25.4;
+  }
+  return 1.0;
+}
+
+/// How many points each layer has, layer 0 first.
+std::vector<int> points_of_layers(const std::vector<int>& layers) {
+  std::vector<int> out;
+  for (const int layer : layers) {
+    if (layer >= static_cast<int>(out.size())) out.resize(static_cast<std::size_t>(layer) + 1);
+    ++out[static_cast<std::size_t>(layer)];
+  }
+  return out;
+}
+
+/// Makes layers that count from 1 count from 0.
+/// @return  kSampling where one of them has no points.
+core::Result<void> count_from_zero(std::vector<int>& layers) {
+  if (layers.empty()) return {};
+  if (*std::ranges::min_element(layers) == 1) {
+    for (int& layer : layers) --layer;
+  }
+  const std::vector<int> points = points_of_layers(layers);
+  const auto gap = std::ranges::find(points, 0);
+  if (gap == points.end()) return {};
+  return core::fail_with(core::Code::kSampling,
+                         "there are points of layer {} and none of layer {}; layers count from 0 "
+                         "or 1 without a gap",
+                         points.size() - 1, gap - points.begin());
+}
+
+/// Layers of points by their height, from the lowest: the steps between layers are longer than all
+/// steps within one, and than 0.05 mm, by the greatest factor.
+/// @return  kSampling where that factor is not above 3, or a layer has less than 3 points.
+core::Result<std::vector<int>> layers_by_height(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kFactor = 3.0;
+  constexpr double kLeast_mm = 0.05;  // a machine scatters by less; layers are farther apart
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return points[row].z(); });
+  std::vector<double> steps = {0.0};
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    steps.push_back(points[order[i]].z() - points[order[i - 1]].z());
+  }
+  std::vector<double> sorted = steps;
+  std::ranges::sort(sorted, std::greater());
+  double best = kFactor;
+  double limit = -1.0;  // the longest step within a layer
+  for (std::size_t k = 1; 3 * k < sorted.size(); ++k) {
+    const double factor = sorted[k - 1] / std::max(sorted[k], kLeast_mm);
+    if (factor > best) std::tie(best, limit) = std::pair(factor, sorted[k]);
+  }
+  std::vector<int> out(points.size(), 0);
+  int layer = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    layer += limit >= 0.0 && steps[i] > limit ? 1 : 0;
+    out[order[i]] = layer;
+  }
+  const std::vector<int> counts = points_of_layers(out);
+  if (layer > 0 && *std::ranges::min_element(counts) >= 3) return out;
+  return core::fail(core::Code::kSampling,
+                    "the heights z form no layers of 3 points or more; give a column layer");
+}
+
+/// Converts to mm.
+core::Result<void> scale(std::optional<LengthUnit> unit, std::vector<Eigen::Vector3d>& points) {
+  const double factor = mm_in(unit.value_or(LengthUnit::kMm));
+  if (factor == 1.0) return {};
+  for (Eigen::Vector3d& p : points) {
+    p *= factor;
+    if (core::is_measurable(p.cwiseAbs().maxCoeff())) continue;
+    return core::fail_with(core::Code::kOutOfRange,
+                           "a point lies {:g} mm off, the limit is {:g} mm",
+                           p.cwiseAbs().maxCoeff(), core::kGreatestNumber);
+  }
+  return {};
+}
+
+/// "24 points, 30.0 x 30.0 x 80.0 mm".
+std::string extent_of(const PointTable& table) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : table.points_mm) box.extend(p);
+  const Eigen::Vector3d size = box.sizes();
+  std::string out =
+      fmt::format("{} points, {:.1f} x {:.1f}", table.points_mm.size(), size[0], size[1]);
+  return out + (table.dimensions == 3 ? fmt::format(" x {:.1f} mm", size[2]) : std::string(" mm"));
+}
+
+/// ", 5 heights taken as layers 1 to 5".
+std::string layers_of(const PointTable& table, const PointsOptions& options) {
+  if (table.layers.empty()) return {};
+  const int count = table.layer_count();
+  return options.layers == LayersFrom::kHeights
+             ? fmt::format(", {} heights taken as layers 1 to {}", count, count)
+             : fmt::format(", {} layer{}", count, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+int PointTable::layer_count() const { return static_cast<int>(points_of_layers(layers).size()); }
+
+int PointTable::least_points_per_layer() const {
+  const std::vector<int> points = points_of_layers(layers);
+  return points.empty() ? 0 : *std::min_element(points.begin(), points.end());
+}
+
+core::Result<PointTable> read_points(std::string_view bytes, std::string_view name,
+                                     const PointsOptions& options) {
+  TRY(const auto decoded, decode_text(bytes, name));
+  PointsOptions said = options;  // a name may be in the encoding of the file
+  TRY(const auto feature, decode_text(options.feature, name));
+  said.feature = feature.text(options.feature);
+  TRY(auto text, read_text_table(decoded.text(bytes), name, said, kPoints));
+  PointTable out{text.dimensions, std::move(text.rows), std::move(text.layers),
+                 std::move(text.others)};
+  std::string how =
+      std::string(decoded.encoding) + (decoded.encoding.empty() ? "" : ", ") + text.read;
+  if (text.left_out > 0)
+    how += fmt::format(", {} row{} without values left out", text.left_out,
+                       text.left_out == 1 ? "" : "s");
+  const auto unit = options.unit ? options.unit : text.unit;
+  out.unit_stated = unit.has_value();
+  const auto done = [&]() -> core::Result<void> {
+    TRY_DO(scale(unit, out.points_mm));
+    if (options.layers == LayersFrom::kHeights) {
+      TRY(out.layers, layers_by_height(out.points_mm));
+    }
+    return count_from_zero(out.layers);
+  }();
+  if (!done) return core::fail(done.error().at(std::string(name)));
+  out.read = fmt::format("{} in {}{}; {}{}", how, name_of(unit.value_or(LengthUnit::kMm)),
+                         unit ? "" : " (not stated)", extent_of(out), layers_of(out, options));
+  return out;
+}
+
+core::Result<ProfileTable> read_profile(std::string_view bytes, std::string_view name) {
+  TRY(const auto decoded, decode_text(bytes, name));
+  const std::string_view all = decoded.text(bytes);
+  const bool polar = all.find(kPolar.names[0]) != std::string_view::npos;
+  TRY(auto text, read_text_table(all, name, {}, polar ? kPolar : kSection));
+  if (!polar && text.dimensions == 3) {
+    return core::fail(core::Code::kSyntax,
+                      "the file has x, y and z; a section has theta_deg,r_um or x,y",
+                      fmt::format("{}:1", name));
+  }
+  if (!polar) TRY_DO(scale(text.unit, text.rows));
+  ProfileTable table{polar, {}};
+  table.rows.reserve(text.rows.size());
+  for (const Eigen::Vector3d& values : text.rows) table.rows.emplace_back(values.head<2>());
+  return table;
+}
+
+}  // namespace rondure::record
