@@ -225,6 +225,7 @@ struct SourcePlan {
   std::vector<ColumnPlan> columns;         ///< Where the file names or has them otherwise.
   std::optional<record::LengthUnit> unit;  ///< Of points; none: as the file says, or mm.
   record::PointsAre points = record::PointsAre::kTipCentres;
+  std::optional<record::MeshUse> mesh;       ///< Of a file of triangles; none: refused.
   std::optional<record::LayersFrom> layers;  ///< Of points; none: the column, where there is one.
   std::string feature;       ///< Only the rows whose column `feature` says this; empty: all rows.
   std::string clamping;      ///< Files of one name were measured in one clamping.

@@ -183,6 +183,13 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
     findings.meaning(Code::kMeaning, feature_pointer(index) + "/source/tip_diameter_mm",
                      "has no effect: the points are those of the surface; remove it");
   }
+  if (table->mesh && !feature.source->mesh) {
+    findings.meaning(Code::kMeaning, feature_pointer(index) + "/source/mesh",
+                     fmt::format("{} is a mesh: its vertices were computed from the points of a "
+                                 "scan, filtered and thinned; measure points, or state "
+                                 "\"mesh\": \"accepted\"",
+                                 in_quotes(file)));
+  }
   check_other_rows(plan, index, table->others, findings);
   const bool circle = feature.type == record::Shape::kCircle;
   if (!circle && table->dimensions != 3) {

@@ -25,6 +25,10 @@ RONDURE_WORDS(LayersFrom, {kColumn, "column"}, {kHeights, "heights"}, {kNone, "n
 enum class PointsAre { kTipCentres, kSurface };
 RONDURE_WORDS(PointsAre, {kTipCentres, "tip-centres"}, {kSurface, "surface"});
 
+/// Whether the vertices of a mesh may carry a verdict.
+enum class MeshUse { kAccepted };
+RONDURE_WORDS(MeshUse, {kAccepted, "accepted"});
+
 /// What is known of a points file beforehand. What is left out, the file shows, or it is refused.
 struct PointsOptions {
   std::string feature;                    ///< Rows to take; empty: the file has one feature.
@@ -47,6 +51,7 @@ struct PointTable {
   std::vector<int> layers = {};        ///< Layer of each point, from 0; empty: the file says none.
   std::vector<OtherRows> others = {};  ///< In the order of their first rows.
   bool unit_stated = false;            ///< By the file or beforehand; otherwise mm is assumed.
+  bool mesh = false;                   ///< Vertices of triangles, computed from points.
   std::string read = {};               ///< What was taken for what, in one line.
 
   /// Number of layers; 0 where the file says none.

@@ -11,6 +11,7 @@
 
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
+#include "record/points/internal/cloud.h"
 #include "record/points/internal/encoding.h"
 #include "record/points/internal/text_table.h"
 
@@ -130,6 +131,40 @@ std::string layers_of(const PointTable& table, const PointsOptions& options) {
              : fmt::format(", {} layer{}", count, count == 1 ? "" : "s");
 }
 
+/// Why a file is of a format that is not read, as its first bytes show.
+std::optional<core::Error> other_format(std::string_view bytes) {
+  constexpr auto kFormats = std::to_array<std::pair<std::string_view, std::string_view>>(
+      {{"ASTM-E57", "an E57 file; convert it to PLY"},
+       {"PK\x03\x04", "an archive or a workbook; save the sheet as CSV"},
+       {"\x1f\x8b", "compressed; unpack it"},
+       {"%PDF", "a PDF document; export the points as a text table"},
+       {"ISO-10303-21",
+        "a STEP model, which holds no measured points; export them as a text table"},
+       {"\x7f"
+        "ELF",
+        "a program"}});
+  for (const auto& [begin, words] : kFormats) {
+    if (!bytes.starts_with(begin)) continue;
+    return syntax_error(fmt::format("the file is {}", words));
+  }
+  return std::nullopt;
+}
+
+/// Checks that a format without columns was not asked for them, and that it has points.
+core::Result<void> check_cloud(const PointsOptions& options, const Cloud& cloud,
+                               std::string_view name) {
+  const auto fail = [&](core::Code code, std::string_view what) {
+    return core::fail(code, std::string(what), std::string(name));
+  };
+  if (cloud.points.empty()) return fail(core::Code::kNoPoints, "the file has no points");
+  if (!options.columns.empty() || !options.feature.empty() ||
+      options.layers == LayersFrom::kColumn) {
+    return fail(core::Code::kMeaning,
+                "the file is no text table: it has no columns, features and layers to choose");
+  }
+  return {};
+}
+
 }  // namespace
 
 int PointTable::layer_count() const { return static_cast<int>(points_of_layers(layers).size()); }
@@ -141,19 +176,39 @@ int PointTable::least_points_per_layer() const {
 
 core::Result<PointTable> read_points(std::string_view bytes, std::string_view name,
                                      const PointsOptions& options) {
-  TRY(const auto decoded, decode_text(bytes, name));
-  PointsOptions said = options;  // a name may be in the encoding of the file
-  TRY(const auto feature, decode_text(options.feature, name));
-  said.feature = feature.text(options.feature);
-  TRY(auto text, read_text_table(decoded.text(bytes), name, said, kPoints));
-  PointTable out{text.dimensions, std::move(text.rows), std::move(text.layers),
-                 std::move(text.others)};
-  std::string how =
-      std::string(decoded.encoding) + (decoded.encoding.empty() ? "" : ", ") + text.read;
-  if (text.left_out > 0)
-    how += fmt::format(", {} row{} without values left out", text.left_out,
-                       text.left_out == 1 ? "" : "s");
-  const auto unit = options.unit ? options.unit : text.unit;
+  if (auto other = other_format(bytes)) return core::fail(other->at(std::string(name)));
+  PointTable out;
+  std::string how;
+  auto unit = options.unit;
+  auto cloud = read_cloud(bytes, name);
+  DecodedText decoded;
+  if (!cloud) {
+    TRY(decoded, decode_text(bytes, name));
+    cloud = read_export(decoded.text(bytes), name);
+  }
+  if (cloud) {
+    TRY(auto found, *std::move(cloud));
+    TRY_DO(check_cloud(options, found, name));
+    out.points_mm = std::move(found.points);
+    out.mesh = found.mesh;
+    how = found.read + (found.mesh ? " of a mesh" : "");
+    if (found.single) how += ", stored with 32 bits";
+    if (!unit) unit = found.unit;
+  } else {
+    PointsOptions said = options;  // a name may be in the encoding of the file
+    TRY(const auto feature, decode_text(options.feature, name));
+    said.feature = feature.text(options.feature);
+    TRY(auto text, read_text_table(decoded.text(bytes), name, said, kPoints));
+    out.dimensions = text.dimensions;
+    out.points_mm = std::move(text.rows);
+    out.layers = std::move(text.layers);
+    out.others = std::move(text.others);
+    how = std::string(decoded.encoding) + (decoded.encoding.empty() ? "" : ", ") + text.read;
+    if (text.left_out > 0)
+      how += fmt::format(", {} row{} without values left out", text.left_out,
+                         text.left_out == 1 ? "" : "s");
+    if (!unit) unit = text.unit;
+  }
   out.unit_stated = unit.has_value();
   const auto done = [&]() -> core::Result<void> {
     TRY_DO(scale(unit, out.points_mm));

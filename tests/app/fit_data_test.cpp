@@ -58,7 +58,7 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
       {"circle",
        "\x7f"
        "ELF\x02\x01\x01\xff\xfe\xfd\n\x01\x02",
-       "bad.csv:1", "names no columns"},
+       "bad.csv", "a program"},
       {"circle", "\xff\xfex\1,\1y\1\n\1", "bad.csv:1", "names no columns"},
       {"circle", "x,y,z\n1,2,3\n", "bad.csv", "[too-few-points]"},
       {"cylinder", square, "bad.csv:1", "x,y,z"},
@@ -72,7 +72,7 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
       {"plane", "x,y,z\n1,2,3\n", "bad.csv", "a plane needs at least 3 different points"},
       {"plane", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n", "bad.csv", "lie on one straight line"},
       {"plane", square, "bad.csv:1", "a plane needs the columns x,y,z"},
-      {"plane", "ISO-10303-21;\nHEADER;\n", "bad.csv:1", "ISO-10303-21"},
+      {"plane", "ISO-10303-21;\nHEADER;\n", "bad.csv", "STEP model"},
       {"cone", "x,y,z\n" + ring + "0,0,inf\n", "bad.csv:10", "inf"},
       {"cone", "x,y,z\n1,2,3\n", "bad.csv", "a cone needs at least 6 different points"},
       {"cone", "x,y,z\n" + ring, "bad.csv", "measure at least two sections"},

@@ -36,6 +36,24 @@ const std::vector<std::string>& good_tables() {
     out.emplace_back(
         "Teil;7\r\nPunkt;X-Ist [mm];Y-Ist [mm];Z-Ist [mm];\xb5\r\n1;52,68;-17;1,0;a\r\n");
     out.emplace_back("\xff\xfeX\0\t\0Y\0\n\0001\0,\0005\0\t\0002\0\n\0"s);
+    out.emplace_back(
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double "
+        "y\nproperty double z\nend_header\n1 2 3\n");
+    out.emplace_back(
+        "ply\nformat binary_big_endian 1.0\nelement a 1\nproperty list uchar short b\n"
+        "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "end_header\n\1\0\0\x41\0\0\0\x41\0\0\0\x41\0\0\0"s);
+    out.emplace_back(
+        "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA binary\n"
+        "\0\0\x20\x41\0\0\x20\x41\0\0\x20\x41"s);
+    out.emplace_back(
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 5 6\nvertex 7 "
+        "8 9\nendloop\nendfacet\nendsolid a\n");
+    out.emplace_back("UNITS/MM,ANGDEC\nFILNAM/'A'\nFA(P)=FEAT/POINT,CART,1,$\n2,3\n");
+    out.emplace_back("C: 00021 PtMeas(X(1))\nS: 00021 # X(1), Y(2), Z(3)\n");
+    out.emplace_back(
+        "<QIFDocument><MeasuredPointSet><Points>1 2 3 4 5 6</Points>"
+        "</MeasuredPointSet></QIFDocument>");
     out.emplace_back("//X Y Z I\n2\n1.5 2.5 3.5 4\n5 6 7 8\n");
     out.emplace_back("x,y,z,layer,feature\n1,2,3,0,bore\n 1, 2,4,1,bore\n1,1e2,3,0,journal\n");
     return out;

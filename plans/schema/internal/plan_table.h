@@ -425,11 +425,12 @@ void describe(Visitor& v, ColumnPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, SourcePlan& p) {
-  v.text("file", p.file,
-         {.required = true,
-          .empty_allowed = false,
-          .meaning = "Points: a text table of tip centres (docs/points.md); for a spindle, of "
-                     "readings (docs/spindle.md). Relative to the plan."});
+  v.text(
+      "file", p.file,
+      {.required = true,
+       .empty_allowed = false,
+       .meaning = "Points, tip centres, in one of many formats (docs/points.md); for a spindle, of "
+                  "readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -445,6 +446,9 @@ void describe(Visitor& v, SourcePlan& p) {
                      "names otherwise; with this list others are passed over."});
   v.text("unit", p.unit,
          {.meaning = "Of the points. Left out: as the head of the file says, otherwise mm."});
+  v.text("mesh", p.mesh,
+         {.meaning = "accepted: the vertices of a mesh (STL, PLY with faces) are judged, although "
+                     "another program has computed them from the points. Left out: refused."});
   v.text(
       "layers", p.layers,
       {.meaning =

@@ -1,0 +1,217 @@
+// Points files that are no text tables. The bytes are made here, by other code than that which
+// reads them.
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "record/points/points.h"
+
+namespace rondure::record {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<Eigen::Vector3d>& expected() {
+  static const std::vector<Eigen::Vector3d> points = {
+      {52.683941, -17.491, 101.0}, {46.431122, -6.667203, 101.0}, {33.931813, -6.665358, 107.5}};
+  return points;
+}
+
+template <class Number>
+std::string bytes_of(Number number, bool big) {
+  std::string out(sizeof(number), '\0');
+  std::memcpy(out.data(), &number, sizeof(number));
+  return big == (std::endian::native == std::endian::big) ? out
+                                                          : std::string(out.rbegin(), out.rend());
+}
+
+template <class Number>
+std::string places(bool big) {
+  std::string out;
+  for (const auto& p : expected()) {
+    out += bytes_of(std::uint8_t{7}, big);  // a colour before x
+    for (int k = 0; k < 3; ++k) out += bytes_of(static_cast<Number>(p[k]), big);
+  }
+  return out;
+}
+
+std::string ply(std::string_view format, std::string_view type, const std::string& body,
+                int faces = 0) {
+  std::string out = fmt::format(
+      "ply\nformat {} 1.0\ncomment made here\nelement box 1\nproperty list uchar short "
+      "sides\nelement vertex 3\nproperty uchar red\n",
+      format);
+  for (const char axis : {'x', 'y', 'z'}) out += fmt::format("property {} {}\n", type, axis);
+  out +=
+      fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", faces);
+  return out + body;
+}
+
+std::string binary_ply(bool big, bool single, int faces = 0) {
+  const std::string box = bytes_of(std::uint8_t{2}, big) + bytes_of(std::int16_t{-5}, big) +
+                          bytes_of(std::int16_t{6}, big);
+  return ply(big ? "binary_big_endian" : "binary_little_endian", single ? "float" : "double",
+             box + (single ? places<float>(big) : places<double>(big)), faces);
+}
+
+std::string text_ply() {
+  return ply("ascii", "double",
+             "2 -5 6\n7 52.683941 -17.491 101.0\n7 46.431122 -6.667203 101.0\n"
+             "7 33.931813 -6.665358 107.5\n");
+}
+
+/// Two triangles that share two corners, the second after the first.
+std::string stl(bool text) {
+  const auto& p = expected();
+  const std::vector<Eigen::Vector3d> corners = {p[0], p[1], p[2], p[2], p[1], p[0]};
+  std::string out = text ? std::string("solid made here\n") : std::string("solid").append(75, ' ');
+  if (!text) out += bytes_of(std::uint32_t{2}, false);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i % 3 == 0) {
+      out += text ? " facet normal 0 0 1\n  outer loop\n" : std::string(12, '\0');
+    }
+    out += text ? fmt::format("   vertex {} {} {}\n", corners[i][0], corners[i][1], corners[i][2])
+                : "";
+    for (int k = 0; k < 3 && !text; ++k) out += bytes_of(static_cast<float>(corners[i][k]), false);
+    if (i % 3 == 2) out += text ? "  endloop\n endfacet\n" : std::string(2, '\0');
+  }
+  return out + (text ? "endsolid made here\n" : "");
+}
+
+std::string pcd(bool text) {
+  std::string out =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS rgb x y z\nSIZE 1 8 8 8\nTYPE U F F F\n"
+      "COUNT 1 1 1 1\nWIDTH 3\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\n";
+  if (!text) return out + "DATA binary\n" + places<double>(false);
+  return out +
+         "DATA ascii\n7 52.683941 -17.491 101\n7 46.431122 -6.667203 101\n"
+         "7 33.931813 -6.665358 107.5\n";
+}
+
+const std::string kDmis =
+    "FILNAM/'OUTPUT',05.2\r\nUNITS/MM,ANGDEC\r\n$$ F(P0)=FEAT/POINT,CART,1,2,3,0,0,1\r\n"
+    "F(P1)=FEAT/POINT,CART,52.7,-17.5,101,0,0,1\r\n"
+    "FA(P1)=FEAT/POINT,CART,52.683941,-17.491,$\r\n101.0,0,0,1\r\n"
+    "FA(ZYL1)=FEAT/CYLNDR,OUTER,CART,40.2,-17.5,110,0,0,1,25\r\n"
+    "fa(p2)=feat/point,cart,46.431122,-6.667203,101.0,0,0,1\r\n"
+    "RAWDAT/CART,33.931813,-6.665358,107.5,0,0,1\r\nENDFIL\r\n";
+const std::string kLog =
+    "C: 00021 PtMeas(X(52.7), Y(-17), Z(101), IJK(1,0,0))\nS: 00021 &\n"
+    "S: 00021 # ER(3.0), IJK(0,0,1), X(52.683941), Y(-17.491), Z(101.0)\nS: 00021 %\n"
+    "C: 00022 Get(X(),Y(),Z())\nS: 00022 # X(1.0), Y(2.0), Z(3.0)\n"
+    "C: 00023 PtMeas(X(46), Y(-6), Z(101))\nS: 00023 # X(46.431122), Y(-6.667203), Z(101.0)\n"
+    "C: 00024 PtMeas(X(33), Y(-6), Z(107))\nS: 00024 # X(33.931813), Y(-6.665358), Z(107.5)\n";
+const std::string kQif =
+    "<?xml version=\"1.0\"?><QIFDocument><FileUnits><PrimaryUnits><LinearUnit><UnitName>mm"
+    "</UnitName></LinearUnit></PrimaryUnits></FileUnits><MeasuredPointSets n=\"1\">"
+    "<MeasuredPointSet id=\"28\" count=\"3\"><Points>52.683941 -17.491 101\n46.431122 -6.667203 "
+    "101 33.931813 -6.665358 107.5</Points><Compensated>true</Compensated></MeasuredPointSet>"
+    "</MeasuredPointSets></QIFDocument>";
+
+struct FormatFile {
+  const char* name;
+  std::string bytes;
+  double step_mm;  ///< Of the numbers in the file.
+  const char* read;
+};
+
+std::vector<FormatFile> good_files() {
+  const double single = 4e-6;
+  return {{"a.ply", text_ply(), 0.0, "PLY, text, x y z in mm (not stated); 3 points"},
+          {"a.ply", binary_ply(false, false), 0.0, "PLY, little endian, x y z in mm"},
+          {"a.ply", binary_ply(true, false), 0.0, "PLY, big endian, x y z in mm"},
+          {"a.ply", binary_ply(true, true), single, "PLY, big endian, x y z, stored with 32 bits"},
+          {"a.stl", stl(true), 0.0, "STL, text, vertices of a mesh in mm"},
+          {"a.stl", stl(false), single, "STL, binary, vertices of a mesh, stored with 32 bits"},
+          {"a.pcd", pcd(true), 0.0, "PCD, text, x y z in mm"},
+          {"a.pcd", pcd(false), 0.0, "PCD, little endian, x y z in mm"},
+          {"a.dmo", kDmis, 0.0, "DMIS, x y z of points in mm; 3 points"},
+          {"wire.log", kLog, 0.0, "I++ DME log, answers to PtMeas in mm"},
+          {"a.qif", kQif, 0.0, "QIF, compensated points in mm; 3 points"}};
+}
+
+TEST(PointsFormats, GiveThePointsAndSayWhatWasRead) {
+  for (const FormatFile& c : good_files()) {
+    SCOPED_TRACE(c.read);
+    const auto table = read_points(c.bytes, c.name);
+    ASSERT_TRUE(table) << core::to_line(table.error());
+    EXPECT_THAT(table->read, HasSubstr(c.read));
+    EXPECT_EQ(table->mesh, std::string(c.name) == "a.stl");
+    ASSERT_EQ(table->points_mm.size(), expected().size());
+    for (std::size_t i = 0; i < expected().size(); ++i) {
+      EXPECT_LE((table->points_mm[i] - expected()[i]).cwiseAbs().maxCoeff(), c.step_mm) << i;
+    }
+  }
+}
+
+TEST(PointsFormats, GiveAllPointsOrNoneOfAFileThatIsCutOff) {
+  for (const FormatFile& c : good_files()) {
+    const bool counted = std::string(c.name) != "a.dmo" && std::string(c.name) != "wire.log";
+    for (std::size_t size = 0; size < c.bytes.size(); ++size) {
+      const auto table = read_points(std::string_view(c.bytes).substr(0, size), c.name);
+      if (!table || !counted) continue;
+      SCOPED_TRACE(fmt::format("{}: {} bytes of {}", c.read, size, c.bytes.size()));
+      EXPECT_EQ(table->points_mm.size(), expected().size());
+    }
+  }
+}
+
+TEST(PointsFormats, AMeshIsSaidToBeOne) {
+  const auto faces =
+      read_points(binary_ply(false, false, 1) + bytes_of(std::uint8_t{0}, false), "a.ply");
+  ASSERT_TRUE(faces) << core::to_line(faces.error());
+  EXPECT_TRUE(faces->mesh);
+  EXPECT_FALSE(read_points(binary_ply(false, false), "a.ply")->mesh);
+}
+
+TEST(PointsFormats, RefuseWhatHoldsNoPointsByName) {
+  struct Bad {
+    std::string bytes;
+    const char* what;
+  };
+  const std::string results =
+      "FILNAM/'OUTPUT',05.2\r\nUNITS/MM,ANGDEC\r\nFA(Z)=FEAT/CYLNDR,OUTER,CART,40.2,-17,110,0,$\r\n"
+      "0,1,24.99,18.0\r\nTA(C)=TOL/CYLCTY,0.004731,INTOL\r\nENDFIL\r\n";
+  std::string many = binary_ply(false, false);
+  many.replace(many.find("vertex 3"), 8, "vertex 18000000");
+  std::string nan = binary_ply(false, true);
+  nan.replace(nan.size() - 4, 4, bytes_of(std::uint32_t{0x7FC00000}, false));
+  std::string longer = stl(false);
+  longer.pop_back();
+  const std::vector<Bad> files = {
+      {"planid\tpartnb\tid\ttype\tidsymbol\tactual\r\ntube\t7\tZ\tCyl\tgdtCylinder\t0.0047\r\n",
+       "a table of CALYPSO holds results, not points: export the points"},
+      {results, "holds results or targets, not points: export the points"},
+      {"<QIFDocument><Results/></QIFDocument>", "holds results and no points: export the points"},
+      {"PK\x03\x04workbook", "save the sheet as CSV"},
+      {"ASTM-E57....", "convert it to PLY"},
+      {"ISO-10303-21;\nHEADER;\n", "a STEP model"},
+      {many, "the head announces 18000000 points, the file ends before that"},
+      {nan, "z of point 3 is no number within 1e9"},
+      {longer, "a binary STL file of 2 triangles has 184 bytes, the file has 183"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nend_header\n1\n",
+       "the points need x, y and z"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n1\n",
+       "\"property real x\" is no line of a PLY head"},
+      {"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 3\nDATA binary_compressed\n",
+       "save it as ascii or binary"},
+  };
+  for (const Bad& bad : files) {
+    SCOPED_TRACE(bad.what);
+    const bool stl = bad.bytes == longer;
+    const auto table = read_points(bad.bytes, stl ? "export.stl" : "export.dat");
+    ASSERT_FALSE(table);
+    EXPECT_THAT(table.error().what, HasSubstr(bad.what));
+    EXPECT_THAT(table.error().where, ::testing::StartsWith("export."));
+  }
+}
+
+}  // namespace
+}  // namespace rondure::record
