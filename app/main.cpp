@@ -42,7 +42,9 @@ void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* 
       ->type_name("LIST");
 }
 
-void add_language(CLI::App& verb, std::string& language) {
+void add_edition(CLI::App& verb, std::string& language, bool& detail) {
+  verb.add_flag("--detail", detail,
+                "Open all of the page, on paper too: call-outs that conform, numbers, searches");
   verb.add_option("--lang", language, "Language of page and summary: en or zh (default: en)")
       ->check(CLI::IsMember(reports::language_names()))
       ->type_name("LANG");
@@ -150,7 +152,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       ->check(check_seed);
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,corrections (default: as the plan says)");
-  add_language(*verb, arguments.language);
+  add_edition(*verb, arguments.language, arguments.detail);
   add_paper(*verb, arguments.paper);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
@@ -224,7 +226,7 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,corrections (default: all but corrections;\npdf where "
               "there is Chromium)");
-  add_language(*verb, arguments.language);
+  add_edition(*verb, arguments.language, arguments.detail);
   add_paper(*verb, arguments.paper);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }

@@ -19,6 +19,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;    ///< Empty: as the plan says.
   std::string language = "en";         ///< Language of page and summary: "en" or "zh".
+  bool detail = false;                 ///< All of the page is open.
   std::optional<record::Paper> paper;  ///< Paper of report.pdf; none: as the plan says.
   std::string archive;                 ///< Empty: as the plan says.
   std::string wire_log;                ///< Empty: none.

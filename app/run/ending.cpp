@@ -38,8 +38,9 @@ std::vector<std::string> with_those_there(std::vector<std::string> asked,
   return asked;
 }
 
-reports::Language language_of(const RunArguments& arguments) {
-  return reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
+reports::Edition edition_of(const RunArguments& arguments) {
+  return {reports::language_named(arguments.language).value_or(reports::Language::kEnglish),
+          arguments.detail};
 }
 
 reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) {
@@ -119,9 +120,9 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
   }
   if (!failed) keep_earlier_results(archive, directory, evaluated.record);
   const auto formats = with_those_there(formats_of(arguments, plan), directory);
-  const reports::Language language = language_of(arguments);
+  const reports::Edition edition = edition_of(arguments);
   const auto written = reports::write_exports(directory, formats, evaluated.record, evaluation,
-                                              language, paper_of(arguments, plan));
+                                              edition, paper_of(arguments, plan));
   if (!written) {
     const int status = fail_run(written.error(), live);
     if (!failed) {
@@ -135,7 +136,7 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
     live->show_result(evaluated.record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(evaluated.record, evaluation, language));
+    say(reports::write_summary(evaluated.record, evaluation, edition.language));
     say_written(*written);
   }
   if (failed) return kRunFailed;
@@ -175,7 +176,7 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   const auto evaluated = evaluate(std::move(held.read.record), directory);
   if (!evaluated) return fail_run(evaluated.error(), live);
   if (reports::exports_are_current(directory, formats_of(arguments, plan), evaluated->record,
-                                   evaluated->evaluation, language_of(arguments),
+                                   evaluated->evaluation, edition_of(arguments),
                                    paper_of(arguments, plan))) {
     return finish_archived(archive, directory, *evaluated);
   }

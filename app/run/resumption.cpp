@@ -103,6 +103,7 @@ std::string resume_command(const RunToFinish& run) {
     out += (i == 0 ? " --format " : ",") + arguments.formats[i];
   }
   if (arguments.language != "en") out += " --lang " + arguments.language;
+  if (arguments.detail) out += " --detail";
   if (arguments.paper) out += fmt::format(" --paper {}", name_of(*arguments.paper));
   if (!arguments.archive.empty()) out += " --archive " + quoted(run.archive.shown);
   return out;

@@ -52,16 +52,17 @@ int report(const ReportArguments& arguments) {
   const auto evaluation = evaluation::evaluate_run(*record, arguments.directory, processor());
   if (!evaluation) return refuse(evaluation.error());
   const std::string signed_sums = signed_checksums(arguments.directory);
-  const auto language =
-      reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
+  const reports::Edition edition(
+      reports::language_named(arguments.language).value_or(reports::Language::kEnglish),
+      arguments.detail);
   const auto paper = arguments.paper.value_or(plans::recorded_paper(record->header.plan_text));
   const auto written = reports::write_exports(arguments.directory, formats_of(arguments), *record,
-                                              *evaluation, language, paper);
+                                              *evaluation, edition, paper);
   if (!written) return refuse(written.error());
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
-  say(reports::write_summary(*record, *evaluation, language));
+  say(reports::write_summary(*record, *evaluation, edition.language));
   say_written(*written);
   return exit_status(evaluation->verdict);
 }

@@ -66,10 +66,9 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
 
 /// Writes one export whole, if it is valid; returns its digest.
 core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& directory,
-                                         const record::Header& header, std::string bytes,
-                                         Paper paper) {
+                                         std::string bytes, Paper paper) {
   if (what.format == Format::kPdf) {
-    TRY(bytes, print_pdf(header, bytes, paper));
+    TRY(bytes, print_pdf(bytes, paper));
   }
   TRY_DO(look_through(what, bytes));
   TRY_DO(record::write_inside(directory, what.file, bytes));
@@ -147,11 +146,11 @@ bool applies(const Export& what, const record::RunRecord& record) {
 }
 
 std::string render(const Export& what, const record::RunRecord& record,
-                   const evaluation::Evaluation& evaluation, Language language,
+                   const evaluation::Evaluation& evaluation, Edition edition,
                    const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
   if (what.format == Format::kHtml || what.format == Format::kPdf) {
-    return write_html(record, evaluation, language, earlier);
+    return write_html(record, evaluation, edition, earlier);
   }
   if (what.format == Format::kJson) return write_json(record, evaluation);
   if (what.format == Format::kQif) return write_qif(record, evaluation);
@@ -164,10 +163,10 @@ std::string render(const Export& what, const record::RunRecord& record,
 }
 
 std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
-                                 const evaluation::Evaluation& evaluation, Language language,
+                                 const evaluation::Evaluation& evaluation, Edition edition,
                                  const EarlierResults& earlier) {
   if (what.format != Format::kCorrections) {
-    return {{what, render(what, record, evaluation, language, earlier)}};
+    return {{what, render(what, record, evaluation, edition, earlier)}};
   }
   Corrections made = write_corrections(record, evaluation);
   std::vector<Rendered> out = {{what, std::move(made.summary)}};
@@ -183,20 +182,20 @@ std::uintmax_t most_bytes_of(const Rendered& made) {
              : std::max<std::uintmax_t>(record::kMostDocumentBytes, made.bytes.size());
 }
 
-Language language_of(const Export& what, std::string_view bytes) {
-  if (what.format == Format::kPdf) return language_of_pdf(bytes);
-  return what.format == Format::kHtml ? language_of_page(bytes) : Language::kEnglish;
+Edition edition_of(const Export& what, std::string_view bytes) {
+  if (what.format == Format::kPdf) return edition_of_pdf(bytes);
+  return what.format == Format::kHtml ? edition_of_page(bytes) : Edition();
 }
 
 bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
-                         const evaluation::Evaluation& evaluation, Language language, Paper paper) {
+                         const evaluation::Evaluation& evaluation, Edition edition, Paper paper) {
   const auto earlier = read_earlier(directory);
   if (!earlier) return false;
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) return true;
-    const auto files = render_all(e, record, evaluation, language, *earlier);
+    const auto files = render_all(e, record, evaluation, edition, *earlier);
     return std::all_of(files.begin(), files.end(), [&](const Rendered& made) {
       const auto bytes = record::read_inside(directory, made.what.file, most_bytes_of(made));
       return bytes && (e.format == Format::kPdf ? is_printed_from(made.bytes, *bytes, paper)
@@ -207,7 +206,7 @@ bool exports_are_current(const std::filesystem::path& directory,
 
 core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const evaluation::Evaluation& evaluation, Language language,
+    const record::RunRecord& record, const evaluation::Evaluation& evaluation, Edition edition,
     Paper paper) {
   for (const std::string& format : formats) {
     const auto known = all_formats();
@@ -224,7 +223,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) continue;
-    std::vector<Rendered> files = render_all(e, record, evaluation, language, earlier);
+    std::vector<Rendered> files = render_all(e, record, evaluation, edition, earlier);
     if (e.format == Format::kCorrections) {
       auto removed = remove_old_tables(directory, files);
       if (!removed) {
@@ -234,7 +233,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
       gone = *std::move(removed);
     }
     for (Rendered& made : files) {
-      auto sum = write_one(made.what, directory, record.header, std::move(made.bytes), paper);
+      auto sum = write_one(made.what, directory, std::move(made.bytes), paper);
       if (!sum) {
         done = core::fail(sum.error());
         break;

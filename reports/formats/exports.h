@@ -39,23 +39,22 @@ struct Rendered {
 /// An export with the files that come with it: of corrections.txt the tables that it names.
 [[nodiscard]] std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
                                                const evaluation::Evaluation& evaluation,
-                                               Language language = Language::kEnglish,
+                                               Edition edition = {},
                                                const EarlierResults& earlier = {});
 
 /// The bytes of one export as this program would write it; for report.pdf, the page that it is
-/// printed from. Files for people are in `language`; files for programs are English.
+/// printed from. Only pages have an edition; files for programs are English.
 /// @param earlier  Earlier results from earlier.json of the run directory.
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
-                                 const evaluation::Evaluation& evaluation,
-                                 Language language = Language::kEnglish,
+                                 const evaluation::Evaluation& evaluation, Edition edition = {},
                                  const EarlierResults& earlier = {});
 
 /// Most bytes of the file of an export that are read: what the journal gives, or the limit of any
 /// document. Of a PDF, whose bytes are a browser's, 4 GiB.
 [[nodiscard]] std::uintmax_t most_bytes_of(const Rendered& made);
 
-/// The language of a run's file, as the file itself states it.
-[[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
+/// How a run's file was written, as the file itself states it.
+[[nodiscard]] Edition edition_of(const Export& what, std::string_view bytes);
 
 /// Whether a run directory holds these exports with the bytes that this program would write, and a
 /// report.pdf that was printed from such a page on that paper.
@@ -63,8 +62,7 @@ struct Rendered {
                                        const std::vector<std::string>& formats,
                                        const record::RunRecord& record,
                                        const evaluation::Evaluation& evaluation,
-                                       Language language = Language::kEnglish,
-                                       Paper paper = Paper::kA4);
+                                       Edition edition = {}, Paper paper = Paper::kA4);
 
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
@@ -73,7 +71,7 @@ struct Rendered {
 ///         which is tried last; kSyntax for an invalid SHA256SUMS.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const evaluation::Evaluation& evaluation,
-    Language language = Language::kEnglish, Paper paper = Paper::kA4);
+    const record::RunRecord& record, const evaluation::Evaluation& evaluation, Edition edition = {},
+    Paper paper = Paper::kA4);
 
 }  // namespace rondure::reports

@@ -6,6 +6,7 @@
 #include "core/numbers.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/part/surface.h"
 #include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
@@ -95,7 +96,7 @@ std::string axis_entry(const evaluation::FeatureResult& feature) {
                fmt::format("({}, {}) mm", fixed(center.x(), 6), fixed(center.y(), 6)), "wide-key");
 }
 
-/// A zone of a plane, a cone or a sphere, as far as a map of its deviations needs it.
+/// The zone of a plane, a cone or a sphere.
 std::optional<evaluation::Zone> form_zone(const evaluation::FeatureResult& feature) {
   evaluation::Zone zone;
   if (feature.mz_plane) {
@@ -197,11 +198,7 @@ std::string dense_entry(const evaluation::FeatureResult& feature) {
 }
 
 std::string data_entries(const evaluation::FeatureResult& feature) {
-  const bool from_file = feature.feature.strategy == record::Strategy::kPointsFile;
-  std::string html = entry(
-      tr("Points"), with_note(pattern_of(feature),
-                              from_file ? trf("file {}", isolated(feature.feature.points_file))
-                                        : repeats_of(feature)));
+  std::string html;
   if (feature.repeat_sigma_mm) {
     html += entry(tr("Repeatability of one touch"),
                   with_note(um(*feature.repeat_sigma_mm) + " µm", tr("pooled standard deviation")));
@@ -212,14 +209,6 @@ std::string data_entries(const evaluation::FeatureResult& feature) {
                             feature.repeat_zone_sd_mm
                                 ? trf("{} µm standard deviation", um(*feature.repeat_zone_sd_mm))
                                 : std::string()));
-  }
-  if (feature.temperatures || !from_file) {
-    html += entry(tr("Mean temperature"),
-                  !feature.temperatures
-                      ? tr("not measured")
-                      : fixed(feature.temperatures->mean_degC, 2) + " °C" +
-                            (feature.temperatures->declared ? ", " + tr("declared, not measured")
-                                                            : std::string()));
   }
   html += dense_entry(feature);
   if (feature.thermal) {
@@ -273,7 +262,7 @@ std::string key_numbers(const evaluation::FeatureResult& feature,
 
 /// Section of an analysed feature.
 std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                             const evaluation::FeatureResult& feature) {
+                             const evaluation::FeatureResult& feature, bool detail) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
       R"(<section><h2>{}</h2><p class="note">{}</p>)", feature_title(asked),
@@ -283,15 +272,22 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                            asked.points_file.empty()
                                ? tr("simulated")
                                : trf("from the file {}", isolated(asked.points_file)))));
-  html += verdict_lines(feature) + messages(feature);
+  html += messages(feature) + callouts_section(feature, record, true);
   if (feature.analysis) {
     const auto write = [&](const auto& found) {
       return analysis_part(found, record, static_cast<int>(index));
     };
     html += std::visit(write, feature.analysis->found);
   }
-  return html + gates_section(feature) + uncertainty_section(feature) +
-         truth_box(truth_text(record, index)) + "</section>";
+  const bool passed = std::ranges::all_of(feature.gates, [](const evaluation::Gate& gate) {
+    return gate.outcome == evaluation::Gate::Outcome::kPassed;
+  });
+  const std::string gates = gates_section(feature);
+  return html + (passed ? std::string() : gates) + truth_box(truth_text(record, index)) +
+         folded(tr("Call-outs that conform, conditions"),
+                callouts_section(feature, record, false) + (passed ? gates : std::string()),
+                detail) +
+         "</section>";
 }
 
 }  // namespace
@@ -341,9 +337,40 @@ std::string messages(const evaluation::FeatureResult& feature) {
   return html + "</ul>";
 }
 
+std::optional<evaluation::Zone> zone_to_draw(const evaluation::FeatureResult& feature) {
+  const auto zone = zone_of(feature);
+  return zone || feature.mz_plane ? zone : form_zone(feature);
+}
+
+DrawnFeature drawn_of(const evaluation::FeatureResult& all, std::optional<std::size_t> worst) {
+  DrawnFeature out{all, {}, {}};
+  evaluation::FeatureResult& feature = out.feature;
+  const record::Shape shape = all.feature.shape;
+  if (shape == record::Shape::kCylinder || shape == record::Shape::kCone) {
+    const auto places = evaluation::places_on_part(all);
+    out.places.part_z = !places.empty() && places.front().z_mm;
+    for (std::size_t row = 0; out.places.part_z && row < places.size(); ++row)
+      feature.cloud[row].height_mm = *places[row].z_mm;
+    for (evaluation::LayerResult& layer : feature.layers) {
+      if (!out.places.part_z || layer.rows.empty()) continue;
+      layer.height_mm = 0.0;
+      for (const std::size_t row : layer.rows)
+        layer.height_mm += feature.cloud[row].height_mm / static_cast<double>(layer.rows.size());
+    }
+  }
+  if (worst && *worst < all.cloud.size() && !all.cloud[*worst].left_out) {
+    const auto end = all.cloud.begin() + static_cast<std::ptrdiff_t>(*worst);
+    out.places.worst = static_cast<std::size_t>(
+        std::count_if(all.cloud.begin(), end, [](const auto& point) { return !point.left_out; }));
+  }
+  if (auto outside = evaluation::outside_windows(feature)) feature = *std::move(outside);
+  out.zone = zone_to_draw(feature);
+  return out;
+}
+
 std::string feature_section(const record::RunRecord& record, std::size_t index,
-                            const evaluation::FeatureResult& all) {
-  if (record::is_analysis(all.feature.shape)) return analysis_section(record, index, all);
+                            const evaluation::FeatureResult& all, bool detail, bool drawn_above) {
+  if (record::is_analysis(all.feature.shape)) return analysis_section(record, index, all, detail);
   const auto outside = evaluation::outside_windows(all);
   const evaluation::FeatureResult& feature = outside ? *outside : all;
   const auto zone = zone_of(feature);
@@ -361,32 +388,32 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
                       ? trf("{}; {}.", capitalised(tr(record::name_of(asked.shape))), origin)
                       : trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
                             tr(record::name_of(asked.shape)), nominal, origin));
-  html += messages(feature);
+  html += messages(feature) + callouts_section(feature, record, true);
   if (outside) {
     html += note(trf("{} of {} points lie in windows and take no part in what follows.",
                      all.cloud.size() - feature.cloud.size(), all.cloud.size()));
   }
-  html += key_numbers(feature, zone);
+  const DrawnFeature drawn = drawn_of(all);
+  const bool one_section = asked.shape == record::Shape::kCircle || feature.layers.size() == 1;
+  if (zone && !(drawn_above && one_section))
+    html += polar_plots(drawn.feature, *zone, &all, drawn.places);
+  if (feature.mz_plane && !drawn_above) html += face_map(feature);
+  if (drawn.zone && !drawn_above) html += deviation_map(drawn.feature, *drawn.zone, drawn.places);
+  if (zone) html += fmt::format(R"(<div class="screen-only">{}</div>)", solid_view(feature, *zone));
+  if (feature.merged) html += merged_section(*feature.merged);
   const std::string truth = truth_text(evaluation::truth_of(record, index), zone, asked.shape);
-  html += truth_box(truth.empty() ? truth_text(record, index) : truth);
-  html += gates_section(feature) + uncertainty_section(feature);
-  if (zone)
-    html += polar_plots(feature, *zone, &all) + deviation_map(feature, *zone) +
-            solid_view(feature, *zone);
-  if (feature.mz_plane) {
-    html += face_map(feature);
-  } else if (const auto form = form_zone(feature)) {
-    html += deviation_map(feature, *form);
+  std::string more = key_numbers(feature, zone) +
+                     truth_box(truth.empty() ? truth_text(record, index) : truth) +
+                     callouts_section(feature, record, false) + gates_section(feature) +
+                     harmonics_section(feature);
+  if (!feature.merged && !feature.poses.empty()) {
+    more += fmt::format("<h3>{}</h3>", tr("Search for the pose")) +
+            note(tr("f is the narrowest zone whose axis is held parallel to machine z, so it holds "
+                    "the form of the part and its remaining tilt; the minimum zone above is free "
+                    "of the tilt.")) +
+            pose_plots(feature, zone) + pose_table(feature);
   }
-  html += findings_section(feature, record);
-  html += harmonics_section(feature);
-  if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
-  if (feature.poses.empty()) return html + "</section>";
-  html += fmt::format(
-      R"(<h3>{}</h3><p class="note">{}</p>)", tr("Search for the pose"),
-      tr("f is the narrowest zone whose axis is held parallel to machine z, so it holds the form "
-         "of the part and its remaining tilt; the minimum zone above is free of the tilt."));
-  return html + pose_plots(feature, zone) + pose_table(feature) + "</section>";
+  return html + folded(tr("Numbers, call-outs that conform, search"), more, detail) + "</section>";
 }
 
 }  // namespace rondure::reports

@@ -204,14 +204,20 @@ std::string judged_entries(const evaluation::CharacteristicResult& result) {
   return html;
 }
 
-std::string finding_part(const evaluation::CharacteristicResult& result,
+bool fails(const evaluation::CharacteristicResult& result) {
+  return result.verdict != evaluation::Verdict::kConforms &&
+         result.verdict != evaluation::Verdict::kNotToleranced;
+}
+
+std::string callout_part(const evaluation::CharacteristicResult& result,
                          const record::RunRecord& record, double nominal_mm) {
-  const Finding& finding = *result.finding;
   std::string html =
-      fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)",
-                  trf("{}: {}", isolated(result.characteristic.id),
-                      tr(evaluation::symbol_of(result.characteristic))),
-                  trf("{}; {}.", in_sentence(finding.reference), in_sentence(finding.filter)));
+      fmt::format("<h3>{}</h3>", trf("{}: {}", isolated(result.characteristic.id),
+                                     tr(evaluation::symbol_of(result.characteristic)))) +
+      verdict_in_words(result);
+  if (!result.finding) return html;
+  const Finding& finding = *result.finding;
+  html += note(trf("{}; {}.", in_sentence(finding.reference), in_sentence(finding.filter)));
   html += finding_warnings(finding);
   if (!result.value) return html + left_out_part(finding);
   html += R"(<dl class="keys">)" + judged_entries(result);
@@ -234,11 +240,13 @@ bool has_findings(const evaluation::Evaluation& evaluation) {
   });
 }
 
-std::string findings_section(const evaluation::FeatureResult& feature,
-                             const record::RunRecord& record) {
+std::string callouts_section(const evaluation::FeatureResult& feature,
+                             const record::RunRecord& record, bool failing) {
   std::string html;
   for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-    if (result.finding) html += finding_part(result, record, feature.feature.nominal_diameter_mm);
+    if (fails(result) != failing) continue;
+    html += fmt::format(R"(<div class="callout">{}</div>)",
+                        callout_part(result, record, feature.feature.nominal_diameter_mm));
   }
   return html;
 }

@@ -12,7 +12,6 @@
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/html/report.h"
-#include "reports/terminal/internal/columns.h"
 
 namespace rondure::reports {
 namespace {
@@ -22,6 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kDigestMark = "page-sha256-";
 constexpr std::string_view kPaperMark = ", paper-";
 constexpr std::string_view kPageLanguageMark = ", page-language-";
+constexpr std::string_view kDetailMark = ", page-detail";
 
 std::string page_mark(std::string_view html) {
   return fmt::format("{}{}", kDigestMark, record::sha256_hex(std::string(html)));
@@ -64,34 +64,6 @@ class PrintFolder {
  private:
   fs::path path_;
 };
-
-/// A text as a string of CSS within <style>: none of its characters can end the string or the
-/// element.
-std::string css_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const bool plain = static_cast<unsigned char>(c) >= 0x80 || std::isalnum(c) != 0 || c == ' ';
-    out += plain ? std::string(1, c) : fmt::format("\\{:x} ", c);
-  }
-  return out + "\"";
-}
-
-/// Style of the sheets: paper, and part, revision and run at their head.
-std::string sheet_style(const record::Header& header, Paper paper) {
-  const auto field = [](std::string_view place, std::string_view name, std::string_view value) {
-    constexpr std::size_t kMost = 44;  // columns: a little more than a third of a line
-    const std::string text = value.empty() ? "\u2013" : shortened(core::printable(value), kMost);
-    return fmt::format(
-        "@top-{}{{content:{};font:8pt system-ui,sans-serif;color:#55616d;white-space:nowrap}}",
-        place, css_string(fmt::format("{} {}", name, text)));
-  };
-  const std::string part =
-      header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
-  return fmt::format("<style>@page{{size:{};{}{}{}}}</style>", record::name_of(paper),
-                     field("left", tr("Part"), part),
-                     field("center", tr("Revision"), header.plan_revision),
-                     field("right", tr("Run"), header.run_id));
-}
 
 std::string file_url(const fs::path& file) {
   std::string out = "file://";
@@ -160,14 +132,14 @@ core::Result<fs::path> find_browser() {
                     "report.pdf");
 }
 
-core::Result<std::string> print_pdf(const record::Header& header, std::string_view html,
-                                    Paper paper, std::chrono::milliseconds time_limit) {
-  const LanguageScope scope(language_of_page(html));
+core::Result<std::string> print_pdf(std::string_view html, Paper paper,
+                                    std::chrono::milliseconds time_limit) {
   TRY(const auto browser, find_browser());
   const PrintFolder folder;
   if (folder.path().empty()) return not_printed(record::system_reason(errno));
   std::string page(html);
-  page.insert(std::min(page.find("</head>"), page.size()), sheet_style(header, paper));
+  page.insert(std::min(page.find("</head>"), page.size()),
+              fmt::format("<style>@page{{size:{}}}</style>", record::name_of(paper)));
   if (auto done = record::write_file(folder / "report.html", page); !done) {
     return not_printed(done.error().what);
   }
@@ -181,10 +153,11 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
       bytes->find("%%EOF", end) == std::string::npos) {
     return not_printed(fmt::format("{} ended without a whole document", browser.string()));
   }
+  const Edition edition = edition_of_page(html);
   // Placed where a comment moves no offset that the document states.
-  bytes->insert(end,
-                fmt::format("% {}{}{}{}{}\n", page_mark(html), kPaperMark, record::name_of(paper),
-                            kPageLanguageMark, tag_of(language_of_page(html))));
+  bytes->insert(end, fmt::format("% {}{}{}{}{}{}\n", page_mark(html), kPaperMark,
+                                 record::name_of(paper), kPageLanguageMark,
+                                 tag_of(edition.language), edition.detail ? kDetailMark : ""));
   return std::move(*bytes);
 }
 
@@ -195,9 +168,12 @@ bool is_printed_from(std::string_view html, std::string_view pdf, std::optional<
                        std::string_view::npos;
 }
 
-Language language_of_pdf(std::string_view pdf) {
-  const std::string mark = fmt::format("{}{}", kPageLanguageMark, tag_of(Language::kChinese));
-  return print_statement(pdf).ends_with(mark) ? Language::kChinese : Language::kEnglish;
+Edition edition_of_pdf(std::string_view pdf) {
+  const std::string_view statement = print_statement(pdf);
+  const std::string chinese = fmt::format("{}{}", kPageLanguageMark, tag_of(Language::kChinese));
+  const bool detail = statement.ends_with(kDetailMark);
+  const auto rest = statement.substr(0, statement.size() - (detail ? kDetailMark.size() : 0));
+  return {rest.ends_with(chinese) ? Language::kChinese : Language::kEnglish, detail};
 }
 
 }  // namespace rondure::reports

@@ -252,7 +252,8 @@ std::string section_profile(const evaluation::FeatureResult& feature,
 
 }  // namespace
 
-std::string deviation_map(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
+std::string deviation_map(const evaluation::FeatureResult& feature, const evaluation::Zone& zone,
+                          const Drawn& drawn) {
   if (feature.cloud.empty()) return {};
   const bool one_section =
       feature.feature.shape == record::Shape::kCircle || feature.layers.size() == 1;
@@ -260,13 +261,17 @@ std::string deviation_map(const evaluation::FeatureResult& feature, const evalua
   const MapView view = view_of(feature, zone);
   Svg svg(kMapWidth, view.bottom + 44.0, "wide", tr("Deviations on the unrolled surface"));
   draw_frame(svg, {kMapRight, kMapTop, view.bottom}, view.x, tr("angle about the axis / °"), view.y,
-             5, tr("height / mm"));
+             5, drawn.part_z ? tr("part z / mm") : tr("height / mm"));
   if (view.cells) {
     draw_cells(svg, feature, view);
   } else {
     draw_discs(svg, feature, view);
   }
   draw_contacts(svg, feature, view);
+  if (drawn.worst) {
+    const evaluation::CloudPoint& point = feature.cloud[*drawn.worst];
+    svg.circle(disc_x(point, feature, view), view.y.at(point.height_mm), view.disc + 6.0, "worst");
+  }
   deviation_scale(svg, kMapRight + 22.0, kMapTop, view.bottom, view.half_zone_mm);
   return fmt::format(
       R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{} {}{}</figcaption></figure>)",

@@ -31,10 +31,9 @@ constexpr std::size_t kMostPlots = 12;
 /// Places deviations on a polar plot.
 struct PolarView {
   double px_per_mm = 1.0;
+  double mean = kSectionMean;
 
-  [[nodiscard]] double radius(double deviation_mm) const {
-    return kSectionMean + px_per_mm * deviation_mm;
-  }
+  [[nodiscard]] double radius(double deviation_mm) const { return mean + px_per_mm * deviation_mm; }
   [[nodiscard]] double x(double angle_rad, double r) const {
     return kSectionCentre + r * std::cos(angle_rad);
   }
@@ -54,7 +53,7 @@ void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
            "band");
   svg.circle(kSectionCentre, kSectionCentre, outer, "zone-outer");
   svg.circle(kSectionCentre, kSectionCentre, inner, "zone-inner");
-  svg.circle(kSectionCentre, kSectionCentre, kSectionMean, "mean");
+  svg.circle(kSectionCentre, kSectionCentre, view.mean, "mean");
 }
 
 /// The profile as a line that is straight in angle and deviation, not in the plane of the plot.
@@ -86,7 +85,7 @@ std::string profile_path(const evaluation::Section& section, const PolarView& vi
 
 /// Shades the sectors of a layer whose points all lie in windows.
 /// @param all  The feature with these points.
-void draw_windows(Svg& svg, const evaluation::Section& section,
+void draw_windows(Svg& svg, const evaluation::Section& section, const PolarView& view,
                   const evaluation::FeatureResult& all) {
   std::vector<std::pair<double, bool>> points;  // by angle, and whether in a window
   for (const evaluation::CloudPoint& point : all.cloud) {
@@ -94,8 +93,8 @@ void draw_windows(Svg& svg, const evaluation::Section& section,
   }
   std::sort(points.begin(), points.end());
   const std::size_t count = points.size();
-  constexpr double kFrom = kSectionMean - 2.0 * kSectionHalfZone;
-  constexpr double kTo = kSectionMean + kSectionHalfZone + 6.0;
+  const double inner = view.mean - 2.0 * kSectionHalfZone;
+  const double outer = view.mean + kSectionHalfZone + 6.0;
   for (std::size_t i = 0; i < count; ++i) {
     if (!points[i].second || points[(i + count - 1) % count].second) continue;
     std::size_t last = i;
@@ -105,12 +104,12 @@ void draw_windows(Svg& svg, const evaluation::Section& section,
     const double half_step = 0.5 * core::kTwoPi / static_cast<double>(count);
     const double begin = points[i].first - half_step;
     const double end = to + half_step;
-    const PolarView view;
     svg.path(fmt::format("M{0:.1f} {1:.1f}A{4:.1f} {4:.1f} 0 {5} 0 {2:.1f} {3:.1f}L{6:.1f} {7:.1f}"
                          "A{10:.1f} {10:.1f} 0 {5} 1 {8:.1f} {9:.1f}z",
-                         view.x(begin, kTo), view.y(begin, kTo), view.x(end, kTo), view.y(end, kTo),
-                         kTo, end - begin > 0.5 * core::kTwoPi ? 1 : 0, view.x(end, kFrom),
-                         view.y(end, kFrom), view.x(begin, kFrom), view.y(begin, kFrom), kFrom),
+                         view.x(begin, outer), view.y(begin, outer), view.x(end, outer),
+                         view.y(end, outer), outer, end - begin > 0.5 * core::kTwoPi ? 1 : 0,
+                         view.x(end, inner), view.y(end, inner), view.x(begin, inner),
+                         view.y(begin, inner), inner),
              "window");
   }
 }
@@ -140,26 +139,41 @@ std::string roundness_of(const evaluation::FeatureResult& feature,
   return {};
 }
 
-std::string plot(const evaluation::FeatureResult& feature, const evaluation::Section& section,
-                 const PolarView& view, double half_zone_mm, const evaluation::FeatureResult& all) {
+/// A section in its zone, without words.
+Svg section_drawing(const evaluation::FeatureResult& feature, const evaluation::Section& section,
+                    const PolarView& view, double half_zone_mm,
+                    const evaluation::FeatureResult& all) {
   Svg svg(kSectionSize, kSectionSize, "polar",
           trf("{}: deviations about the minimum-zone axis", title_of(section)));
-  draw_polar_axes(svg,
-                  {kSectionCentre, kSectionMean + kSectionHalfZone + 6.0, 4.0, 7.0, 127.0, 130.0});
+  draw_polar_axes(svg, {kSectionCentre, view.mean + kSectionHalfZone + 6.0, 4.0, 7.0,
+                        view.mean + 39.0, view.mean + 42.0});
   draw_zone(svg, view, half_zone_mm);
-  if (!section.projected) draw_windows(svg, section, all);
+  if (!section.projected) draw_windows(svg, section, view, all);
   const bool sparse = section.rows.size() <= 40;
   if (has_line(section)) svg.path(profile_path(section, view), sparse ? "guide" : "profile");
   draw_points(svg, section, feature, view);
   draw_scale_bar(svg, view);
-  const bool layered = !feature.layers.empty();
+  return svg;
+}
+
+/// "at 12.000 mm", where the section has a height.
+std::string height_of(const evaluation::FeatureResult& feature, const evaluation::Section& section,
+                      const Drawn& drawn) {
+  if (section.projected || feature.feature.shape != record::Shape::kCylinder) return {};
+  return drawn.part_z ? trf("part z {} mm", fixed(section.height_mm, 1))
+                      : trf("at {} mm", fixed(section.height_mm, 3));
+}
+
+std::string plot(const evaluation::FeatureResult& feature, const evaluation::Section& section,
+                 const PolarView& view, double half_zone_mm, const evaluation::FeatureResult& all,
+                 const Drawn& drawn) {
   std::string caption = fmt::format("<b>{}</b>", escaped(title_of(section)));
-  if (layered && feature.feature.shape == record::Shape::kCylinder) {
-    caption += trf(" · at {} mm", fixed(section.height_mm, 3));
+  for (const std::string& part :
+       {height_of(feature, section, drawn), roundness_of(feature, section)}) {
+    if (!part.empty()) caption += " · " + part;
   }
-  const std::string roundness = roundness_of(feature, section);
-  if (!roundness.empty()) caption += " · " + roundness;
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", svg.str(), caption);
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>",
+                     section_drawing(feature, section, view, half_zone_mm, all).str(), caption);
 }
 
 std::string legend(std::size_t shown, std::size_t all, double magnification, bool thinned,
@@ -184,7 +198,7 @@ std::string legend(std::size_t shown, std::size_t all, double magnification, boo
 }  // namespace
 
 std::string polar_plots(const evaluation::FeatureResult& feature, const evaluation::Zone& zone,
-                        const evaluation::FeatureResult* all) {
+                        const evaluation::FeatureResult* all, const Drawn& drawn) {
   const std::vector<evaluation::Section> sections = sections_of(feature);
   if (sections.empty()) return {};
   const double half_zone_mm = 0.5 * zone.deviation_mm;
@@ -198,7 +212,7 @@ std::string polar_plots(const evaluation::FeatureResult& feature, const evaluati
     const std::size_t pick = shown == 1 ? 0 : i * (sections.size() - 1) / (shown - 1);
     thinned |= sections[pick].thinned;
     sparse |= has_line(sections[pick]) && sections[pick].rows.size() <= 40;
-    plots += plot(feature, sections[pick], view, half_zone_mm, measured);
+    plots += plot(feature, sections[pick], view, half_zone_mm, measured, drawn);
   }
   const double magnification = view.px_per_mm * zone.mean_radius_mm / kSectionMean;
   std::string words = legend(shown, sections.size(), magnification, thinned, sparse);
@@ -211,6 +225,41 @@ std::string polar_plots(const evaluation::FeatureResult& feature, const evaluati
                      : shown == 2 || shown == 4 ? " pairs"
                                                 : "",
                      plots);
+}
+
+std::string worst_section(const evaluation::FeatureResult& feature, const evaluation::Zone& zone,
+                          const evaluation::FeatureResult& all, const Drawn& drawn,
+                          const std::vector<std::string>& words) {
+  const std::vector<evaluation::Section> sections = sections_of(feature);
+  if (sections.empty()) return {};
+  const auto holds = [&](const evaluation::Section& section) {
+    return drawn.worst && std::ranges::find(section.rows, *drawn.worst) != section.rows.end();
+  };
+  const auto found = std::ranges::find_if(sections, holds);
+  const evaluation::Section& section = found == sections.end() ? sections.front() : *found;
+  constexpr double kMean = 94.0;
+  const double half_zone_mm = 0.5 * zone.deviation_mm;
+  const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5), kMean};
+  Svg svg = section_drawing(feature, section, view, half_zone_mm, all);
+  std::vector<std::string> lines = {height_of(feature, section, drawn)};
+  if (lines.front().empty()) lines.front() = title_of(section);
+  lines.push_back(count(section.rows.size(), "point", "points"));
+  lines.insert(lines.end(), words.begin(), words.end());
+  lines.push_back(roundness_of(feature, section));
+  std::erase(lines, "");
+  constexpr double kLine = 16.0;
+  double y = kSectionCentre + 4.0 - 0.5 * kLine * static_cast<double>(lines.size() - 1);
+  for (std::size_t i = 0; i < lines.size(); ++i, y += kLine)
+    svg.text(kSectionCentre, y, "middle", i == 0 ? "said first" : "said", lines[i]);
+  if (found != sections.end()) {
+    const evaluation::CloudPoint& point = feature.cloud[*drawn.worst];
+    const double r = view.radius(point.deviation_mm);
+    svg.circle(view.x(point.angle_rad, r), view.y(point.angle_rad, r), 9.0, "worst");
+  }
+  return fmt::format(R"(<figure>{}<figcaption>{}</figcaption></figure>)", svg.str(),
+                     tr("Shaded: the zone. Triangles touch its outer, squares its inner circle; "
+                        "the ring: where it "
+                        "is worst."));
 }
 
 }  // namespace rondure::reports

@@ -18,26 +18,40 @@ namespace rondure::reports {
 [[nodiscard]] std::string verdict_mark(evaluation::Verdict verdict, int size_px);
 /// ISO 1101 symbol of a geometrical tolerance; empty of a characteristic that has none.
 [[nodiscard]] std::string form_symbol(record::Form form);
-/// The value with its interval, relative to limit and guard bands. The characteristic must have a
-/// value.
-[[nodiscard]] std::string tolerance_bar(const evaluation::CharacteristicResult& result,
-                                        double tolerance_mm);
-/// Judged values, at least one, between a lower and an upper limit with their guard bands. The
-/// characteristic must have a value.
-[[nodiscard]] std::string limits_bar(const evaluation::CharacteristicResult& result,
-                                     const std::vector<evaluation::JudgedValue>& judged);
-/// Ranked bars of an uncertainty budget.
-[[nodiscard]] std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget,
-                                      core::ValueUnit unit);
+/// How drawings name the places of a feature.
+struct Drawn {
+  bool part_z = false;                    ///< Heights of the cloud are part z, not about its mean.
+  std::optional<std::size_t> worst = {};  ///< Row of the cloud that is marked.
+};
+
+/// A feature as it is drawn: without the points in its windows, with heights in part z.
+struct DrawnFeature {
+  evaluation::FeatureResult feature;
+  std::optional<evaluation::Zone> zone;  ///< zone_to_draw().
+  Drawn places;
+};
+/// @param worst  Row of the cloud of `all` to be marked.
+[[nodiscard]] DrawnFeature drawn_of(const evaluation::FeatureResult& all,
+                                    std::optional<std::size_t> worst = {});
+/// The zone of a cylinder, circle, cone or sphere, as far as its drawings need it.
+[[nodiscard]] std::optional<evaluation::Zone> zone_to_draw(
+    const evaluation::FeatureResult& feature);
 
 /// Polar plots of the layers, all at one magnification.
 /// @param all  The feature with the points in windows, whose sectors are shaded; null: none is.
 [[nodiscard]] std::string polar_plots(const evaluation::FeatureResult& feature,
                                       const evaluation::Zone& zone,
-                                      const evaluation::FeatureResult* all = nullptr);
+                                      const evaluation::FeatureResult* all = nullptr,
+                                      const Drawn& drawn = {});
+/// The section of the worst row, else the first, with words in its middle.
+/// @param words  What stands below the place, a line each.
+[[nodiscard]] std::string worst_section(const evaluation::FeatureResult& feature,
+                                        const evaluation::Zone& zone,
+                                        const evaluation::FeatureResult& all, const Drawn& drawn,
+                                        const std::vector<std::string>& words);
 /// The unrolled lateral surface; for a single section its profile.
 [[nodiscard]] std::string deviation_map(const evaluation::FeatureResult& feature,
-                                        const evaluation::Zone& zone);
+                                        const evaluation::Zone& zone, const Drawn& drawn = {});
 /// The cylinder with its zone and its points in three dimensions: complete without the script of
 /// the page (html/internal/script.h), which turns it. Empty for a single section.
 [[nodiscard]] std::string solid_view(const evaluation::FeatureResult& feature,

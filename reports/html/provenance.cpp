@@ -133,12 +133,6 @@ std::string provenance_section(const record::RunRecord& record) {
                      isolated(feature.points_file) + "<br/>" + mono(feature.points_sha256));
   }
   if (header.simulated) rows += property(tr("Seed of the simulation"), std::to_string(header.seed));
-  rows += property(tr("Decision rule"), isolated(rule_in_words(header)));
-  rows +=
-      property(tr("To verify"),
-               trf("{} computes every number here again from the touches in journal.db and says "
-                   "which digit differs, if any.",
-                   R"(<span class="mono">rondure verify RUN_DIR</span>)"));
   return fmt::format(R"(<section><h2>{}</h2><table class="props">{}{}</table></section>)",
                      tr("Provenance"), spoken_caption(tr("Provenance")), rows);
 }

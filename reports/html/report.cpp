@@ -1,5 +1,6 @@
 #include "reports/html/report.h"
 
+#include <cctype>
 #include <set>
 #include <vector>
 
@@ -11,11 +12,15 @@
 #include "reports/html/internal/script.h"
 #include "reports/html/sections.h"
 #include "reports/html/style.h"
+#include "reports/terminal/internal/columns.h"
+#include "reports/words/callouts.h"
 
 namespace rondure::reports {
 namespace {
 
 using core::printable;
+
+constexpr const char* kDetail = R"( class="detail")";
 
 /// A part of the page that has an entry in the contents.
 struct PagePart {
@@ -54,12 +59,45 @@ std::string policy() {
       base64_of_sha256(record::sha256_hex(kScript)));
 }
 
-std::string style(bool of_drawing) {
+/// A text as a string of CSS within <style>: none of its characters can end the string or the
+/// element.
+std::string css_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const bool plain = static_cast<unsigned char>(c) >= 0x80 || std::isalnum(c) != 0 || c == ' ';
+    out += plain ? std::string(1, c) : fmt::format("\\{:x} ", c);
+  }
+  return out + "\"";
+}
+
+/// Head of every sheet: part, revision and run; simulated, incomplete.
+std::string sheet_heads(const record::RunRecord& record) {
+  const record::Header& header = record.header;
+  const auto text = [](std::string_view name, const std::string& value) {
+    constexpr std::size_t kMost = 44;  // columns: a little more than a third of a line
+    return fmt::format("{} {}", name,
+                       value.empty() ? "\u2013" : shortened(printable(value), kMost));
+  };
+  const auto field = [](std::string_view place, const std::string& content) {
+    return fmt::format(
+        "@top-{}{{content:{};font:8pt system-ui,sans-serif;color:#55616d;white-space:nowrap}}",
+        place, css_string(content));
+  };
+  std::string middle = text(tr("Revision"), header.plan_revision);
+  if (header.simulated) middle += " · " + tr("SIMULATED");
+  if (record.ending != "finished") middle += " · " + tr("INCOMPLETE");
+  const std::string part =
+      header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
+  return fmt::format("@page{{{}{}{}}}", field("left", text(tr("Part"), part)),
+                     field("center", middle), field("right", text(tr("Run"), header.run_id)));
+}
+
+std::string style(bool of_drawing, const record::RunRecord& record) {
   return fmt::format(
-      "<style>{0}{2}@media screen{{:root[data-theme=dark]{{{1}}}}}\n"
+      "<style>{0}{2}{3}@media screen{{:root[data-theme=dark]{{{1}}}}}\n"
       "@media screen and (prefers-color-scheme:dark){{:root:not([data-theme=light]){{{1}}}}}\n"
       "</style>",
-      kStyle, kDarkColours, of_drawing ? kDrawingStyle : std::string_view());
+      kStyle, kDarkColours, of_drawing ? kDrawingStyle : std::string_view(), sheet_heads(record));
 }
 
 /// Head of the page on a screen: link to the result, contents, switch of the theme.
@@ -78,16 +116,20 @@ std::string top_of(const std::vector<PagePart>& parts) {
 /// The parts of the page in their order; empty ones are omitted.
 std::vector<PagePart> parts_of(const record::RunRecord& record,
                                const evaluation::Evaluation& evaluation,
-                               const EarlierResults& earlier) {
+                               const EarlierResults& earlier, bool detail) {
+  const std::vector<Callout> callouts = callouts_of(evaluation);
+  const Callout* drawn = drawn_callout(callouts);
   std::vector<PagePart> parts;
   const auto add = [&](std::string id, std::string name, std::string html) {
     if (!html.empty()) parts.push_back({std::move(id), std::move(name), std::move(html)});
   };
-  add("result", tr("Result"), verdict_section(record, evaluation));
+  add("result", tr("Result"), verdict_section(record, evaluation, callouts));
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     add(fmt::format("feature-{}", i + 1), feature_title(evaluation.features[i].feature),
-        feature_section(record, i, evaluation.features[i]));
+        feature_section(record, i, evaluation.features[i], detail,
+                        drawn != nullptr && drawn->feature == &evaluation.features[i]));
   }
+  add("uncertainty", tr("Uncertainty"), uncertainties_section(evaluation, callouts));
   add("history", tr("Earlier runs"), history_section(record, evaluation, earlier));
   add("settings", tr("Settings"), probe_section(record, evaluation));
   add("decisions", tr("Decisions"), decisions_section(record));
@@ -126,17 +168,18 @@ std::string kind_of_page(const evaluation::Evaluation& evaluation, bool of_drawi
 }  // namespace
 
 std::string write_html(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
-                       Language language, const EarlierResults& earlier) {
-  const LanguageScope scope(language);
+                       Edition edition, const EarlierResults& earlier) {
+  const LanguageScope scope(edition.language);
   const bool of_drawing = has_findings(evaluation);
-  const std::vector<PagePart> parts = parts_of(record, evaluation, earlier);
+  const std::vector<PagePart> parts = parts_of(record, evaluation, earlier, edition.detail);
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
+      "<!DOCTYPE html>\n<html lang=\"{}\"{}>\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
-      tag_of(language), policy(), escaped(printable(record.header.part_id)),
-      escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(of_drawing),
-      top_of(parts), head_section(record, kind_of_page(evaluation, of_drawing)));
+      tag_of(edition.language), edition.detail ? kDetail : "", policy(),
+      escaped(printable(record.header.part_id)), escaped(printable(record.header.serial)),
+      tr(name_of(evaluation.verdict)), style(of_drawing, record), top_of(parts),
+      head_section(record, kind_of_page(evaluation, of_drawing), &evaluation));
   constexpr std::string_view kTag = "<section";
   for (const PagePart& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));
@@ -151,10 +194,11 @@ std::string write_html(const record::RunRecord& record, const evaluation::Evalua
   return html + "</script>\n</body>\n</html>\n";
 }
 
-Language language_of_page(std::string_view page) {
-  const std::string mark = fmt::format("<html lang=\"{}\">", tag_of(Language::kChinese));
-  return page.substr(0, 200).find(mark) == std::string_view::npos ? Language::kEnglish
-                                                                  : Language::kChinese;
+Edition edition_of_page(std::string_view page) {
+  const std::string_view head = page.substr(0, 200);
+  const std::string chinese = fmt::format("<html lang=\"{}\"", tag_of(Language::kChinese));
+  return {head.find(chinese) == std::string_view::npos ? Language::kEnglish : Language::kChinese,
+          head.find(kDetail) != std::string_view::npos};
 }
 
 }  // namespace rondure::reports

@@ -10,14 +10,24 @@
 
 namespace rondure::reports {
 
+/// How a page is written.
+struct Edition {
+  Language language = Language::kEnglish;
+  bool detail = false;  ///< Call-outs that conform, numbers and searches are open, on paper too.
+
+  Edition() = default;
+  Edition(Language of, bool open = false)  // NOLINT(google-explicit-constructor): most pages
+      : language(of), detail(open) {}
+  friend bool operator==(const Edition& a, const Edition& b) = default;
+};
+
 /// report.html: one self-contained page (needs no network, and no script to be read).
 /// @param earlier  Results of earlier runs, for its run charts.
 [[nodiscard]] std::string write_html(const record::RunRecord& record,
-                                     const evaluation::Evaluation& evaluation,
-                                     Language language = Language::kEnglish,
+                                     const evaluation::Evaluation& evaluation, Edition edition = {},
                                      const EarlierResults& earlier = {});
-/// The language of a page from write_html(), as the page itself states it; English for anything
-/// else.
-[[nodiscard]] Language language_of_page(std::string_view page);
+/// How a page from write_html() was written, as the page itself states it; for anything else
+/// English and without detail.
+[[nodiscard]] Edition edition_of_page(std::string_view page);
 
 }  // namespace rondure::reports

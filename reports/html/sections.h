@@ -8,6 +8,7 @@
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 #include "reports/history/earlier_results.h"
+#include "reports/words/callouts.h"
 
 namespace rondure::evaluation {
 struct ContourResult;
@@ -20,11 +21,21 @@ namespace rondure::reports {
 
 /// The parts of the page, in their order.
 /// @param kind  Kind of page, printed after the name of the program.
-[[nodiscard]] std::string head_section(const record::RunRecord& record, const std::string& kind);
+/// @param evaluation  Null while a run goes on: probe, calibration and temperature stay empty.
+[[nodiscard]] std::string head_section(const record::RunRecord& record, const std::string& kind,
+                                       const evaluation::Evaluation* evaluation = nullptr);
+/// Page one: answer, table of the call-outs, the worst of them drawn, what the values rest on,
+/// foot.
 [[nodiscard]] std::string verdict_section(const record::RunRecord& record,
-                                          const evaluation::Evaluation& evaluation);
+                                          const evaluation::Evaluation& evaluation,
+                                          const std::vector<Callout>& callouts);
+/// The call-out that page one draws; null: none has points.
+[[nodiscard]] const Callout* drawn_callout(const std::vector<Callout>& callouts);
+/// @param detail  What is folded otherwise is open.
+/// @param drawn   Page one has drawn the feature: its map is not drawn again.
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
-                                          const evaluation::FeatureResult& feature);
+                                          const evaluation::FeatureResult& feature, bool detail,
+                                          bool drawn);
 /// The body of an analysed feature: the drawing that shows the matter, key numbers with their words
 /// explained, other drawings, tables. `record` gives the hidden truth of a simulation.
 [[nodiscard]] std::string analysis_part(const evaluation::SpindleResult& facts,
@@ -37,22 +48,22 @@ namespace rondure::reports {
                                         const record::RunRecord& record, int feature);
 /// Stands above the key numbers of an analysis: which of them are as read.
 [[nodiscard]] std::string as_read_note();
-/// The rule of the verdicts, in words, with its statements.
-[[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
-/// Intervals, bias, budget and declaration of the values of a feature; empty without any.
-[[nodiscard]] std::string uncertainty_section(const evaluation::FeatureResult& feature);
+/// All intervals in one table, the influences and the rule with its statements; empty without any.
+[[nodiscard]] std::string uncertainties_section(const evaluation::Evaluation& evaluation,
+                                                const std::vector<Callout>& callouts);
 /// The conditions that were checked before values were judged, passed or not; empty without any.
 [[nodiscard]] std::string gates_section(const evaluation::FeatureResult& feature);
-/// The verdicts of the characteristics of a feature, a line each; empty without any.
-[[nodiscard]] std::string verdict_lines(const evaluation::FeatureResult& feature);
+/// The verdict of a call-out with its reason, risks, own rule and operator.
+[[nodiscard]] std::string verdict_in_words(const evaluation::CharacteristicResult& result);
 /// The heading of a feature: "Feature land-A"; of an analysis what it is about.
 [[nodiscard]] std::string feature_title(const record::Feature& feature);
 /// Whether something on the page needs kDrawingStyle.
 [[nodiscard]] bool has_findings(const evaluation::Evaluation& evaluation);
-/// How the values of a feature came about: local values, numbers, datums, points left out,
-/// warnings, pictures; empty without findings.
-[[nodiscard]] std::string findings_section(const evaluation::FeatureResult& feature,
-                                           const record::RunRecord& record);
+/// How the values of a feature came about: verdict, local values, numbers, datums, points left out,
+/// warnings, pictures.
+/// @param failing  Those that do not conform, are undecided or void; else all others.
+[[nodiscard]] std::string callouts_section(const evaluation::FeatureResult& feature,
+                                           const record::RunRecord& record, bool failing);
 /// Harmonics of dense sections with the limits of a mask, and those beyond it; empty for sparse
 /// sections.
 [[nodiscard]] std::string harmonics_section(const evaluation::FeatureResult& feature);
@@ -77,6 +88,9 @@ namespace rondure::reports {
 /// A paragraph that explains a word of a page; both are HTML.
 [[nodiscard]] std::string explained(std::string_view word, std::string_view html);
 
+/// What a reader opens where it is wanted, and print leaves out while it is closed; empty without
+/// text.
+[[nodiscard]] std::string folded(const std::string& summary, const std::string& html, bool open);
 /// A paragraph in small print; `html` is used as it is.
 [[nodiscard]] std::string note(const std::string& html);
 /// Puts HTML in a box that scrolls on a narrow screen.
@@ -97,7 +111,4 @@ using TableRows = std::vector<std::vector<std::string>>;
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});
-/// entry() for a plain text; empty without text.
-[[nodiscard]] std::string fact(std::string_view name, const std::string& text);
-
 }  // namespace rondure::reports

@@ -20,12 +20,12 @@ body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,-
 "Noto Sans","Noto Sans CJK SC","PingFang SC","Microsoft YaHei",Arial,sans-serif;
 font-variant-numeric:tabular-nums;overflow-wrap:anywhere;-webkit-print-color-adjust:exact;
 print-color-adjust:exact}
-main{max-width:920px;margin:0 auto;padding:22px 28px 40px}
+main{max-width:1080px;margin:0 auto;padding:22px 28px 40px}
 .skip{position:absolute;left:-999px;top:0;background:var(--paper);color:var(--ink);padding:8px 14px;z-index:1}
 .skip:focus{left:8px;top:8px}
 a{color:var(--blue)}
 :focus-visible{outline:3px solid var(--focus);outline-offset:2px;border-radius:2px}
-.top{max-width:920px;margin:0 auto;padding:18px 28px 0;display:flex;flex-wrap:wrap;justify-content:space-between;
+.top{max-width:1080px;margin:0 auto;padding:18px 28px 0;display:flex;flex-wrap:wrap;justify-content:space-between;
 align-items:center;gap:8px 20px;font-size:13px}
 .top nav ul{display:flex;flex-wrap:wrap;gap:4px 18px;margin:0;padding:0;list-style:none}
 button{font:inherit;font-size:13px;color:var(--ink);background:var(--pale);border:1px solid var(--tick);border-radius:4px;
@@ -35,10 +35,14 @@ button[hidden],.tools[hidden]{display:none}
 .spoken{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap}
 caption{text-align:left;font-weight:600;font-size:13.5px;padding:4px 0}
 .print-only{display:none}
-.brand{display:flex;justify-content:space-between;gap:16px;color:var(--soft);font-size:13px;
-border-bottom:1px solid var(--line);padding-bottom:10px;flex-wrap:wrap}
-.brand b{color:var(--ink);letter-spacing:.04em}
-h1{font-size:25px;line-height:1.25;font-weight:650;margin:22px 0 6px}
+.brand{display:flex;justify-content:space-between;align-items:baseline;gap:4px 24px;flex-wrap:wrap;font-size:13px;
+border-bottom:2px solid var(--ink);padding-bottom:8px}
+.brand .kind{font-weight:650;font-size:15px}.lab{min-width:190px}
+.fill{border-bottom:1px solid var(--tick);min-width:64px;min-height:1.2em;flex:1 1 auto}
+.ident{display:grid;grid-template-columns:1.2fr 1.2fr 1.3fr 1fr;gap:4px 22px;border-bottom:1px solid var(--line);
+padding:8px 0;font-size:13px;line-height:1.4}
+.ident dl{margin:0}.ident div{display:flex;gap:7px}.ident dt,.lines dt{color:var(--soft);white-space:nowrap}.ident dd{margin:0}
+h1{font-size:17px;line-height:1.25;font-weight:650;margin:0}
 h2{font-size:20px;font-weight:650;line-height:1.3;margin:52px 0 12px;padding-top:18px;
 border-top:1px solid var(--line)}
 h3{font-size:15px;font-weight:650;margin:30px 0 6px}
@@ -47,13 +51,13 @@ p{margin:6px 0}
 .facts div{display:flex;gap:7px}.facts dt{white-space:nowrap}.facts dd{margin:0;color:var(--ink)}
 .note{color:var(--soft);font-size:13px}
 .banner{border:1px solid var(--line);border-left:5px solid var(--blue);background:var(--pale);
-padding:10px 16px;margin:20px 0 0;border-radius:3px}
+padding:5px 14px;margin:8px 0 0;border-radius:3px;font-size:13.5px}
 .banner.alarm{border-left-color:var(--bad);background:var(--alarm)}
 .banner ul{margin:4px 0 0;padding-left:20px}
-.verdict{display:flex;align-items:center;gap:22px;margin:28px 0 6px}
+.verdict{display:flex;align-items:center;gap:14px;margin:16px 0 8px}
 .verdict .mark{flex:none}
-.verdict .word{font-size:42px;line-height:1.1;font-weight:700;letter-spacing:-.01em}
-.verdict .why{font-size:16px;color:var(--soft);margin-top:4px}
+.verdict .word{font-size:28px;line-height:1.1;font-weight:700;letter-spacing:-.01em}
+.verdict .why{font-size:15px;margin-top:2px}
 .is-conforms{color:var(--good)}.is-does-not-conform{color:var(--bad)}.is-undecided{color:var(--amber)}
 .is-void,.is-not-toleranced{color:var(--soft)}
 table{border-collapse:collapse;width:100%;font-size:13.5px;margin:12px 0}
@@ -63,22 +67,28 @@ td{padding:6px 10px 6px 0;border-bottom:1px solid var(--line);vertical-align:top
 th{overflow-wrap:normal}th.n,td.n{text-align:right;white-space:nowrap;padding-right:22px}
 table.props th{width:190px;border-bottom:1px solid var(--line);font-weight:400;vertical-align:top;padding-top:6px}
 th:last-child,td:last-child{padding-right:0}
-table.results td{vertical-align:middle;border-bottom:0;padding-top:14px}
-table.results td:first-child{min-width:165px}table.results td:last-child{min-width:34px}
-table.results td:first-child .note{margin-top:5px}
-table.results .value{font-size:19px;font-weight:650}
+table.results{font-size:12.5px;margin:10px 0 4px;overflow-wrap:break-word}
+table.results td{vertical-align:middle;padding:3px 8px 3px 0}table.results th{padding:3px 8px 3px 0}
+table.results td.n,table.results th.n{padding-right:9px}
+table.results .value{font-weight:700;font-size:inherit;color:inherit}.place{white-space:nowrap}sup{line-height:0}table.results small{color:var(--soft)}
 table.results .verdict-word{font-weight:650;white-space:nowrap}
-table.results .bar,table.results .verdict-word .mark{max-width:none}
-table.results .verdict-word .mark{vertical-align:-4px;margin-right:6px}
-table.results tr.words td{color:var(--soft);font-size:12.5px;border-bottom:1px solid var(--line);
-padding:0 0 12px}
-.verdicts{margin:10px 0;padding:0;list-style:none}.verdicts li{margin:4px 0}
-.verdicts .mark,.gates .mark{vertical-align:-3px;margin-right:4px}
+table.results tr:has(.is-does-not-conform) td{background:var(--alarm)}
+.bar{max-width:none;vertical-align:middle}table.results .verdict-word .mark{max-width:none;vertical-align:-2px;margin-right:5px}
+.worst-one{display:grid;grid-template-columns:minmax(0,2fr) minmax(0,3fr);gap:0 20px;align-items:start}
+.said{fill:var(--label);font-size:11.5px;paint-order:stroke;stroke:var(--paper);stroke-width:3px}
+.said.first{font-weight:650;fill:var(--ink)}.worst{fill:none;stroke:var(--bad);stroke-width:2}
+.lines{display:block;border-top:1px solid var(--line);margin:12px 0 0;padding-top:6px;font-size:13px}
+.lines>div{display:grid;grid-template-columns:96px 1fr;gap:8px;margin:2px 0}.lines dd{margin:0}
+.foot{display:grid;grid-template-columns:1fr 1.6fr;gap:24px;border-top:2px solid var(--ink);margin-top:10px;padding-top:8px}
+.sign-box{border:1px solid var(--tick);min-height:52px;padding:3px 8px;font-size:12px;color:var(--soft)}
+.foot .facts{display:block;font-size:12px}
+.fold{border-top:1px solid var(--line);margin:14px 0;padding-top:8px}details{margin:8px 0}summary{cursor:pointer;font-size:13.5px}
+.gates .mark{vertical-align:-3px;margin-right:4px}
 .gates td small{display:block;color:var(--soft);font-size:12.5px}
 .plain{font-size:13.5px}
-.frame-box{display:inline-flex;border:1.2px solid var(--ink);font-size:13px;line-height:1;vertical-align:-7px;
-margin-right:8px}
-.frame-box>*{padding:3px 6px;display:flex;align-items:center}.frame-box>*+*{border-left:1.2px solid var(--ink)}
+.frame-box{display:inline-flex;border:1.2px solid var(--ink);font-size:12px;line-height:1;vertical-align:middle;
+white-space:nowrap}.frame-box .symbol{width:14px;height:14px}
+.frame-box>*{padding:2px 5px;display:flex;align-items:center}.frame-box>*+*{border-left:1.2px solid var(--ink)}
 .id{font-weight:650}
 .keys{display:grid;grid-template-columns:repeat(auto-fill,minmax(190px,1fr));gap:16px 24px;margin:14px 0 6px}
 .keys dt{color:var(--soft);font-size:12.5px}.keys dd{margin:1px 0 0;font-size:15.5px;font-weight:600}
@@ -108,9 +118,6 @@ svg.polar{display:block;width:100%;max-width:340px;margin:0 auto}
 .symbol{fill:none;stroke:var(--ink);stroke-width:1.5}
 .bar .allowed{fill:var(--allowed)}.bar .good{fill:var(--good)}.bar .bad{fill:var(--bad)}.bar .neutral{fill:var(--soft)}
 .bar .limit{stroke:var(--ink);stroke-width:2}
-.bar .guard{fill:var(--amber);fill-opacity:.28;stroke:var(--amber);stroke-width:.8;stroke-dasharray:2 2}
-.bar .interval{stroke:var(--ink);stroke-width:1.4}
-.budget .share{fill:var(--blue)}.budget .share.surface{fill:var(--orange)}
 .rule{border:1px solid var(--line);padding:8px 14px;margin:14px 0;font-size:13.5px;border-radius:3px}
 .rule dl{margin:6px 0 0}.rule dt{color:var(--soft);font-size:12.5px}.rule dd{margin:0 0 4px}
 .tick,.frame{stroke:var(--tick);stroke-width:1;fill:none}.grid{stroke:var(--grid);stroke-width:1}
@@ -141,52 +148,55 @@ path.away{opacity:.4}.far circle,.far path:not(.ring){opacity:.75}
 .turn{touch-action:pan-y;cursor:grab;display:block}.turn:active{cursor:grabbing}
 .tools{display:flex;flex-wrap:wrap;gap:6px;align-items:center;justify-content:center;margin:4px 0;font-size:12.5px;color:var(--soft)}
 .tools output{min-width:16em;text-align:center}
-footer{max-width:864px;margin:0 auto 48px;padding:12px 0 0;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+footer{max-width:1024px;margin:0 auto 48px;padding:12px 0 0;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+@media screen and (max-width:1079px){
+table.results,table.results tbody{display:block}table.results thead{display:none}
+table.results tr{display:flex;flex-wrap:wrap;align-items:center;gap:2px 16px;padding:8px 0;border-bottom:1px solid var(--line)}
+table.results td,table.results td.n{border:0;padding:0;text-align:left;white-space:normal}table.results td:empty{display:none}
+table.results td[data-l]:before{content:attr(data-l) " ";color:var(--soft);font-size:12.5px;font-weight:400}
+}
 @media screen and (max-width:640px){
-main{padding:14px 16px 32px}.top{padding:12px 16px 0}footer{margin:0 16px 40px}.verdict{gap:14px}.verdict .word{font-size:30px}.verdict .mark{width:52px}
-h1{font-size:21px}
+main{padding:14px 16px 32px}.top{padding:12px 16px 0}footer{margin:0 16px 40px}.ident,.worst-one,.foot{grid-template-columns:minmax(0,1fr)}
 table.props th{width:104px}.scroll table{min-width:560px}
 .scroll svg.wide{width:600px;max-width:none}.multiples.single{grid-template-columns:minmax(0,360px);justify-content:center}
 .multiples.pairs{grid-template-columns:1fr}
-table.results,table.results tbody,table.results tr,table.results td{display:block}
-table.results thead{display:none}
-table.results tr:not(.words){padding-top:14px}
-table.results td,table.results td.n{min-width:0!important;padding:2px 0;text-align:left;white-space:normal}
-table.results td[data-l]:not(:empty):before{content:attr(data-l) " ";color:var(--soft);font-size:12.5px;font-weight:400}
 }
-@page{margin:16mm 15mm 18mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt system-ui,sans-serif;color:#55616d}}
+@page{margin:13mm 13mm 12mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt system-ui,sans-serif;color:#55616d}}
 @media print{
-.screen-only{display:none!important}.print-only{display:block}
-body{font-size:9.5pt}table{font-size:9pt}th,.note{font-size:8.5pt}table.results td:first-child{min-width:140px}
-table.results .bar{width:120px}table.results .value{font-size:13pt}th.n,td.n{padding-right:16px}.verdict .word{font-size:34px}main{max-width:none;padding:0}.scroll{overflow:visible}
-figure,tr,.verdict,.banner,.rule,.truth,.keys>div,.warnings li{break-inside:avoid;page-break-inside:avoid}
+.screen-only,details:not([open]){display:none!important}.print-only{display:block}
+body{font-size:8.5pt;line-height:1.35}table{font-size:8pt}th,.note{font-size:7.5pt}main{max-width:none;padding:0}.scroll{overflow:visible}
+#result{break-after:page;page-break-after:always}.brand,.ident,.lines{font-size:8pt;line-height:1.3}.ident{padding:4px 0}.brand{padding-bottom:4px}.brand .kind,h1{font-size:11pt}
+.verdict{margin:5px 0 3px}.verdict .mark{width:36px;height:36px}.sign-box{min-height:44px;font-size:7.5pt}.foot{margin-top:6px;padding-top:5px}.foot .facts{font-size:7.5pt}.lines{margin-top:6px;padding-top:4px}.lines>div{margin:1px 0}.verdict .word{font-size:18pt}.verdict .why{font-size:10pt}.banner{padding:2px 10px;margin:4px 0 0;font-size:8.5pt}
+table.results{font-size:7.5pt;line-height:1.2}table.results th{font-size:7.5pt}table.results td{padding:1.5px 6px 1.5px 0}
+table.results .bar{width:68px}.plain{font-size:7.5pt}.frame-box{font-size:7pt}.frame-box>*{padding:1px 3px}.frame-box .symbol{width:10px;height:10px}
+#result h3{margin:8px 0 2px;font-size:9.5pt}#result figure{margin:2px 0}#result figcaption,#result .note{font-size:7pt;line-height:1.25}
+#result svg.polar{max-width:190px}#result svg.wide{max-width:400px}
+th.n,td.n{padding-right:14px}
+figure,tr,.verdict,.banner,.rule,.truth,.keys>div,.warnings li,.foot,.lines,.worst-one{break-inside:avoid;page-break-inside:avoid}
 table.short{break-inside:avoid;page-break-inside:avoid}
-h2,h3{break-after:avoid;page-break-after:avoid}h2{margin-top:22px;padding-top:12px}section:last-of-type tr{line-height:1.35}h3+p{break-after:avoid;page-break-after:avoid}
+h2,h3{break-after:avoid;page-break-after:avoid}h2{margin:10px 0 6px;padding-top:6px;font-size:12pt}h3{margin:8px 0 2px}table{margin:6px 0}.warnings{margin:6px 0}.warnings li{font-size:8.5pt;padding:1px 10px}h3+p,h2+p{break-after:avoid;page-break-after:avoid}
 thead{display:table-header-group}
-td{padding-top:3px;padding-bottom:3px}footer{margin-top:6px;padding-top:0;border:0;font-size:8pt}
+td{padding-top:1px;padding-bottom:1px}table.props th{padding-top:1px}p{margin:3px 0}.rule{margin:6px 0;padding:4px 12px;font-size:9pt}footer{margin-top:6px;padding-top:0;border:0;font-size:8pt}
 .multiples,.multiples.pairs,.multiples.single{display:block;max-width:none;text-align:center;orphans:1;widows:1}
-.multiples figure{display:inline-block;width:47%;vertical-align:top}svg.polar{max-width:230px}svg.wide{max-width:600px}
-.keys{gap:10px 20px}.facts,.note,figcaption{font-size:8.5pt}
+.multiples figure{display:inline-block;width:32%;vertical-align:top;margin:2px 0}svg.polar{max-width:175px}svg.wide{max-width:440px}figure{margin:4px 0 8px}
+.keys{gap:6px 18px}.facts,figcaption{font-size:8pt}
 }
 )css";
 
 /// What a page with characteristics of a drawing needs beside kStyle.
 inline constexpr std::string_view kDrawingStyle = R"css(
 .frame-box .deviations{display:inline-flex;flex-direction:column;font-size:9.5px;line-height:1.15;margin-left:4px}
-.frame-box{white-space:nowrap}.results .frame-box,.results .frame-box.size{vertical-align:middle}
-.results .id{display:inline-block;vertical-align:middle;margin:2px 0}
 .frame-box .modifier{border:1.1px solid var(--ink);border-radius:9px;font-size:10px;line-height:1;padding:2px 4px;
 margin-left:5px;min-width:16px;text-align:center}
 .side-by-side{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:0 28px;align-items:start}
 .side-by-side td{padding:2px 8px 2px 0}.side-by-side th.n,.side-by-side td.n{padding-right:0}
-details{margin:8px 0}summary{cursor:pointer;font-size:13.5px}
 .span{fill:var(--guide)}.span.worst{fill:var(--orange)}
 .span-limit{stroke:var(--ink);stroke-width:1.6;stroke-dasharray:7 4}
 .window{fill:var(--soft);fill-opacity:.22;stroke:none}
 svg.face{max-width:520px}.face .label{paint-order:stroke;stroke:var(--paper);stroke-width:3px}
 @media screen and (max-width:640px){.side-by-side{grid-template-columns:1fr}}
-@media print{details{break-inside:avoid}.side-by-side{gap:0 20px}
-.results tr:not(.words),h2+p,h2+p+p,h3+p+p,h3~.warnings{break-after:avoid}}
+@media print{svg.face{max-width:300px}.frame-box .deviations{font-size:6pt;line-height:1.05}.frame-box .modifier{font-size:6pt;padding:0 3px;min-width:12px;margin-left:3px}.frame-box.size>*{padding:0 3px}
+.side-by-side{gap:0 20px}h2+p+p,h3+p+p,h3~.warnings{break-after:avoid}}
 )css";
 
 /// The colours of the dark theme: every text and every mark has the contrast required by WCAG 2.1

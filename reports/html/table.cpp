@@ -6,6 +6,12 @@ namespace rondure::reports {
 
 std::string note(const std::string& html) { return R"(<p class="note">)" + html + "</p>"; }
 
+std::string folded(const std::string& summary, const std::string& html, bool open) {
+  if (html.empty()) return {};
+  return fmt::format(R"(<details class="fold"{}><summary>{}</summary>{}</details>)",
+                     open ? R"( open="open")" : "", summary, html);
+}
+
 std::string explained(std::string_view word, std::string_view html) {
   return note(fmt::format("<b>{}</b> {}", word, html));
 }

@@ -187,12 +187,12 @@ core::Result<std::string> compare_exports(const fs::path& directory,
     const bool has_tables = e.format == Format::kCorrections && !tables.empty();
     const bool there = is_there(e);
     if (!there && !has_tables) continue;
-    Language language = Language::kEnglish;
+    Edition edition;
     if (there && (e.format == Format::kHtml || e.format == Format::kPdf)) {
       TRY(const auto page, record::read_inside(directory, e.file, record::kMostPointsBytes));
-      language = language_of(e, page);
+      edition = edition_of(e, page);
     }
-    for (const Rendered& rendered : render_all(e, record, evaluation, language, *earlier)) {
+    for (const Rendered& rendered : render_all(e, record, evaluation, edition, *earlier)) {
       const auto& [file, made] = rendered;
       tables.erase(file.file);
       if (file.file == e.file ? !there : !is_there(file)) continue;

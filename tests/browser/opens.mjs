@@ -14,10 +14,12 @@ for (const plan of ['01_spool_simulated', '03_calibrate_fixture', '04_part_in_tw
     const {html, report} = run(plan);
     const {page, said} = await open(html);
     assert.equal(await page.locator('h1').count(), 1);
+    await page.evaluate(() => document.querySelectorAll('details').forEach((one) => { one.open = true; }));
+    const heading = await page.locator('#result h3').allInnerTexts();
     const drawn = await page.locator('figure svg[aria-label]').evaluateAll(
         (all) => all.map((svg) => ({label: svg.getAttribute('aria-label'), area: svg.getBoundingClientRect().width *
                                     svg.getBoundingClientRect().height, marks: svg.querySelectorAll('path,circle,rect,line').length})));
-    const {labels, bars} = expected(report);
+    const {labels, bars} = expected(report, heading[0] ?? null);
     assert.equal(drawn.length, labels.length);
     for (const label of labels) {
       const at = drawn.findIndex((svg) => label.test(svg.label));

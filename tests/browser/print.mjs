@@ -20,9 +20,10 @@ function wordsOf(file) {
   }));
 }
 
-/// Puts a word into the upper left and the lower right corner of every drawing of a figure.
+/// Puts a word into the upper left and the lower right corner of every drawing that print shows.
 const mark = (page) => page.evaluate(() => {
-  const drawings = document.querySelectorAll('figure svg[role]');
+  const drawings = [...document.querySelectorAll('figure svg[role]')]
+    .filter((svg) => !svg.closest('.screen-only, details:not([open])'));
   drawings.forEach((svg, i) => {
     const {width, height} = svg.viewBox.baseVal;
     for (const [name, x, y, anchor] of [['qa', 0, 7, 'start'], ['qz', width, height - 1, 'end']]) {
@@ -65,8 +66,37 @@ for (const plan of ['01_spool_simulated', '03_calibrate_fixture', '05_spindle_th
         const drawn = (places[1].y1 - places[0].y0) / (places[1].x1 - places[0].x0);
         assert.ok(Math.abs(drawn / ratio - 1) < 0.08, `drawing ${i + 1} is squeezed: ${drawn} for ${ratio}`);
       });
+      const headings = await page.evaluate(() => [...document.querySelectorAll('h2, h3')]
+        .filter((one) => !one.closest('.screen-only, details:not([open])')).map((one) => one.textContent.replace(/\s+/g, '')));
+      pages.slice(0, -1).forEach(({size, words}, i) => {
+        const body = words.filter(({y1}) => y1 < size[1] - 36);
+        const last = Math.max(...body.map(({y1}) => y1));
+        const line = body.filter(({y1}) => last - y1 < 3).map(({text}) => text).join('');
+        assert.ok(!headings.includes(line), `page ${i + 1} of ${paper} ends with the heading ${line}`);
+      });
       assert.ok(!pages.some(({words}) => words.some(({text}) => ['Reset', 'Contents'].includes(text))),
                 'what is for the screen is on paper');
+    }
+    await page.close();
+  });
+}
+
+/// Words of each page of a PDF file.
+const textsOf = (file) => execFileSync('pdftotext', ['-layout', file, '-'], {encoding: 'utf8', maxBuffer: 1e8})
+  .split('\f').slice(0, -1);
+
+for (const [plan, most] of [['01_spool_simulated', 3], ['15_shaft_points_file', 6]]) {
+  test(`${plan} has at most ${most} pages, and page one alone says what is signed`, async () => {
+    const {page} = await open(run(plan).html);
+    await page.emulateMedia({media: null});
+    for (const paper of Object.keys(papers)) {
+      const file = join(folder, `${plan}-pages-${paper}.pdf`);
+      await page.pdf({path: file, format: paper, printBackground: true});
+      const texts = textsOf(file);
+      assert.ok(texts.length <= most, `${texts.length} pages of ${paper}`);
+      texts.forEach((text) => assert.equal(/SIMULATED/.test(text), plan.includes('simulated')));
+      for (const words of [/ of \d+ conforms?\./, /Measured/, /Rule/, /Uncertainty/, /Not seen/, /signature/, /rondure verify/])
+        assert.match(texts[0], words);
     }
     await page.close();
   });

@@ -159,12 +159,11 @@ TEST(Verdict, OfAnIntervalThatLeavesOutTheProbingFormIsUndecided) {
     const std::string summary = testing::one_line(write_summary(run, *evaluation));
     EXPECT_THAT(summary,
                 AllOf(HasSubstr(block), HasSubstr("not in it probe-lobing, probing-form-limit")));
-    EXPECT_THAT(
-        write_html(run, *evaluation),
-        AllOf(
-            HasSubstr(fmt::format("shows a probing form of {:.3f} µm", seen_um)),
-            HasSubstr(fmt::format("form_limit_um&quot;: {:g}", std::ceil(100.0 * seen_um) / 100.0)),
-            HasSubstr("Not in the interval: <bdi>probe-lobing</bdi>, <bdi>probing-form-limit")));
+    EXPECT_THAT(write_html(run, *evaluation),
+                AllOf(HasSubstr(fmt::format("shows a probing form of {:.3f} µm", seen_um)),
+                      HasSubstr(fmt::format("form_limit_um&quot;: {:g}",
+                                            std::ceil(100.0 * seen_um) / 100.0)),
+                      HasSubstr("Not in U: <bdi>probe-lobing</bdi>, <bdi>probing-form-limit")));
     // Pasted in place of the repeatability, the block is what was asked for.
     run.settings[5] = {"uncertainty/probe/form_limit_um", std::ceil(100.0 * seen_um) / 100.0, ""};
     EXPECT_EQ(result_of(run).verdict, decided);

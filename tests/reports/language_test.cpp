@@ -327,8 +327,8 @@ TEST(ChineseReport, HasNoEnglishThatDoesNotSayThatItIsEnglish) {
     EXPECT_EQ(testing::english_left(page, user_texts_of(made)), "");
     EXPECT_EQ(testing::first_unbalanced_tag(page), "");
     EXPECT_THAT(page, StartsWith("<!DOCTYPE html>\n<html lang=\"zh-Hans\">"));
-    EXPECT_EQ(language_of_page(page), Language::kChinese);
-    EXPECT_EQ(language_of_page(write_html(made.record, made.evaluation)), Language::kEnglish);
+    EXPECT_EQ(edition_of_page(page), Language::kChinese);
+    EXPECT_EQ(edition_of_page(write_html(made.record, made.evaluation)), Language::kEnglish);
   }
 }
 
@@ -386,7 +386,7 @@ TEST(ChineseReport, FormatsForProgramsStayEnglish) {
     EXPECT_EQ(english == chinese, !for_people) << e.file;
     if (e.format == record::Format::kPdf)
       continue;  // it states the language of its page: pdf_test.cpp
-    EXPECT_EQ(language_of(e, chinese), for_people ? Language::kChinese : Language::kEnglish);
+    EXPECT_EQ(edition_of(e, chinese), for_people ? Language::kChinese : Language::kEnglish);
   }
 }
 

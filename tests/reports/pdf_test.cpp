@@ -92,14 +92,13 @@ class Pdf : public ::testing::Test {
     }
   }
 
-  static std::string printed(const record::RunRecord& record, const std::string& html,
-                             Paper paper = Paper::kA4) {
-    auto pdf = print_pdf(record.header, html, paper);
+  static std::string printed(const std::string& html, Paper paper) {
+    auto pdf = print_pdf(html, paper);
     EXPECT_TRUE(pdf) << pdf.error().what;
     return pdf.value_or("");
   }
   static std::string printed(const Case& made, Paper paper = Paper::kA4) {
-    return printed(made.record, page_of(made), paper);
+    return printed(page_of(made), paper);
   }
 };
 
@@ -127,7 +126,7 @@ std::string inked(std::string_view text) {
 
 /// All ink of the pages between the margins, in the order of the page.
 std::string body_ink(const std::string& pdf) {
-  return inked(said_of(pdf, "pdftotext -raw -x 0 -y 45 -W 595 -H 746", "-"));
+  return inked(said_of(pdf, "pdftotext -raw -x 0 -y 36 -W 595 -H 772", "-"));
 }
 
 bool on_paper(const pugi::xml_node& node) {
@@ -187,16 +186,18 @@ TEST_F(Pdf, SaysEveryTextOfThePage) {
        {std::pair("conforms", cylinder_case(4, 7, 3)), std::pair("fails", failing_case()),
         std::pair("circle", circle_case(500)), std::pair("unfinished", unfinished_case())}) {
     SCOPED_TRACE(name);
-    const std::string html = page_of(made);
-    const std::string pdf = printed(made.record, html);
+    const std::string html =
+        write_html(made.record, made.evaluation, Edition(Language::kEnglish, true));
+    const std::string pdf = printed(html, Paper::kA4);
     EXPECT_THAT(lacking(pdf, html), IsEmpty());
+    EXPECT_EQ(edition_of_pdf(pdf), Edition(Language::kEnglish, true));
   }
 }
 
 TEST_F(Pdf, TheComparisonOfTextsSeesOneThatIsMissing) {
   const Case made = cylinder_case(4, 7, 3);
-  std::string html = page_of(made);
-  const std::string pdf = printed(made.record, html);
+  std::string html = write_html(made.record, made.evaluation, Edition(Language::kEnglish, true));
+  const std::string pdf = printed(html, Paper::kA4);
   html.insert(html.find("</footer>"), "<b>not on paper</b>");
   EXPECT_THAT(lacking(pdf, html), ::testing::ElementsAre("notonpaper"));
 }
@@ -211,15 +212,16 @@ TEST_F(Pdf, IsTaggedHasItsTitleAndTheSizeOfItsPaperAndEmbedsItsFonts) {
   EXPECT_THAT(said_of(printed(made, Paper::kLetter), "pdfinfo"), HasSubstr("(letter)"));
 }
 
-TEST_F(Pdf, EveryPageHasPartRevisionRunAndItsNumberAndNoPathOfAFile) {
+TEST_F(Pdf, EveryPageHasPartRevisionRunSimulatedAndItsNumberAndNoPathOfAFile) {
   Case made = cylinder_case(4, 7, 150);
   made.record.header.plan_revision = "C7";
   const auto pages = pages_of(printed(made));
   ASSERT_GE(pages.size(), 3U);
   for (std::size_t i = 0; i < pages.size(); ++i) {
-    EXPECT_THAT(pages[i], AllOf(HasSubstr("Part VS-1180 / 0042"), HasSubstr("Revision C7"),
-                                HasSubstr("Run 01_spool_simulated"), Not(HasSubstr("file:")),
-                                Not(HasSubstr("report.html"))));
+    EXPECT_THAT(pages[i],
+                AllOf(HasSubstr("Part VS-1180 / 0042"), HasSubstr("Revision C7 · SIMULATED"),
+                      HasSubstr("Run 01_spool_simulated"), Not(HasSubstr("file:")),
+                      Not(HasSubstr("report.html"))));
     EXPECT_THAT(inked(pages[i]), ::testing::EndsWith(fmt::format("{}/{}", i + 1, pages.size())));
   }
   EXPECT_LT(pages.front().find("Conforms"), pages.front().find("Characteristic"));
@@ -228,11 +230,11 @@ TEST_F(Pdf, EveryPageHasPartRevisionRunAndItsNumberAndNoPathOfAFile) {
 TEST_F(Pdf, AChinesePageIsPrintedInChinese) {
   const Case made = failing_case();
   const std::string html = write_html(made.record, made.evaluation, Language::kChinese);
-  const std::string pdf = printed(made.record, html);
+  const std::string pdf = printed(html, Paper::kA4);
   EXPECT_THAT(body_ink(pdf), HasSubstr("不合格"));
   EXPECT_THAT(pages_of(pdf).back(), HasSubstr("版本"));
   expect_embedded(pdf);
-  EXPECT_EQ(language_of_pdf(pdf), Language::kChinese);
+  EXPECT_EQ(edition_of_pdf(pdf), Language::kChinese);
 }
 
 TEST_F(Pdf, HostileNamesStayTextInTheHeadOfEachPage) {
@@ -244,17 +246,17 @@ TEST_F(Pdf, HostileNamesStayTextInTheHeadOfEachPage) {
     made.record.header.part_id = text;
     made.record.header.serial.clear();
     const std::string html = page_of(made);
-    const std::string pdf = printed(made.record, html);
+    const std::string pdf = printed(html, Paper::kA4);
     EXPECT_THAT(inked(pages_of(pdf).back()), HasSubstr("Part" + inked(text).substr(0, 16)));
     EXPECT_TRUE(is_printed_from(html, pdf, Paper::kA4));
-    EXPECT_EQ(language_of_pdf(pdf), Language::kEnglish);
+    EXPECT_EQ(edition_of_pdf(pdf), Language::kEnglish);
   }
 }
 
 TEST_F(Pdf, NamesThePageThatItWasPrintedFrom) {
   const Case made = cylinder_case(4, 7, 3);
   const std::string html = page_of(made);
-  const std::string pdf = printed(made.record, html, Paper::kLetter);
+  const std::string pdf = printed(html, Paper::kLetter);
   EXPECT_TRUE(is_printed_from(html, pdf));
   EXPECT_TRUE(is_printed_from(html, pdf, Paper::kLetter));
   EXPECT_FALSE(is_printed_from(html, pdf, Paper::kA4));
@@ -266,13 +268,13 @@ TEST_F(Pdf, NamesThePageThatItWasPrintedFrom) {
   const std::string earlier = "/Creator (rondure 0.2.0, " + pdf.substr(at, 76) +
                               ", page-language-zh-Hans)\n/Title (t)\n%%EOF";
   EXPECT_TRUE(is_printed_from(html, earlier));
-  EXPECT_EQ(language_of_pdf(earlier), Language::kChinese);
+  EXPECT_EQ(edition_of_pdf(earlier), Language::kChinese);
 }
 
 TEST(PdfFailure, WithoutChromiumThePackageIsNamed) {
   const PdfFolder folder;
   ::setenv("PATH", "/nowhere::relative", 1);
-  const auto pdf = print_pdf({}, "<html><head></head></html>", Paper::kA4);
+  const auto pdf = print_pdf("<html><head></head></html>", Paper::kA4);
   ASSERT_FALSE(pdf);
   EXPECT_EQ(pdf.error().code, core::Code::kFile);
   EXPECT_THAT(pdf.error().what, AllOf(HasSubstr("install it (Debian: chromium)"),
@@ -294,7 +296,7 @@ TEST(PdfFailure, ChromiumThatIsKilledFailsHangsOrEndsWithHalfADocumentIsToldAndL
     const PdfFolder folder;
     folder.have_browser(fault.script);
     const auto pdf =
-        print_pdf({}, "<html><head></head></html>", Paper::kA4, std::chrono::milliseconds(500));
+        print_pdf("<html><head></head></html>", Paper::kA4, std::chrono::milliseconds(500));
     ASSERT_FALSE(pdf);
     EXPECT_THAT(pdf.error().what,
                 AllOf(HasSubstr("the page cannot be printed: "), HasSubstr(fault.what)));

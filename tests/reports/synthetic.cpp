@@ -325,6 +325,9 @@ Case spiral_case(int points) {
     evaluation::CloudPoint& point = feature.cloud[i];
     point.angle_rad = std::fmod(0.61 * static_cast<double>(i), core::kTwoPi);
     point.height_mm = 50.0 * static_cast<double>(i) / points - 25.0;
+    const double r = kRadius + kTip + point.deviation_mm;
+    point.tip_mm = {r * std::cos(point.angle_rad), r * std::sin(point.angle_rad),
+                    40.0 + point.height_mm};
   }
   return made;
 }

@@ -163,9 +163,9 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
                                                            const evaluation::Evaluation& evaluation,
                                                            std::string_view report) {
   const reports::LanguageScope scope(language_);
-  put("head", reports::head_section(record, tr("live view")));
+  put("head", reports::head_section(record, tr("live view"), &evaluation));
   put("now", live_over(record, report));
-  put("result", reports::verdict_section(record, evaluation));
+  put("result", reports::verdict_section(record, evaluation, reports::callouts_of(evaluation)));
   put("announce",
       fmt::format("{} {}.", tr("The run is over. Verdict:"), tr(name_of(evaluation.verdict))));
   put("touches", live_touches(record));

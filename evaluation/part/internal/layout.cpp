@@ -15,6 +15,7 @@
 #include "evaluation/part/internal/sections.h"
 #include "evaluation/part/internal/windows.h"
 #include "evaluation/part/outliers.h"
+#include "evaluation/part/surface.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/cone.h"
@@ -82,6 +83,24 @@ class LayoutBuilder {
     TRY_DO(check_thickness());
     TRY_DO(find_outliers());
     return std::move(out_);
+  }
+
+  /// The places about the axis of the points that take part.
+  std::vector<PlaceOnPart> places() {
+    std::vector<PlaceOnPart> out;
+    if (tips_.empty()) return out;
+    for (std::size_t row = 0; row < tips_.size(); ++row)
+      out_.kept[row] = !feature_.cloud[row].left_out;
+    find_heights();
+    const auto axis = axis_of_kept();
+    if (!axis) return out;
+    place(*axis);
+    if (leans_) return out;
+    for (const PartPlace& at : places_) {
+      out.push_back({at.angle_rad < 0.0 ? at.angle_rad + core::kTwoPi : at.angle_rad,
+                     out_.no_heights ? std::nullopt : std::optional(at.z_mm)});
+    }
+    return out;
   }
 
  private:
@@ -594,6 +613,11 @@ core::Result<void> check_thickness(const FeatureResult& feature, int layer,
            core::phrase("section {} is {:.3f} mm thick: points of one section differ by at most "
                         "{:g} mm along the axis; {}",
                         layer + 1, *high - *low, kThickestMm, cure)));
+}
+
+std::vector<PlaceOnPart> places_on_part(const FeatureResult& feature) {
+  const auto settings = record::task_of<SurfaceSettings>(feature.feature.settings);
+  return settings ? LayoutBuilder(feature, *settings).places() : std::vector<PlaceOnPart>();
 }
 
 SurfaceLayout layout_of(const FeatureResult& feature) {

@@ -11,11 +11,13 @@ function ofFinding({local, lines, centers_mm: centers, datums}) {
   return labels;
 }
 
-function ofCloud(feature) {
+/// Page one draws the section where the worst call-out is worst, beside the sections of its feature, and its map.
+function ofCloud(feature, onPageOne) {
   if (feature.shape === 'plane') return [/^Heights over the face/];
   if (['cone', 'sphere'].includes(feature.shape)) return [/^Deviations on the unrolled surface/];
   const oneSection = feature.shape === 'circle' || feature.layers.length === 1;
   const labels = feature.layers.slice(0, mostPolarPlots).map(() => /deviations about the minimum-zone axis/);
+  if (onPageOne && !oneSection) labels.push(/deviations about the minimum-zone axis/);
   labels.push(oneSection ? /^Deviation against the angle/ : /^Deviations on the unrolled surface/);
   if (!oneSection) labels.push(/^Cylinder and its zone in three dimensions/);
   if (feature.layers.some((layer) => layer.filtered)) labels.push(/^Amplitudes of the harmonics/);
@@ -36,17 +38,17 @@ const ofAnalysis = {
 };
 
 /// Labels (patterns) of the drawings of every feature, and the number of tolerance bars.
-export function expected(report) {
+/// drawn: heading of the drawing of page one, which names its feature; null: there is none.
+export function expected(report, drawn) {
   const labels = [];
   let bars = 0;
   for (const feature of report.features) {
-    labels.push(...(feature.cloud ? ofCloud(feature) : ofAnalysis[feature.shape](feature)));
+    labels.push(...(feature.cloud ? ofCloud(feature, drawn?.includes(feature.id)) : ofAnalysis[feature.shape](feature)));
     for (const c of feature.characteristics) {
       const value = c.value_um ?? c.value_mm ?? c.finding?.judged[0].value_mm ?? null;
-      const limit = c.tolerance_um ?? c.lower_limit_mm ?? c.upper_limit_mm ?? null;
-      if (value !== null && limit !== null) bars += 1;
+      const both = (c.lower_limit_mm ?? null) !== null && (c.upper_limit_mm ?? null) !== null;
+      if (value !== null && (both || (c.tolerance_um ?? null) !== null)) bars += 1;
       if (c.finding) labels.push(...ofFinding(c.finding));
-      if (c.uncertainty?.budget?.length > 0) labels.push(/^standard uncertainty by each influence/);
     }
   }
   return {labels, bars};

@@ -1,0 +1,557 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/utf8.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/finding.h"
+#include "reports/drawings/internal/svg.h"
+#include "reports/escaping.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/callouts.h"
+#include "reports/words/internal/facts.h"
+#include "reports/words/internal/gates.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::fixed;
+
+std::string css_name(evaluation::Verdict verdict) {
+  std::string name = fmt::format("is-{}", name_of(verdict));
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return name;
+}
+
+std::string unfinished_banner(const record::RunRecord& record,
+                              const evaluation::Evaluation& evaluation) {
+  if (record.ending == "finished") return {};
+  std::string html =
+      fmt::format(R"(<div class="banner alarm"><b>{}</b> )", tr("This run did not finish."));
+  html += record.ending.empty() ? tr("It has no end on record.")
+                                : trf("It ended: {}.", worded(core::Phrase(record.ending)));
+  if (record.failure) {
+    html += fmt::format(R"( {} {}{} <span class="code">{}</span>)", tr("Reason:"),
+                        titled(record.failure->code), foreign(record.failure->what),
+                        core::code_name(record.failure->code));
+    if (!record.failure->where.empty()) html += trf(" at {}", foreign(record.failure->where));
+  }
+  html += "<ul>";
+  for (const std::string& part : missing_parts(record, evaluation)) {
+    html += fmt::format("<li>{}</li>", isolated(part));
+  }
+  return html + "</ul></div>";
+}
+
+/// "30 0/-0.013 E", as a drawing states a size, with the circled letters of ISO 14405-1.
+std::string size_frame(const record::Feature& feature, const record::Characteristic& asked) {
+  using Indication = record::Indication;
+  std::string size;
+  if (feature.nominal_diameter_mm > 0.0 && evaluation::unit_of(asked) == core::ValueUnit::kMm) {
+    size = fmt::format("Ø{:.10g}", feature.nominal_diameter_mm);
+    const auto deviation = [&](const std::optional<double>& limit_mm) {
+      if (!limit_mm) return std::string("–");
+      const double by_mm = core::on_grid(*limit_mm - feature.nominal_diameter_mm, 1e6);
+      return (by_mm > 0.0 ? "+" : "") + core::decimal(by_mm == 0.0 ? 0.0 : by_mm);
+    };
+    if (asked.toleranced()) {
+      size += fmt::format(R"(<span class="deviations"><span>{}</span><span>{}</span></span>)",
+                          deviation(asked.tolerance_mm), deviation(asked.lower_mm));
+    }
+  } else {
+    size = limits_in_words(asked, tr(", "));
+  }
+  const Indication& indication = asked.indication;
+  const auto circled = [&](std::string_view letters) {
+    size += fmt::format(R"(<span class="modifier">{}</span>)", letters);
+  };
+  if (indication.requirement == Indication::Requirement::kEnvelope) {
+    circled("E");
+  } else {
+    circled(record::name_of(indication.size));
+    if (indication.rank) circled(record::name_of(*indication.rank));
+    if (indication.section != Indication::Section::kAll)
+      size += fmt::format(" {}", record::name_of(indication.section));
+  }
+  return fmt::format(R"(<span class="frame-box size"><span>{}</span></span>)", size);
+}
+
+/// Whether the tolerance zone is a cylinder.
+bool is_diametral(const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  if (asked.form == record::Form::kStraightness)
+    return asked.indication.of == record::Indication::Of::kMedianLine;
+  if (result.finding) return result.finding->judged.front().symbol.ends_with("\u00d8");
+  return asked.form == record::Form::kCoaxiality || asked.form == record::Form::kConcentricity;
+}
+
+/// Tolerance frame: symbol, limit in mm, datums. A characteristic that ISO 1101 does not know has
+/// no frame: a line with its symbol and its limits in its place.
+std::string tolerance_frame(const record::Feature& feature,
+                            const evaluation::CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  if (asked.form == record::Form::kDiameter) return size_frame(feature, asked);
+  const std::string symbol = form_symbol(asked.form);
+  if (symbol.empty()) {
+    return fmt::format(R"(<span class="plain">{} {}</span> )",
+                       escaped(tr(evaluation::symbol_of(asked))), limits_in_words(asked, tr(", ")));
+  }
+  std::string cells;
+  if (asked.tolerance_mm) {
+    cells =
+        fmt::format("<span>{}{:g}</span>", is_diametral(result) ? "Ø" : "", *asked.tolerance_mm);
+  }
+  for (const std::string& datum : asked.indication.datum)
+    cells += fmt::format("<span>{}</span>", isolated(datum));
+  return fmt::format(R"(<span class="frame-box"><span>{}</span>{}</span>)", symbol, cells);
+}
+
+/// A probability estimated from trials, with a resolution no finer than one trial.
+std::string percent(double share_1, double trials) {
+  const double finest = std::pow(10.0, std::ceil(std::log10(100.0 / trials)));  // in percent
+  if (share_1 * trials < 0.5) return trf("below {:g} %", finest);
+  if ((1.0 - share_1) * trials < 0.5) return trf("above {:g} %", 100.0 - finest);
+  const int decimals = std::max(0, -static_cast<int>(std::lround(std::log10(finest))));
+  return fixed(100.0 * share_1, decimals) + " %";
+}
+
+/// Probability of conformance and risks; empty without an interval.
+std::string risks_in_words(const evaluation::CharacteristicResult& result) {
+  std::string html;
+  if (!result.outcome->conformance_1) return html;
+  const double trials = result.value->uncertainty().result()->trials;
+  html += "<br/>" +
+          trf("Probability of conformance: {}.", percent(*result.outcome->conformance_1, trials));
+  if (const auto risk = result.outcome->specific_risk_1()) {
+    html += result.verdict == evaluation::Verdict::kConforms
+                ? trf(" Specific consumer's risk of this verdict: {}.", percent(*risk, trials))
+                : trf(" Specific producer's risk of this verdict: {}.", percent(*risk, trials));
+  }
+  if (result.risks) {
+    html += trf(
+        " Over the parts of the stated prior: {} conform not and are accepted (global consumer's "
+        "risk), {} conform and are rejected (global producer's risk).",
+        percent(result.risks->false_acceptance_1, trials),
+        percent(result.risks->false_rejection_1, trials));
+  }
+  return html;
+}
+
+/// Share of the limit on the one scale of the page: the tick is the limit.
+std::string share_bar(const Callout& callout) {
+  if (!callout.share_1) return {};
+  constexpr double kWidth = 96.0;
+  constexpr double kMiddle = 7.0;
+  const Scale x{0.0, 1.0, 0.5, 72.0};
+  Svg svg(kWidth, 14.0, "bar", trf("{} % of the limit", fixed(100.0 * *callout.share_1, 0)));
+  svg.rect(0.0, kMiddle - 3.0, kWidth, 6.0, "allowed");
+  const evaluation::Verdict verdict = callout.result->verdict;
+  svg.rect(0.0, kMiddle - 3.0, std::min(x.at(*callout.share_1), kWidth), 6.0,
+           verdict == evaluation::Verdict::kConforms         ? "good"
+           : verdict == evaluation::Verdict::kDoesNotConform ? "bad"
+                                                             : "neutral");
+  svg.line(x.at(1.0), 1.0, x.at(1.0), 13.0, "limit");
+  return svg.str();
+}
+
+/// The footnotes of the table, each once; the letter of a note.
+class Footnotes {
+ public:
+  std::string letter(const std::string& html) {
+    if (html.empty()) return {};
+    const auto known = std::ranges::find(notes_, html);
+    const auto index = static_cast<std::size_t>(known - notes_.begin());
+    if (known == notes_.end()) notes_.push_back(html);
+    return fmt::format("<sup>{}</sup>", name_of(index));
+  }
+  [[nodiscard]] std::string text() const {
+    std::string html;
+    for (std::size_t i = 0; i < notes_.size(); ++i)
+      html += fmt::format(" <b>{}</b> {}.", name_of(i), notes_[i]);
+    return html;
+  }
+
+ private:
+  static std::string name_of(std::size_t index) {
+    return index < 26 ? std::string(1, static_cast<char>('a' + index)) : std::to_string(index);
+  }
+  std::vector<std::string> notes_;
+};
+
+/// A part of the verification operator of a value; empty without a value.
+enum class OperatorPart : std::size_t { kFilter = 1, kSampling = 2 };
+std::string operator_part(const evaluation::CharacteristicResult& result, OperatorPart part) {
+  if (!result.value) return {};
+  const auto& arguments = result.value->value_operator().words().arguments();
+  const auto* words =
+      std::get_if<core::Phrase>(&arguments.at(static_cast<std::size_t>(part)).value);
+  return words == nullptr ? std::string() : in_sentence(*words);
+}
+
+/// The filter of most call-outs.
+std::string usual_filter(const std::vector<Callout>& callouts) {
+  std::map<std::string, int> number;
+  for (const Callout& one : callouts) {
+    if (one.result->value) ++number[operator_part(*one.result, OperatorPart::kFilter)];
+  }
+  const auto most =
+      std::ranges::max_element(number, {}, [](const auto& one) { return one.second; });
+  return most == number.end() ? std::string() : most->first;
+}
+
+std::string row(const Callout& callout, const std::string& usual, Footnotes& notes) {
+  const evaluation::CharacteristicResult& result = *callout.result;
+  const record::Characteristic& asked = result.characteristic;
+  const auto cell = [](std::string_view css_class, const std::string& name,
+                       const std::string& html) {
+    return fmt::format(R"(<td class="{}" data-l="{}">{}</td>)", css_class, name, html);
+  };
+  std::string letters;
+  if (const std::string filter = operator_part(result, OperatorPart::kFilter); filter != usual)
+    letters += notes.letter(filter);
+  if (const std::string own = own_rule_in_words(asked); !own.empty())
+    letters += notes.letter(trf("Decision rule of this line: {}", escaped(own)));
+  std::string html = fmt::format(
+      R"(<tr title="{}"><td>{}{}</td>)", escaped(core::printable(asked.id)),
+      tolerance_frame(callout.feature->feature, result),
+      asked.drawing_zone.empty() ? std::string()
+                                 : fmt::format(" <small>{}</small>", isolated(asked.drawing_zone)));
+  html += fmt::format("<td>{}</td><td>{} <small>{}</small>{}</td>",
+                      isolated(callout.feature->feature.id), escaped(callout.symbol),
+                      evaluation::reference_of(asked), letters);
+  html += cell("n", tr("Value"),
+               callout.value.empty() ? tr("none")
+                                     : fmt::format(R"(<b class="value">{}</b>)", callout.value));
+  html += cell("n", "U", callout.expanded) + cell("n", tr("Limit"), callout.limit) +
+          cell("n", tr("Deviation"), callout.deviation) +
+          cell("", tr("Share of the limit"), share_bar(callout)) +
+          cell("place", tr("Worst at"), callout.place);
+  return html + fmt::format(R"(<td class="verdict-word {}">{}{}</td></tr>)",
+                            css_name(result.verdict), verdict_mark(result.verdict, 14),
+                            capitalised(tr(name_of(result.verdict))));
+}
+
+std::string results_table(const std::vector<Callout>& callouts) {
+  if (callouts.empty()) return fmt::format("<p>{}</p>", tr("No characteristic was asked for."));
+  const std::string usual = usual_filter(callouts);
+  Footnotes notes;
+  std::string rows;
+  for (const Callout& callout : callouts) rows += row(callout, usual, notes);
+  std::string html =
+      fmt::format(R"(<table class="results">{}<thead><tr>)", spoken_caption(tr("Result")));
+  const std::vector<std::pair<std::string, bool>> names = {{tr("Call-out"), false},
+                                                           {tr("Feature"), false},
+                                                           {tr("Characteristic"), false},
+                                                           {tr("Value"), true},
+                                                           {"U", true},
+                                                           {tr("Limit"), true},
+                                                           {tr("Deviation"), true},
+                                                           {tr("Share of the limit"), false},
+                                                           {tr("Worst at"), false},
+                                                           {tr("Verdict"), false}};
+  for (const auto& [name, number] : names)
+    html += fmt::format(R"(<th scope="col"{}>{}</th>)", number ? R"( class="n")" : "", name);
+  html += "</tr></thead><tbody>" + rows + "</tbody></table>";
+  return html +
+         note(
+             (usual.empty() ? std::string() : trf("Unless marked: {}.", usual)) + notes.text() +
+             " " +
+             tr("µm; sizes in mm, angles in µrad. Bold: the value that is compared. U: half of its "
+                "interval. Deviation: of a size from nominal, else beyond the limit. Bar: the tick "
+                "is the limit. Worst at: part z, angle from part x."));
+}
+
+/// "CYLt of journal B is 0.31 µm over its limit of 4 µm".
+std::string failing_in_words(const Callout& callout) {
+  const std::string name =
+      trf("{} of {}", escaped(callout.symbol), isolated(callout.feature->feature.id));
+  const evaluation::Verdict verdict = callout.result->verdict;
+  if (verdict != evaluation::Verdict::kDoesNotConform || callout.beyond.empty())
+    return trf("{}: {}", name, tr(name_of(verdict)));
+  return callout.below ? trf("{} is {} below its limit of {}", name, callout.beyond, callout.passed)
+                       : trf("{} is {} over its limit of {}", name, callout.beyond, callout.passed);
+}
+
+/// The failing call-outs or the one nearest to its limit, then the count.
+std::string answer(const std::vector<Callout>& callouts) {
+  constexpr std::size_t kMostNamed = 2;
+  std::size_t toleranced = 0;
+  std::size_t conforming = 0;
+  std::size_t named = 0;
+  std::string html;
+  for (const Callout& callout : callouts) {
+    if (!callout.result->characteristic.toleranced()) continue;
+    ++toleranced;
+    if (callout.result->verdict == evaluation::Verdict::kConforms) {
+      ++conforming;
+      continue;
+    }
+    if (named++ < kMostNamed) html += (html.empty() ? "" : tr("; ")) + failing_in_words(callout);
+  }
+  if (toleranced == 0) return tr("No characteristic has a tolerance.");
+  if (named > 0) {
+    html = trf("{}.", html);
+  } else if (const Callout& nearest = callouts.front(); nearest.share_1) {
+    html = trf("Nearest to its limit: {} of {}, {} %.", escaped(nearest.symbol),
+               isolated(nearest.feature->feature.id), fixed(100.0 * *nearest.share_1, 0));
+  }
+  return html + " " +
+         (conforming == 1 ? trf("{} of {} conforms.", conforming, toleranced)
+                          : trf("{} of {} conform.", conforming, toleranced));
+}
+
+/// The banners that are true of the run: simulated, some values only bounds.
+std::string banners(const record::RunRecord& record, const std::vector<Callout>& callouts) {
+  std::string html;
+  const auto add = [&](const std::string& word, const std::string& text) {
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", word, text);
+  };
+  if (record.header.simulated) add(tr("Simulated:"), tr("no real part was measured."));
+  if (std::ranges::any_of(callouts, [](const Callout& callout) {
+        return callout.result->value && is_bound(*callout.result->value);
+      })) {
+    add(tr("Bounds:"), tr("of a value with ≤ or ≥ only one end of its interval is known: an upper "
+                          "or a lower bound, no estimate."));
+  }
+  return html;
+}
+
+/// The worst call-out: the section where it is worst and the whole surface beside it.
+std::string worst_drawing(const Callout* callout) {
+  if (callout == nullptr) return {};
+  const evaluation::FeatureResult& feature = *callout->feature;
+  const DrawnFeature drawn = drawn_of(feature, callout->worst_row);
+  const std::string title = fmt::format(
+      "<h3>{}</h3>",
+      trf("{} of {}: where it is worst", escaped(callout->symbol), isolated(feature.feature.id)));
+  if (feature.mz_plane) return title + face_map(drawn.feature);
+  const std::string map = deviation_map(drawn.feature, *drawn.zone, drawn.places);
+  if (!zone_of(feature)) return title + map;
+  std::vector<std::string> words;
+  if (const auto& finding = callout->result->finding)
+    words = {in_words(finding->filter).value_or(finding->filter.english())};
+  return fmt::format(R"({}<div class="worst-one">{}<div>{}</div></div>)", title,
+                     worst_section(drawn.feature, *drawn.zone, feature, drawn.places, words),
+                     map.substr(map.find("<figure")));  // one heading is enough
+}
+
+/// "5 x 360 points, scanned (journal A, journal B); 3737 touches, 12 min".
+std::string measured_in_words(const record::RunRecord& record,
+                              const evaluation::Evaluation& evaluation) {
+  std::vector<std::pair<std::string, std::string>> groups;  // sampling, names
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    std::string sampling;
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+      if (sampling.empty()) sampling = operator_part(result, OperatorPart::kSampling);
+    }
+    if (sampling.empty()) continue;
+    auto known = std::ranges::find(groups, sampling, &std::pair<std::string, std::string>::first);
+    if (known == groups.end()) known = groups.insert(known, {sampling, {}});
+    known->second += (known->second.empty() ? "" : tr(", ")) + isolated(feature.feature.id);
+  }
+  std::string html;
+  for (const auto& [sampling, names] : groups)
+    html += fmt::format("{}{} ({})", html.empty() ? "" : tr("; "), sampling, names);
+  const auto qualifying = static_cast<std::size_t>(std::ranges::count(
+      record.touches, record::Touch::Purpose::kQualification, &record::Touch::purpose));
+  if (qualifying < record.touches.size() && record.touches.back().time_s > 0.0) {
+    html += tr("; ") +
+            trf("{} in {} min", count(record.touches.size(), "touch", "touches"),
+                fixed((record.touches.back().time_s - record.touches.front().time_s) / 60.0, 0));
+  }
+  if (evaluation.probe) {
+    html += tr("; ") + trf("qualification with {}, probing form {} µm",
+                           count(qualifying, "touch", "touches"),
+                           fixed(1e3 * evaluation.probe->form_mm, 2));
+  }
+  return html.empty() ? tr("nothing") : html;
+}
+
+/// In U, not in U; why there is none.
+std::string uncertainty_in_words(const std::vector<Callout>& callouts) {
+  std::vector<std::string> in;
+  std::vector<std::string> out;
+  std::string why;
+  bool all = true;
+  const auto add = [](std::vector<std::string>& to, const std::string& name) {
+    if (std::ranges::find(to, name) == to.end()) to.push_back(name);
+  };
+  for (const Callout& callout : callouts) {
+    if (!callout.result->value) continue;
+    const evaluation::UncertaintyStatus& status = callout.result->value->uncertainty();
+    if (!status.result()) {
+      all = false;
+      if (why.empty() && !status.why().empty()) why = in_sentence(status.why());
+      continue;
+    }
+    for (const evaluation::InfluenceStatement& one : status.result()->declaration)
+      add(one.covered ? in : out, worded(core::Phrase(one.name)));
+  }
+  std::erase_if(in,
+                [&](const std::string& name) { return std::ranges::find(out, name) != out.end(); });
+  const auto listed = [](const std::vector<std::string>& names) {
+    std::string html;
+    for (const std::string& name : names) html += (html.empty() ? "" : tr(", ")) + name;
+    return html;
+  };
+  std::string html;
+  if (!in.empty()) html += trf("In U: {}.", listed(in)) + " ";
+  if (!out.empty()) html += trf("Not in U: {}.", listed(out)) + " ";
+  if (all && !html.empty()) return html;
+  return html + (why.empty() ? tr("Without U: no uncertainty is stated.")
+                             : trf("Without U: no uncertainty is stated ({}).", why));
+}
+
+std::string not_seen_in_words(const evaluation::Evaluation& evaluation) {
+  std::string html = tr("the surface between the points");
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    const auto left_out =
+        std::ranges::count(feature.cloud, true, &evaluation::CloudPoint::left_out);
+    if (left_out > 0) {
+      html += tr("; ") + trf("{} of {} points of {}, left out in windows by the plan", left_out,
+                             feature.cloud.size(), isolated(feature.feature.id));
+    }
+    if (feature.failure) html += tr("; ") + trf("all of {}", isolated(feature.feature.id));
+  }
+  return html;
+}
+
+std::string foot(const record::Header& header) {
+  return fmt::format(
+      R"(<div class="foot"><div class="sign-box">{}</div><dl class="facts">{}</dl></div>)",
+      tr("name, date, signature"),
+      entry(tr("Run"), isolated(header.run_id)) +
+          entry(tr("Plan SHA-256"), fmt::format(R"(<span class="mono">{}</span>)",
+                                                escaped(header.plan_sha256.substr(0, 16)))) +
+          entry(tr("Key"), "", "fill") +
+          entry(tr("To check"),
+                R"(<span class="mono">rondure verify RUN_DIR --key PUBLIC.pem</span>)"));
+}
+
+}  // namespace
+
+std::string entry(std::string_view name, std::string_view html, std::string_view css_class) {
+  if (css_class.empty()) return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, html);
+  return fmt::format(R"(<div class="{}"><dt>{}</dt><dd>{}</dd></div>)", css_class, name, html);
+}
+
+namespace {
+
+/// An entry of the head; without a text a line to fill in.
+std::string field(const std::string& name, const std::string& html) {
+  return entry(name, html, html.empty() ? "fill" : "");
+}
+
+/// "20.1 … 20.4 °C".
+std::string temperature_in_words(const evaluation::Evaluation& evaluation) {
+  std::optional<evaluation::Temperatures> all;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    if (!feature.temperatures) continue;
+    if (!all) all = feature.temperatures;
+    all->least_degC = std::min(all->least_degC, feature.temperatures->least_degC);
+    all->greatest_degC = std::max(all->greatest_degC, feature.temperatures->greatest_degC);
+    all->declared |= feature.temperatures->declared;
+  }
+  if (!all) return {};
+  const std::string low = fixed(all->least_degC, 1);
+  const std::string high = fixed(all->greatest_degC, 1);
+  return (low == high ? low : fmt::format("{} … {}", low, high)) + " °C" +
+         (all->declared ? ", " + tr("declared, not measured") : std::string());
+}
+
+std::string probe_in_words(const record::RunRecord& record,
+                           const evaluation::Evaluation& evaluation) {
+  if (evaluation.probe) {
+    return trf("tip {:g} mm, form {} µm", 2.0 * record.artefact.nominal_tip_radius_mm,
+               fixed(1e3 * evaluation.probe->form_mm, 2));
+  }
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    if (feature.tip_radius_mm) return trf("tip {:g} mm", 2.0 * *feature.tip_radius_mm);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string head_section(const record::RunRecord& record, const std::string& kind,
+                         const evaluation::Evaluation* evaluation) {
+  const record::Header& header = record.header;
+  const auto text = [](const std::string& of) { return of.empty() ? of : isolated(of); };
+  const auto both = [&](const std::string& one, const std::string& other) {
+    return text(one) + (one.empty() || other.empty() ? "" : " ") + text(other);
+  };
+  std::string started = header.started_utc;  // "2026-11-21T02:33:02Z"
+  if (started.size() == 20 && started[10] == 'T')
+    started = started.replace(10, 1, " ").substr(0, 16) + " UTC";
+  std::string html = fmt::format(
+      R"(<header><div class="brand"><span class="fill lab"></span><span class="kind">{}</span><h1>{}{}</h1></div>)"
+      R"(<div class="ident"><dl>{}</dl><dl>{}</dl>)",
+      capitalised(kind), isolated(header.part_id),
+      header.serial.empty() ? "" : " / " + isolated(header.serial),
+      field(tr("Part"), both(header.part_id, header.part_name)) +
+          field(tr("Serial"), text(header.serial)) + field(tr("Drawing"), text(header.drawing)),
+      field(tr("Plan"), both(header.plan_name, header.plan_revision)) + field(tr("Order"), "") +
+          field(tr("Customer"), ""));
+  const bool calibrated = evaluation != nullptr && evaluation->fixture;
+  html += fmt::format(
+      R"(<dl>{}</dl><dl>{}</dl></div>)",
+      field(tr("Machine"), header.machine.empty() ? "" : worded(core::Phrase(header.machine))) +
+          field(tr("Probe"), evaluation != nullptr ? probe_in_words(record, *evaluation) : "") +
+          field(tr("Calibration"),
+                calibrated ? trf("{}, valid until {}", isolated(evaluation->fixture->id),
+                                 escaped(evaluation->fixture->expires_utc.substr(0, 10)))
+                           : ""),
+      field(tr("Operator"), text(header.operator_name)) + field(tr("Time"), text(started)) +
+          field(tr("Temperature"), evaluation != nullptr ? temperature_in_words(*evaluation) : ""));
+  return html + "</header>";
+}
+
+const Callout* drawn_callout(const std::vector<Callout>& callouts) {
+  const auto found = std::ranges::find_if(callouts, [](const Callout& callout) {
+    return callout.feature->mz_plane || zone_to_draw(*callout.feature);
+  });
+  return found == callouts.end() ? nullptr : &*found;
+}
+
+std::string verdict_section(const record::RunRecord& record,
+                            const evaluation::Evaluation& evaluation,
+                            const std::vector<Callout>& callouts) {
+  const evaluation::Verdict verdict = evaluation.verdict;
+  std::string html = "<section>" + unfinished_banner(record, evaluation);
+  html += fmt::format(
+      R"(<div class="verdict">{}<div><div class="word {}" role="heading" aria-level="2">{}</div><div class="why">{}</div>)"
+      "</div></div>",
+      verdict_mark(verdict, 48), css_name(verdict),
+      incomplete_headline(record, evaluation).value_or(capitalised(tr(name_of(verdict)))),
+      answer(callouts));
+  html +=
+      banners(record, callouts) + results_table(callouts) + worst_drawing(drawn_callout(callouts));
+  const std::string rule =
+      in_sentence(rule_sentence(evaluation),
+                  evaluation.rule ? std::string_view() : evaluation.rule.error().what);
+  return html + R"(<dl class="lines">)" +
+         entry(tr("Measured"), measured_in_words(record, evaluation)) + entry(tr("Rule"), rule) +
+         entry(tr("Uncertainty"), uncertainty_in_words(callouts)) +
+         entry(tr("Not seen"), not_seen_in_words(evaluation)) + "</dl>" + foot(record.header) +
+         "</section>";
+}
+
+std::string verdict_in_words(const evaluation::CharacteristicResult& result) {
+  std::string html = opening_sentence(result.reason);
+  if (result.outcome) html += risks_in_words(result);
+  if (const std::string own = own_rule_in_words(result.characteristic); !own.empty())
+    html += "<br/>" + trf("Decision rule of this line: {}", escaped(own));
+  if (result.value)
+    html += "<br/>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
+  return fmt::format(R"(<p><b class="{}">{}</b> {}</p>)", css_name(result.verdict),
+                     capitalised(tr(name_of(result.verdict))), html);
+}
+
+}  // namespace rondure::reports
