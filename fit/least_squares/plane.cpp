@@ -1,5 +1,6 @@
 #include "fit/least_squares/plane.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -11,8 +12,9 @@
 namespace rondure::fit {
 namespace {
 
-/// Squared extents below this share of the largest (3e-8 in length) are round-off of the sums.
-constexpr double kNoExtent = 1e-15;
+/// Least spread across the longest direction of the points, as a share of that along it: form and
+/// noise turn a plane through a line about that line, up to its edge.
+constexpr double kLeastSpread = 0.01;
 
 /// Moves the normal by a step of Newton's method. The eigenvector has errors of 1e-16 in direction,
 /// and those times the size of the plane would be errors of the heights.
@@ -56,10 +58,13 @@ core::Result<LsPlane> ls_plane(SpacePoints points_mm,
   for (const Eigen::Vector3d& p : points_mm) scatter += (p - mean) * (p - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(scatter);
   const Eigen::Vector3d spread = principal.eigenvalues();
-  if (spread(1) <= kNoExtent * spread(2)) {
-    return core::fail(
-        core::Code::kCollinear,
-        "the points lie on one straight line: a plane through them can turn about it");
+  if (spread(1) <= kLeastSpread * kLeastSpread * spread(2)) {
+    return core::fail_with(core::Code::kCollinear,
+                           "the points lie along one line, and a plane through them can turn about "
+                           "it: across the line they spread by {:.2f} % of their length, {:g} % "
+                           "is needed; touch points all over the face",
+                           100.0 * std::sqrt(std::max(0.0, spread(1)) / spread(2)),
+                           100.0 * kLeastSpread);
   }
   if (spread(1) - spread(0) <= 1e-9 * spread(1)) {
     return core::fail(core::Code::kRank,

@@ -21,10 +21,11 @@ struct LsPlane {
 /// normal is the least principal axis, followed by one step that keeps the digits of small
 /// distances on a large plane.
 ///
-/// @param points_mm  n >= 3, not on one line [mm].
+/// @param points_mm  n >= 3, not along one line [mm].
 /// @param outward    A direction out of the material, not parallel to the plane; without it the
 ///                   convention of Plane.
-/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kCollinear, kRank (no direction has the
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kCollinear (standard deviation within the
+///         plane, across the points, below 1 % of that along them), kRank (no direction has the
 ///         least extent). Two passes.
 /// Source: K. Pearson, Philosophical Magazine 2 (1901) 559-572; methods, drawing section 9.1.
 [[nodiscard]] core::Result<LsPlane> ls_plane(

@@ -37,7 +37,7 @@ struct MinZonePlane {
 /// sqrt(1 + a^2 + b^2). The range grows at least as the contacts push, and exceeds the width beyond
 /// the slope 2 w / (m - w), where w is the width and m the least extent within the plane.
 ///
-/// @param points_mm  n >= 3, not on one line, extending farther within the plane than across [mm].
+/// @param points_mm  n >= 3, as ls_plane(), extending farther within the plane than across [mm].
 /// @param outward    As ls_plane().
 /// @return as ls_plane(); kRank for points that extend no farther within the plane than across.
 ///         Same input, same bits. O(n) per pivot, some ten pivots per programme, two or three

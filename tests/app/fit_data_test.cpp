@@ -70,7 +70,7 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
       {"cylinder", "x,y,z\n" + ring, "bad.csv", "["},
       {"plane", "x,y,z\n" + ring + "nan,0,0\n", "bad.csv:10", "nan"},
       {"plane", "x,y,z\n1,2,3\n", "bad.csv", "a plane needs at least 3 different points"},
-      {"plane", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n", "bad.csv", "lie on one straight line"},
+      {"plane", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n", "bad.csv", "lie along one line"},
       {"plane", square, "bad.csv:1", "a plane needs the columns x,y,z"},
       {"plane", "ISO-10303-21;\nHEADER;\n", "bad.csv", "STEP model"},
       {"cone", "x,y,z\n" + ring + "0,0,inf\n", "bad.csv:10", "inf"},

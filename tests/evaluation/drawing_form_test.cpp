@@ -12,6 +12,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/profiles/profile_filter.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "tests/evaluation/drawing_part.h"
 #include "tests/evaluation/drawing_surface.h"
 
 // Expected numbers: methods, drawing section 12; tolerances: section 13.
@@ -184,6 +185,31 @@ TEST(DrawingForm, OfPlanesHasEveryDigit) {
   const auto crowned = test::drawn_plane(test::w5_plane());
   EXPECT_NEAR(form_value(crowned, Form::kFlatness, Reference::kLeastSquares), 0.00642, kFormDigits);
   EXPECT_NEAR(form_value(crowned, Form::kFlatness, Reference::kMinimumZone), 0.00635, kFormDigits);
+}
+
+// 4 um of form along 40 mm, 0.1 um across: the plane of least extent stands on edge, and 0.2 um
+// conformed to 2.5.
+TEST(DrawingForm, OfAFaceTouchedAlongOneLineIsRefused) {
+  std::vector<Eigen::Vector3d> line;
+  for (int i = 0; i < 24; ++i) {
+    const double x = -20.0 + 40.0 * i / 23.0;
+    line.emplace_back(x, 1e-4 * std::sin(37.0 * i), 2e-3 * std::cos(0.3 * x));
+  }
+  for (const auto reference : {Reference::kMinimumZone, Reference::kLeastSquares}) {
+    const auto face = test::drawn_plane(line);
+    const auto found = find_form(face.surface, asked(Form::kFlatness, reference), Proof::kFull);
+    ASSERT_FALSE(found.has_value());
+    EXPECT_EQ(found.error().code, core::Code::kCollinear);
+  }
+  test::DrawnPart part;
+  part.plane("A", {line});
+  part.plane("B", {test::w5_plane()});
+  for (const auto association :
+       {Indication::Association::kLs, Indication::Association::kOneSided}) {
+    const auto found = part.last(test::about(Form::kParallelism, {"A"}, association));
+    ASSERT_FALSE(found.has_value());
+    EXPECT_EQ(found.error().code, core::Code::kCollinear);
+  }
 }
 
 TEST(DrawingSides, ShaftAndBoreSwapPeakAndValley) {

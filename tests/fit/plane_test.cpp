@@ -58,6 +58,19 @@ TEST(LsPlane, RefusesPointsWithoutAPlane) {
   EXPECT_EQ(ls_plane(cube).error().code, core::Code::kRank);
 }
 
+// Four corners: their standard deviations are half of the sides.
+TEST(LsPlane, NeedsPointsThatSpreadAcrossTheirLength) {
+  for (const double width : {0.9, 1.1}) {
+    const Space strip = {{0, 0, 0}, {100, 0, 0}, {0, width, 0}, {100, width, 0.001}};
+    const auto plane = ls_plane(strip, kUp);
+    EXPECT_EQ(plane.has_value(), width > 1.0);
+    EXPECT_EQ(min_zone_plane(strip, kUp).has_value(), width > 1.0);
+    if (width < 1.0) {
+      EXPECT_EQ(plane.error().code, core::Code::kCollinear);
+    }
+  }
+}
+
 TEST(MinZonePlane, IsThatOfTheFaceWithASaucer) {
   const auto zone = min_zone_plane(all_of(test::w4_face()), kUp);
   ASSERT_TRUE(zone.has_value());
