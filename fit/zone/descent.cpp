@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Dense>
 
@@ -20,6 +21,8 @@ constexpr double kCoarse = 0.005;
 /// A contact with a smaller multiplier may be redundant.
 constexpr double kFirm = 1e-9;
 constexpr int kNewtonLimit = 20;
+/// Most sets of contacts that are tried in turn.
+constexpr int kExchangeLimit = 8;
 /// A contact with a smaller multiplier hardly fixes a vertex.
 constexpr double kWeak = 1e-4;
 
@@ -43,15 +46,11 @@ std::size_t candidates(int pass, std::size_t blocks) {
   return pass == 1 ? std::clamp<std::size_t>(blocks / 12, 32, 128) : 32;
 }
 
-bool all_nonnegative(const Contacts& contacts) {
-  return std::ranges::all_of(contacts, [](const Contact& c) { return c.multiplier >= 0.0; });
-}
-
-/// The contacts with a multiplier above kWeak.
-Contacts firm_of(const Contacts& contacts) {
+/// The contacts with this multiplier or more.
+Contacts with_at_least(double multiplier, const Contacts& contacts) {
   Contacts out;
   for (const Contact& c : contacts) {
-    if (c.multiplier > kWeak) out.push_back(c);
+    if (c.multiplier >= multiplier) out.push_back(c);
   }
   return out;
 }
@@ -373,31 +372,54 @@ auto ZoneDescent<Frame>::newton_step(const Result& state) const -> Newton {
   return out;
 }
 
-/// Applies Newton's method to the stationarity equations of the current contacts.
+/// Applies Newton's method to the stationarity equations of the current contacts. A contact that
+/// would have to pull, with a multiplier below 0, holds nothing, and the others alone are tried; a
+/// point that then sticks out is one more contact.
 /// @return Whether it converged to a zone that is not wider, with multipliers >= 0; `state` is then
 ///         that zone.
 template <class Frame>
 bool ZoneDescent<Frame>::polish(Result& state) {
-  if ((weights_.outer > 0.0 && state.outer.empty()) ||
-      (weights_.inner > 0.0 && state.inner.empty())) {
-    return false;
-  }
   Result trial = state;
-  double last = std::numeric_limits<double>::infinity();
-  bool settled = false;
-  for (int i = 0; i < kNewtonLimit && !settled; ++i) {
-    const Newton next = newton_step(trial);
-    const double size = next.move.cwiseAbs().maxCoeff();
-    if (!next.valid || size > 100.0 * state.zone.width() || size > 2.0 * last) return false;
-    trial.frame = trial.frame.moved(next.move);
-    trial.outer = next.outer;
-    trial.inner = next.inner;
-    trial.zone = extremes(trial.frame);
-    settled = size <= 4.0 * round_off_ || (size <= 1e3 * round_off_ && size >= 0.5 * last);
-    last = size;
+  bool changed = true;
+  for (int round = 0; changed; ++round) {
+    if (round == kExchangeLimit) return false;
+    if ((weights_.outer > 0.0 && trial.outer.empty()) ||
+        (weights_.inner > 0.0 && trial.inner.empty())) {
+      return false;
+    }
+    double last = std::numeric_limits<double>::infinity();
+    bool settled = false;
+    for (int i = 0; i < kNewtonLimit && !settled; ++i) {
+      const Newton next = newton_step(trial);
+      const double size = next.move.cwiseAbs().maxCoeff();
+      if (!next.valid || size > 100.0 * state.zone.width() || size > 2.0 * last) return false;
+      trial.frame = trial.frame.moved(next.move);
+      trial.outer = next.outer;
+      trial.inner = next.inner;
+      trial.zone = extremes(trial.frame);
+      settled = size <= 4.0 * round_off_ || (size <= 1e3 * round_off_ && size >= 0.5 * last);
+      last = size;
+    }
+    if (!settled) return false;
+    const std::size_t contacts = trial.outer.size() + trial.inner.size();
+    trial.outer = with_at_least(0.0, trial.outer);
+    trial.inner = with_at_least(0.0, trial.inner);
+    changed = trial.outer.size() + trial.inner.size() < contacts;
+    if (changed) continue;
+    const auto& distances = looked_rows_.distances();
+    const auto add = [&](Contacts& side, auto farther) {
+      const std::size_t sides = (trial.outer.empty() ? 0 : 1) + (trial.inner.empty() ? 0 : 1);
+      if (side.empty() || trial.outer.size() + trial.inner.size() >= K + sides) return;
+      const auto at =
+          std::ranges::max_element(distances, [&](double a, double b) { return farther(b, a); });
+      const double off = std::abs(*at - distances[side[0].index]);
+      if (off <= 16.0 * round_off_) return;
+      side.push_back({static_cast<std::size_t>(at - distances.begin()), 0.0});
+      changed = true;
+    };
+    add(trial.outer, std::greater<double>());
+    add(trial.inner, std::less<double>());
   }
-  if (!settled) return false;
-  if (!all_nonnegative(trial.outer) || !all_nonnegative(trial.inner)) return false;
   if (!(weights_.value(trial.zone) <= weights_.value(state.zone) + 4.0 * round_off_)) return false;
   if (!contacts_hold(trial)) return false;
   state = trial;
@@ -443,8 +465,8 @@ void ZoneDescent<Frame>::slip(Result& state) {
   // A one-sided reference is the local optimum next to its start, so it stays.
   if (weights_.outer == 0.0 || weights_.inner == 0.0) return;
   Result here = state;
-  here.outer = firm_of(state.outer);
-  here.inner = firm_of(state.inner);
+  here.outer = with_at_least(kWeak, state.outer);
+  here.inner = with_at_least(kWeak, state.inner);
   const std::size_t contacts = state.outer.size() + state.inner.size();
   if (here.outer.size() + here.inner.size() == contacts) return;
   const auto valley = curvature_of(here);

@@ -359,5 +359,31 @@ TEST(MinCircumscribedCircle, RefusesLinesThoughTheyHaveASmallestCircle) {
   EXPECT_EQ(circle.error().code, core::Code::kTooFewPoints);
 }
 
+// Two points opposite each other and two that hardly push: of a contact that pulled, or of a point
+// that stuck out, Newton's method gave up, some pm short of the optimum.
+TEST(OneSidedCylinder, OfAPlainShaftRestsOnContactsThatProveIt) {
+  for (const std::uint64_t seed : {13, 116, 136}) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise noise(20261128, {seed});
+    const int layers = 2 + static_cast<int>(3 * noise.uniform());
+    const int points = 6 + static_cast<int>(40 * noise.uniform());
+    const double radius = 8.0 + 30.0 * noise.uniform();
+    const double length = 10.0 + 60.0 * noise.uniform();
+    Space shaft;
+    for (int j = 0; j < layers; ++j) {
+      for (int i = 0; i < points; ++i) {
+        const double t = core::kTwoPi * i / points;
+        const double r = radius + 1e-3 * noise.normal();
+        shaft.emplace_back(r * std::cos(t), r * std::sin(t), length * j / (layers - 1));
+      }
+    }
+    for (const auto& fit : {min_circumscribed_cylinder, max_inscribed_cylinder}) {
+      const auto found = fit(shaft, Eigen::Vector3d::UnitZ(), {});
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->certificate.kind, Certificate::Kind::kLocal) << found->certificate.gap_mm;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rondure::fit

@@ -55,7 +55,7 @@ class ScopeSearcher {
             Certificate::Kind::kGlobal, scope_text(scope, proof.half_length), gap, {}};
         return true;
       }
-      AxisProof next = prove_axis(points_, descended(*search.better, value), weights_);
+      AxisProof next = prove_axis(points_, descended(*search.better), weights_);
       if (const auto& known = options_.candidates;
           known && angle_between(next.axis.direction, known->nominal) > known->cone_rad) {
         proof.certificate.reason = core::Phrase(
@@ -85,11 +85,12 @@ class ScopeSearcher {
   }
 
   /// Descends from a better axis to its optimum. With many points the descent begins on a sample,
-  /// which may lead it back to the previous optimum. In that case it uses the points nearest to the
-  /// sides, few enough to be worked on all at once.
-  [[nodiscard]] CylinderZone descended(const Axis& better, double value) const {
+  /// which may lead it back to the previous optimum, worse than where it began. In that case it
+  /// uses the points nearest to the sides, few enough to be worked on all at once.
+  [[nodiscard]] CylinderZone descended(const Axis& better) const {
     CylinderZone out = fitter_.fit_from(points_, better, weights_);
-    if (points_.size() <= kAllWorked || value_about(out.place) < value) return out;
+    double value = value_about(better);
+    if (points_.size() <= kAllWorked || value_about(out.place) <= value) return out;
     Axis place = better;
     for (int pass = 0; pass < kClosePasses; ++pass) {
       std::vector<Eigen::Vector3d> close(points_.begin(), points_.end());
@@ -106,7 +107,7 @@ class ScopeSearcher {
       close.resize(kAllWorked);
       const CylinderZone next = fitter_.fit_from(close, place, weights_);
       const double reached = value_about(next.place);
-      if (!(reached < value)) return out;
+      if (!(reached <= value)) return out;
       out = next;
       // If the zone of some points holds all points, their optimum is that of all.
       if (reached <= weights_.value({next.inner_radius_mm, next.outer_radius_mm}) +
