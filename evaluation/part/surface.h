@@ -38,14 +38,6 @@ struct MeasuredSurface {
 /// be told, which its characteristics will say.
 [[nodiscard]] std::vector<LeftOut> rows_in_windows(const FeatureResult& feature);
 
-/// Where a point lies as the shop finds it and windows are stated.
-struct PlaceOnPart {
-  double angle_rad = 0.0;           ///< From part x, counter-clockwise, in [0, 2 pi).
-  std::optional<double> z_mm = {};  ///< Part z; of a plane the radius. None: it is not on record.
-};
-/// The places of the rows of a cloud, windows included; empty where its axis is not near part z.
-[[nodiscard]] std::vector<PlaceOnPart> places_on_part(const FeatureResult& feature);
-
 /// A section of a prepared surface: a layer, or a group of neighbouring heights of a file. Each
 /// pass of a layer whose repeats were not averaged is a section of its own, so that opposite points
 /// and generatrices are taken within one pass; they follow each other with the same `layer`.

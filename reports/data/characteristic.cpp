@@ -5,9 +5,9 @@
 #include "evaluation/results/feature_values.h"
 #include "record/tasks/settings.h"
 #include "reports/data/internal/json_parts.h"
-#include "reports/data/internal/limits.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/gates.h"
+#include "reports/words/internal/limits.h"
 
 namespace rondure::reports {
 namespace {

@@ -15,9 +15,9 @@
 #include "evaluation/part/find.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
-#include "reports/data/internal/limits.h"
 #include "reports/escaping.h"
 #include "reports/words/internal/gates.h"
+#include "reports/words/internal/limits.h"
 
 namespace rondure::reports {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/numbers.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/part/surface.h"
+#include "evaluation/part/place.h"
 #include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "evaluation/part/surface.h"
+#include "evaluation/part/place.h"
 #include "evaluation/results/feature_values.h"
-#include "reports/data/internal/limits.h"
 #include "reports/words/internal/gates.h"
+#include "reports/words/internal/limits.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -269,7 +269,7 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
       {"05_spindle_three_probe", [](auto& run) { run.series.front().columns.front().name = "x"; },
        "has no column alpha_deg"},
       {"05_spindle_three_probe", [](auto& run) { run.series.clear(); }, "series are missing"},
-      {"06_wheel", set("kappa_limit", -5.0), "setting \"kappa_limit\" is -5, outside"},
+      {"06_wheel", set("nominal_radius_mm", -5.0), "setting \"nominal_radius_mm\" is -5"},
       {"06_wheel", set("surface/step_mm", -1.0), "setting \"surface/step_mm\" is -1"},
       {"07_crank_pin", rename_series("pin 2", "pin 9"), "series \"pin 2\" is missing"},
       {"07_crank_pin", rename_series("axes 1", "x"), "series \"x\" is none of a contour"},

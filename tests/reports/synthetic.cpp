@@ -226,7 +226,7 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
        {}});
   add_touches(made.record, feature);
   made.evaluation.features.push_back(std::move(feature));
-  made.evaluation.probe = fit::ProbeTip{{100.0, 0.0, 0.0}, kTip, 0.00011, 0.0009};
+  made.evaluation.probe = fit::ProbeTip{{100.0, 0.0, 0.0}, kTip, 0.00011, 0.2, 0.0009};
   made.evaluation.verdict = evaluation::Verdict::kConforms;
   return made;
 }

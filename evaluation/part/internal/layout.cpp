@@ -15,7 +15,7 @@
 #include "evaluation/part/internal/sections.h"
 #include "evaluation/part/internal/windows.h"
 #include "evaluation/part/outliers.h"
-#include "evaluation/part/surface.h"
+#include "evaluation/part/place.h"
 #include "evaluation/results/measured_cloud.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/cone.h"
