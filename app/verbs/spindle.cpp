@@ -44,18 +44,6 @@ std::string motion_line(const char* name, const fit::AxisMotion& m) {
                                        : std::string());
 }
 
-/// A layout with its name, for comparison.
-struct NamedLayout {
-  const char* name;
-  fit::ProbeLayout layout;
-};
-
-std::array<NamedLayout, 3> known_layouts() {
-  return {{{"published-a", fit::published_layout_a()},
-           {"published-b", fit::published_layout_b()},
-           {"reference", fit::reference_layout()}}};
-}
-
 /// Angles of P2 and P3 from P1, in -180..180 deg.
 std::array<double, 2> places_deg(const fit::ProbeLayout& layout) {
   const auto angles = layout.angles_rad();
@@ -82,7 +70,7 @@ Json layout_json(const fit::ProbeLayout& layout, const fit::LayoutSearch& search
           {"weights", layout.weights()}};
 }
 
-std::string layout_line(const std::string& name, const fit::ProbeLayout& layout,
+std::string layout_line(std::string_view name, const fit::ProbeLayout& layout,
                         const fit::LayoutSearch& search) {
   const auto places = places_deg(layout);
   const fit::WorstGain worst = fit::worst_gain(layout, search.first, search.last);
@@ -142,8 +130,8 @@ nlohmann::ordered_json layouts_json(std::span<const fit::DesignedLayout> layouts
   out["layouts"] = Json::array();
   for (const fit::DesignedLayout& designed : layouts)
     out["layouts"].push_back(layout_json(designed.layout, search));
-  for (const NamedLayout& known : known_layouts())
-    out["for_comparison"][known.name] = layout_json(known.layout, search);
+  for (const fit::NamedLayout& known : fit::named_layouts())
+    out["for_comparison"][std::string(known.name)] = layout_json(known.layout, search);
   return out;
 }
 
@@ -155,7 +143,7 @@ std::string layouts_table(std::span<const fit::DesignedLayout> layouts,
   int number = 0;
   for (const fit::DesignedLayout& designed : layouts)
     out += layout_line(fmt::format("{}", ++number), designed.layout, search);
-  for (const NamedLayout& known : known_layouts())
+  for (const fit::NamedLayout& known : fit::named_layouts())
     out += layout_line(known.name, known.layout, search);
   return out;
 }

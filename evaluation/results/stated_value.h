@@ -87,7 +87,6 @@ class StatedValue {
   enum class Bound { kNone, kLower, kUpper };
   /// Whether the quoted value is only a bound of the true one.
   [[nodiscard]] Bound bound() const;
-  [[nodiscard]] bool quoted_as_read() const { return quoting_.as_read; }
   /// Unit of the texts: mm for a size, urad for an angle, um for all else.
   [[nodiscard]] core::ValueUnit unit() const { return unit_; }
   /// A value in that unit, with as many decimals of a micrometre or microradian as the interval

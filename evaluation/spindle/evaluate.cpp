@@ -97,19 +97,8 @@ std::vector<std::vector<double>> turns_of(const fit::ThreeProbeResult& result,
 }  // namespace
 
 core::Result<fit::ProbeLayout> probe_layout(const SpindleTask& task) {
-  switch (task.layout) {
-    case SpindleTask::Layout::kPublishedA:
-      return fit::published_layout_a();
-    case SpindleTask::Layout::kPublishedB:
-      return fit::published_layout_b();
-    case SpindleTask::Layout::kReference:
-      return fit::reference_layout();
-    case SpindleTask::Layout::kAngles:
-      break;
-  }
-  const double p2 = task.p1_to_p2_deg.value_or(0.0);
-  const double p3 = task.p2_to_p3_deg.value_or(task.p1_to_p3_deg.value_or(0.0) - p2);
-  return fit::ProbeLayout::of(p2 * kDegree, p3 * kDegree);
+  return fit::stated_layout(name_of(task.layout), task.p1_to_p2_deg, task.p2_to_p3_deg,
+                            task.p1_to_p3_deg);
 }
 
 fit::ThreeProbeOptions separation_options(const SpindleTask& task) {

@@ -73,6 +73,23 @@ ProbeLayout published_layout_a() { return *ProbeLayout::of(of_1024(256), of_1024
 ProbeLayout published_layout_b() { return *ProbeLayout::of(of_1024(173), of_1024(683)); }
 ProbeLayout reference_layout() { return *ProbeLayout::of(of_1024(149), of_1024(708)); }
 
+std::array<NamedLayout, 3> named_layouts() {
+  return {{{"published-a", published_layout_a()},
+           {"published-b", published_layout_b()},
+           {"reference", reference_layout()}}};
+}
+
+core::Result<ProbeLayout> stated_layout(std::string_view name, std::optional<double> p1_to_p2_deg,
+                                        std::optional<double> p2_to_p3_deg,
+                                        std::optional<double> p1_to_p3_deg) {
+  for (const NamedLayout& known : named_layouts()) {
+    if (known.name == name) return known.layout;
+  }
+  const double second = p1_to_p2_deg.value_or(0.0);
+  const double third = p2_to_p3_deg.value_or(p1_to_p3_deg.value_or(0.0) - second);
+  return ProbeLayout::of(second * core::kDegree, third * core::kDegree);
+}
+
 WorstGain worst_gain(const ProbeLayout& layout, int first, int last) {
   WorstGain out;
   for (int order = first; order <= last; ++order) {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <complex>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -64,6 +66,20 @@ class ProbeLayout {
 [[nodiscard]] ProbeLayout published_layout_a();
 [[nodiscard]] ProbeLayout published_layout_b();
 [[nodiscard]] ProbeLayout reference_layout();
+
+struct NamedLayout {
+  std::string_view name;  ///< "published-a", "published-b", "reference".
+  ProbeLayout layout;
+};
+[[nodiscard]] std::array<NamedLayout, 3> named_layouts();
+
+/// The layout of a name; of any other name that of these angles between the probes [deg]. P3 is
+/// placed from P2, or else from P1; what is not given counts 0, which no layout has.
+/// @return As ProbeLayout::of().
+[[nodiscard]] core::Result<ProbeLayout> stated_layout(std::string_view name,
+                                                      std::optional<double> p1_to_p2_deg,
+                                                      std::optional<double> p2_to_p3_deg,
+                                                      std::optional<double> p1_to_p3_deg);
 
 /// The greatest gain of the harmonics first..last, and its harmonic.
 struct WorstGain {

@@ -39,19 +39,8 @@ fit::SwingArm arm_of(const SpindleTask& plan) {
 
 /// The layout stated in the plan; no value is guessed.
 core::Result<fit::ProbeLayout> layout_of(const SpindleTask& plan) {
-  switch (plan.layout) {
-    case SpindleTask::Layout::kPublishedA:
-      return fit::published_layout_a();
-    case SpindleTask::Layout::kPublishedB:
-      return fit::published_layout_b();
-    case SpindleTask::Layout::kReference:
-      return fit::reference_layout();
-    case SpindleTask::Layout::kAngles:
-      break;
-  }
-  const double p2 = plan.p1_to_p2_deg.value_or(0.0);
-  const double between = plan.p2_to_p3_deg.value_or(plan.p1_to_p3_deg.value_or(0.0) - p2);
-  return fit::ProbeLayout::of(p2 * kDegree, between * kDegree);
+  return fit::stated_layout(name_of(plan.layout), plan.p1_to_p2_deg, plan.p2_to_p3_deg,
+                            plan.p1_to_p3_deg);
 }
 
 /// Checks that the angles are given once and completely, or not at all.
