@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "record/points/internal/head.h"
+
+namespace rondure::record {
+
+using Cells = std::vector<std::string_view>;
+
+/// How numbers and fields are told apart.
+struct Notation {
+  char separator;  ///< ' ' for any number of blanks.
+  char decimal;
+};
+
+/// Takes a line off a text. Lines end with LF or CR LF, or, where there is no LF, with CR.
+struct Lines {
+  std::string_view rest;
+  char end = '\n';
+  std::size_t number = 0;  ///< Of the line taken last, from 1.
+
+  explicit Lines(std::string_view text) : rest(text) {
+    if (text.find('\n') == std::string_view::npos) end = '\r';
+  }
+  std::string_view take() {
+    ++number;
+    const std::size_t stop = std::min(rest.find(end), rest.size());
+    std::string_view line = rest.substr(0, stop);
+    rest.remove_prefix(std::min(stop + 1, rest.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+};
+
+/// How a table is written, and where its rows begin.
+struct TableLayout {
+  Notation notation;
+  std::vector<Role> roles;  ///< One a field.
+  std::array<std::string, 3> names;
+  std::optional<LengthUnit> unit;
+  Lines rows{std::string_view()};
+  std::optional<std::size_t> announced = {};  ///< Rows that the line above them states.
+
+  [[nodiscard]] bool has(Role role) const { return std::ranges::find(roles, role) != roles.end(); }
+};
+
+/// The layouts that a text may have, the best one first.
+/// @return  Errors as read_points().
+[[nodiscard]] core::Result<std::vector<TableLayout>> find_layouts(std::string_view text,
+                                                                  std::string_view name,
+                                                                  const PointsOptions& options,
+                                                                  const WantedColumns& wanted);
+
+/// Reads a number as std::from_chars does, to the same bits. A decimal comma stands between digits:
+/// "1," may be a number and a separator.
+[[nodiscard]] std::from_chars_result read_number(const char* at, const char* end, char decimal,
+                                                 double& value);
+
+[[nodiscard]] std::string_view name_of_separator(char separator);
+
+/// Whether fields are a row of so many columns: empty ones may follow.
+[[nodiscard]] bool agrees(const Cells& fields, std::size_t columns);
+
+/// Says that a line has not as many fields as there are columns.
+[[nodiscard]] core::Error wrong_count(std::string_view line, char separator, std::size_t columns);
+
+[[nodiscard]] core::Error at_line(core::Error error, std::string_view name, std::size_t line);
+
+}  // namespace rondure::record
