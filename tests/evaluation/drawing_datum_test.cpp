@@ -25,11 +25,14 @@ namespace {
 using Association = record::Indication::Association;
 using Direction = record::Indication::Direction;
 using record::Form;
-using record::Shape;
 using record::Side;
 using test::about;
+using test::along;
 using test::DrawnPart;
 using test::Layers;
+using test::round_journal;
+using test::turned_surface;
+using test::why_refused;
 using Space = std::vector<Eigen::Vector3d>;
 
 DrawnPart stepped_shaft() {
@@ -45,17 +48,6 @@ DrawnPart face_on_bore() {
   out.cylinder("D", test::w4_bore(), Side::kInside);
   out.plane("F", test::w4_face());
   return out;
-}
-
-record::Characteristic along(record::Characteristic asked, Direction direction) {
-  asked.indication.direction = direction;
-  return asked;
-}
-
-core::Error why_refused(const DrawnPart& part, const record::Characteristic& asked) {
-  const auto found = part.last(asked);
-  EXPECT_FALSE(found.has_value()) << "there is a value: " << found->judged.front().value_mm;
-  return found ? core::Error{} : found.error();
 }
 
 /// The warning of a datum that rocks.
@@ -325,30 +317,6 @@ TEST(DrawingDatums, DoNotChangeByDoubledPointsUnlessLeastSquares) {
   EXPECT_GT(change(Association::kLs), 1e-7);
 }
 
-/// Sections of a cylinder along z with the given radius as a function of angle and height.
-Layers turned_surface(const std::vector<double>& heights, int count,
-                      const std::function<Eigen::Vector2d(double, double)>& at) {
-  Layers out;
-  for (const double z : heights) {
-    out.emplace_back();
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector2d p = at(core::kTwoPi * i / count, z);
-      out.back().emplace_back(p.x(), p.y(), z);
-    }
-  }
-  return out;
-}
-
-Layers round_journal(
-    double radius, const std::vector<double>& heights, int count,
-    const std::function<Eigen::Vector2d(double)>& center = [](double) {
-      return Eigen::Vector2d(0.0, 0.0);
-    }) {
-  return turned_surface(heights, count, [&](double t, double z) {
-    return Eigen::Vector2d(center(z) + radius * Eigen::Vector2d(std::cos(t), std::sin(t)));
-  });
-}
-
 TEST(DrawingRunOut, OfAnEccentricCylinderIsTwiceTheEccentricity) {
   DrawnPart part;
   part.cylinder("A", round_journal(15.0, {0.0, 20.0}, 24));
@@ -431,131 +399,6 @@ TEST(DrawingDatums, OfTheSamePointsUnderAnotherNameAreRefused) {
         "datum \"A\": A and C have the same points, and a feature is no datum of itself; name "
         "another, or give each its own points");
   }
-}
-
-/// A surface as prepared() makes it of whole layers; for shapes whose fit is not of interest here.
-PreparedSurface prepared_by_hand(const FeatureResult& feature) {
-  PreparedSurface out;
-  out.of = &feature;
-  for (std::size_t row = 0; row < feature.cloud.size(); ++row) {
-    const CloudPoint& point = feature.cloud[row];
-    if (point.layer == static_cast<int>(out.sections.size())) {
-      out.sections.push_back({.layer = point.layer, .height_mm = point.tip_mm.z(), .points = {}});
-    }
-    out.sections.back().points.push_back(row);
-    out.points_mm.push_back(point.tip_mm);
-    out.rows.push_back(row);
-  }
-  return out;
-}
-
-/// The z axis through the origin.
-DatumResult z_axis() {
-  DatumResult out;
-  out.name = "Z";
-  return out;
-}
-
-TEST(DrawingRunOut, OfAConeIsNormalToItsSurface) {
-  DrawnPart part;
-  auto& cone = part.add("K", Shape::kCone, test::w7());
-  const std::vector<DatumResult> datums = {z_axis()};
-  const auto find = [&](const record::Characteristic& asked) {
-    return find_run_out(prepared_by_hand(cone), asked, datums);
-  };
-  const auto asked = about(Form::kRunOut, {"Z"});
-  EXPECT_EQ(find(along(asked, Direction::kConical)).error().code, core::Code::kMissingKey);
-  cone.feature.settings = {test::number_setting("half_angle_deg", 10.0)};
-  const auto square = find(asked);
-  const auto normal = find(along(asked, Direction::kConical));
-  ASSERT_TRUE(square.has_value()) << square.error().what;
-  ASSERT_TRUE(normal.has_value()) << normal.error().what;
-  const double expected[][2] = {{0.015056806218, 0.014828059499},
-                                {0.020483091278, 0.020171907096},
-                                {0.026931105214, 0.026521961212}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(square->local[i].value_mm, expected[i][0], 1e-10);
-    EXPECT_NEAR(normal->local[i].value_mm, expected[i][1], 1e-10);
-  }
-  EXPECT_EQ(normal->worst, 2U);
-  for (const double planned_deg : {-10.0, 8.9, 11.1, 75.0}) {
-    cone.feature.settings = {test::number_setting("half_angle_deg", planned_deg)};
-    const auto other = find(along(asked, Direction::kConical));
-    ASSERT_FALSE(other.has_value()) << planned_deg;
-    EXPECT_NE(other.error().what.find("show a half angle of 10.0"), std::string::npos)
-        << other.error().what;
-  }
-  EXPECT_EQ(find(about(Form::kTotalRunOut, {"Z"})).error().what,
-            "radial run-out is that of a cylinder; of a cone ask for \"conical\"");
-  EXPECT_EQ(find(along(about(Form::kTotalRunOut, {"Z"}), Direction::kConical)).error().what,
-            "total run-out is radial or axial; of a cone ask for run-out");
-}
-
-/// An ideal cone that sits 0.05 mm askew under the machine is touched at heights that differ.
-Layers askew_cone() {
-  Layers touched(2);
-  for (int layer = 0; layer < 2; ++layer) {
-    for (int k = 0; k < 12; ++k) {
-      const double theta = k * core::kTwoPi / 12.0;
-      const double z = 10.0 * layer + 0.05 * std::cos(theta);
-      const double r = 18.0 - z * std::tan(15.0 * core::kDegree);
-      touched[static_cast<std::size_t>(layer)].emplace_back(r * std::cos(theta),
-                                                            r * std::sin(theta), z);
-    }
-  }
-  return touched;
-}
-
-TEST(DrawingRunOut, OfATouchedConeCountsEachPointAtTheHeightWhereItWasTouched) {
-  DrawnPart part;
-  auto& cone = part.add("K", Shape::kCone, askew_cone());
-  cone.clamping->file.reset();
-  cone.feature.settings = {test::number_setting("half_angle_deg", -15.0)};
-  const std::vector<DatumResult> datums = {z_axis()};
-  for (const Direction direction : {Direction::kRadial, Direction::kConical}) {
-    const auto found =
-        find_run_out(prepared_by_hand(cone), along(about(Form::kRunOut, {"Z"}), direction), datums);
-    ASSERT_TRUE(found.has_value()) << found.error().what;
-    EXPECT_NEAR(found->judged.front().value_mm, 0.0, 1e-12);
-  }
-}
-
-TEST(DrawingRunOut, OfAConeInAFileHasNoVerdictWhereHeightsDecide) {
-  DrawnPart part;
-  const auto& cone = part.add("K", Shape::kCone, askew_cone());
-  const std::vector<DatumResult> datums = {z_axis()};
-  const auto find = [&](double limit_mm) {
-    record::Characteristic asked = about(Form::kRunOut, {"Z"});
-    asked.tolerance_mm = limit_mm;
-    return find_run_out(prepared_by_hand(cone), asked, datums);
-  };
-  const auto near = find(0.010);
-  ASSERT_TRUE(near.has_value()) << near.error().what;
-  ASSERT_TRUE(near->no_verdict);
-  EXPECT_EQ(near->no_verdict->english(),
-            "the rows of a layer lie at different heights: 26.795 um as read, 0.000 um brought to "
-            "one height along the cone; measure each layer at one height");
-  EXPECT_FALSE(find(0.030)->no_verdict) << "both ways within the limit";
-}
-
-TEST(DrawingRunOut, OfAConeNeedsTwoLayers) {
-  DrawnPart part;
-  auto& cone = part.add("K", Shape::kCone, {askew_cone().front()});
-  cone.feature.settings = {test::number_setting("half_angle_deg", -15.0)};
-  const auto found =
-      find_run_out(prepared_by_hand(cone), along(about(Form::kRunOut, {"Z"}), Direction::kConical),
-                   std::vector<DatumResult>{z_axis()});
-  ASSERT_FALSE(found.has_value());
-  EXPECT_EQ(found.error().code, core::Code::kSampling) << found.error().what;
-}
-
-TEST(DrawingRunOut, OfAConeIsAboutTheDatumOfThePart) {
-  DrawnPart part;
-  part.cylinder("Z", round_journal(10.0, {-40.0, -20.0}, 8));
-  part.add("K", Shape::kCone, test::w7()).feature.settings = {
-      test::number_setting("half_angle_deg", 10.0)};
-  EXPECT_NEAR(part.value(along(about(Form::kRunOut, {"Z"}), Direction::kConical)), 0.026521961212,
-              1e-10);
 }
 
 /// The virtual shaft of the specification, section 10, without noise.
@@ -795,180 +638,6 @@ TEST(DrawingDatums, AreNamedByLetterOrIdAndSplitAtHyphens) {
             core::Code::kMeaning);
 }
 
-TEST(DrawingRefusals, OfDatumsSayWhatToPlanInstead) {
-  DrawnPart part;
-  part.add("K", Shape::kCone, test::w7());
-  part.plane("E", {test::w5_plane()});
-  part.plane("F", test::w4_face());
-  part.add("S", Shape::kCircle, {test::w3_a()[0]});
-  Layers arc(2);
-  for (int layer = 0; layer < 2; ++layer) {
-    for (int k = 0; k < 8; ++k) {
-      arc[static_cast<std::size_t>(layer)].emplace_back(
-          9 * std::cos(0.3 * k), 9 * std::sin(0.3 * k), 20.0 * layer + 0.01 * (k % 3));
-    }
-  }
-  part.cylinder("arc", arc, Side::kInside);
-  part.cylinder("A", test::w3_a());
-  part.cylinder("C", test::w3_c());
-  const auto why = [&](std::vector<std::string> datum, Association association) {
-    return why_refused(part, about(Form::kCoaxiality, std::move(datum), association)).what;
-  };
-  EXPECT_EQ(why({"K"}, Association::kLs),
-            "datum \"K\": a cone gives no datum here; name a cylinder or a plane");
-  EXPECT_EQ(why({"E-F"}, Association::kLs),
-            "datum \"E-F\": a common datum is of cylinders; name one plane");
-  EXPECT_EQ(why({"S"}, Association::kLs),
-            "datum S has 1 section, an axis needs 2; name a common datum, e.g. \"A-B\"");
-  for (const Association association :
-       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
-    for (const std::vector<std::string>& datum :
-         {std::vector<std::string>{"arc"}, std::vector<std::string>{"E", "arc"}}) {
-      EXPECT_EQ(why(datum, association),
-                "datum arc: no axis rests on arc: layer 1: the points leave 240 deg of the turn "
-                "unseen; measure the whole turn, and keep what windows and gaps leave open below "
-                "180 deg");
-    }
-  }
-  EXPECT_EQ(why({"E"}, Association::kLs),
-            "coaxiality is about an axis: name a cylinder as datum, alone or after the plane");
-  EXPECT_EQ(why({"E", "A-S"}, Association::kLs),
-            "datum A-S: after a plane one cylinder gives the axis; name one");
-  // Single sections apart from each other are a common datum.
-  EXPECT_TRUE(part.last(about(Form::kCoaxiality, {"A-S"}, Association::kLs)).has_value());
-}
-
-TEST(DrawingRefusals, OfRunOutAndLocationSayWhatToPlanInstead) {
-  const auto part_with = [](Shape shape, const Layers& layers) {
-    DrawnPart out;
-    out.cylinder("A", round_journal(10.0, {0.0, 40.0}, 16));
-    out.add("X", shape, layers);
-    return out;
-  };
-  const auto what = [&](Shape shape, const Layers& layers, const record::Characteristic& asked) {
-    return why_refused(part_with(shape, layers), asked).what;
-  };
-  const auto run_out = about(Form::kRunOut, {"A"});
-  EXPECT_EQ(what(Shape::kCylinder, test::w3_c(), along(run_out, Direction::kAxial)),
-            "axial run-out is that of a face; of a cylinder ask for \"radial\"");
-  EXPECT_EQ(what(Shape::kCylinder, test::w3_c(), along(run_out, Direction::kConical)),
-            "conical run-out is that of a cone; of a cylinder ask for \"radial\"");
-  EXPECT_EQ(what(Shape::kPlane, test::w4_face(), run_out),
-            "radial run-out is that of a cylinder; of a plane ask for \"axial\"");
-  EXPECT_EQ(what(Shape::kCircle, {test::w3_c()[0]}, about(Form::kCoaxiality, {"A"})),
-            "1 section of X gives no direction; plan at least 2 layers, or ask for concentricity");
-  EXPECT_EQ(what(Shape::kPlane, test::w4_face(), about(Form::kCoaxiality, {"A"})),
-            "coaxiality is that of an axis, a plane has none: ask for run-out or "
-            "perpendicularity");
-  // A face of scattered points has no circle about the datum.
-  EXPECT_EQ(
-      why_refused(part_with(Shape::kPlane, {test::w5_plane()}), along(run_out, Direction::kAxial))
-          .code,
-      core::Code::kSampling);
-  auto at_radius = along(run_out, Direction::kAxial);
-  at_radius.indication.radius_mm = 20.0;
-  EXPECT_EQ(what(Shape::kPlane, test::w4_face(), at_radius),
-            "a face needs circles about the datum axis: layers are circles of the plane; no turn "
-            "of points within 0.1 mm of radius 20.000 mm");
-}
-
-TEST(DrawingRunOut, OfACircleTouchedOnOneSideIsRefused) {
-  DrawnPart part;
-  part.cylinder("A", round_journal(10.0, {-60.0, -20.0}, 16));
-  Layers half = virtual_face(15.0, 24);
-  half[1].resize(11);
-  part.plane("F", half);
-  auto asked = along(about(Form::kRunOut, {"A"}), Direction::kAxial);
-  EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
-  asked.indication.radius_mm = 30.0;
-  EXPECT_EQ(why_refused(part, asked).code, core::Code::kSampling);
-  asked.indication.radius_mm = 15.0;
-  EXPECT_GT(part.value(asked), 0.0);
-}
-
-TEST(DrawingDatums, OfMoreThanAQuarterOfTheTurnUnseenAreRefused) {
-  const auto run_out = [](std::size_t count, Association association) {
-    Layers open = round_journal(15.0, {0.0, 40.0}, 24);
-    for (auto& layer : open) layer.resize(count);
-    DrawnPart part;
-    part.cylinder("A", open);
-    part.cylinder("C", round_journal(20.0, {80.0, 100.0}, 24));
-    return part.last(about(Form::kRunOut, {"A"}, association));
-  };
-  EXPECT_TRUE(run_out(19, Association::kLs).has_value());  // 90 deg open
-  for (const Association association :
-       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
-    const auto refused = run_out(18, association);  // 105 deg open
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, core::Code::kReferenceAbsent);
-  }
-}
-
-TEST(DrawingRefusals, OfHalfAFaceLeaveNoVerdict) {
-  DrawnPart part;
-  part.cylinder("A", round_journal(10.0, {-60.0, -20.0}, 16));
-  const Layers whole = virtual_face(15.0, 24);
-  Layers half = whole;
-  for (auto& circle : half) circle.resize(13);
-  const auto flatness = [] {
-    record::Characteristic out;
-    out.form = Form::kFlatness;
-    return out;
-  }();
-  for (const auto& asked : {flatness, about(Form::kPerpendicularity, {"A"}),
-                            along(about(Form::kTotalRunOut, {"A"}), Direction::kAxial)}) {
-    SCOPED_TRACE(name_of(asked.form));
-    DrawnPart seen = part;
-    seen.plane("F", whole);
-    ASSERT_TRUE(seen.last(asked).has_value());
-    EXPECT_FALSE(seen.last(asked)->no_verdict.has_value());
-    DrawnPart unseen = part;
-    unseen.plane("F", half);
-    ASSERT_TRUE(unseen.last(asked).has_value());
-    EXPECT_TRUE(unseen.last(asked)->no_verdict.has_value());
-  }
-}
-
-TEST(DrawingRefusals, OfAWindowOverHalfTheTurnLeaveNoVerdict) {
-  record::SurfaceSettings settings;
-  settings.exclude.emplace_back();
-  settings.exclude.back().name = "flat";
-  settings.exclude.back().from_deg = 80.0;
-  settings.exclude.back().to_deg = 280.0;
-  DrawnPart part;
-  part.cylinder("A", round_journal(15.0, {0.0, 40.0}, 24));
-  part.cylinder("C", round_journal(20.0, {80.0, 100.0}, 24)).feature.settings =
-      record::settings_of_task(settings);
-  for (const Form form : {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality}) {
-    SCOPED_TRACE(name_of(form));
-    const auto found = part.last(about(form, {"A"}));
-    ASSERT_TRUE(found.has_value()) << found.error().what;
-    EXPECT_TRUE(found->no_verdict.has_value());
-  }
-}
-
-TEST(DrawingRefusals, OfAPartOfTheTurnLeaveNoVerdict) {
-  Layers open = round_journal(20.0, {80.0, 100.0}, 24,
-                              [](double /*z*/) { return Eigen::Vector2d(0.002, 0.0); });
-  for (auto& layer : open) layer.resize(15);  // 150 deg are not touched
-  DrawnPart part;
-  part.cylinder("A", round_journal(15.0, {0.0, 40.0}, 24));
-  part.cylinder("C", open);
-  for (const Form form :
-       {Form::kRunOut, Form::kTotalRunOut, Form::kCoaxiality, Form::kParallelism}) {
-    SCOPED_TRACE(name_of(form));
-    auto asked = about(form, {"A"});
-    asked.tolerance_mm = 0.01;
-    const auto found = part.last(asked);
-    ASSERT_TRUE(found.has_value()) << found.error().what;
-    EXPECT_TRUE(found->no_verdict.has_value());
-  }
-  // The rest of the turn can only add to a run-out that fails already.
-  auto asked = about(Form::kRunOut, {"A"});
-  asked.tolerance_mm = 0.001;
-  EXPECT_FALSE(part.last(asked)->no_verdict.has_value());
-}
-
 TEST(DrawingDatums, OfATrialAreTheStatedOnesAlone) {
   const DrawnPart shaft = stepped_shaft();
   const auto asked = about(Form::kTotalRunOut, {"A"}, Association::kOneSided);
@@ -977,34 +646,6 @@ TEST(DrawingDatums, OfATrialAreTheStatedOnesAlone) {
   EXPECT_EQ(trial->judged[0].value_mm, shaft.value(asked));
   EXPECT_TRUE(trial->about_equalised_mm.empty());
   EXPECT_FALSE(rocks(*trial));
-}
-
-TEST(DrawingAttack, NoValueComesOutOfPointsThatFixNothing) {
-  const auto with_datum = [](const Layers& layers) {
-    DrawnPart out;
-    out.cylinder("A", layers);
-    out.cylinder("C", test::w3_c());
-    return out;
-  };
-  Layers holed = test::w3_a();
-  holed[1][3].x() = std::numeric_limits<double>::quiet_NaN();
-  const Layers one_place(2, Space(6, Eigen::Vector3d(1.0, 2.0, 3.0)));
-  Layers flat = test::w3_a();
-  for (auto& p : flat[1]) p.z() -= 18.0;
-  for (const Association association :
-       {Association::kOneSided, Association::kEqualised, Association::kLs, Association::kZone}) {
-    for (const Layers& layers : {holed, one_place, flat}) {
-      EXPECT_FALSE(with_datum(layers).last(about(Form::kRunOut, {"A"}, association)).has_value());
-    }
-  }
-  DrawnPart line;
-  Layers row(1);
-  for (int i = 0; i < 9; ++i) row[0].emplace_back(i, 2.0 * i, 0.0);
-  line.plane("E", row);
-  line.cylinder("C", test::w3_c());
-  for (const Association association : {Association::kOneSided, Association::kLs}) {
-    EXPECT_FALSE(line.last(about(Form::kPerpendicularity, {"E"}, association)).has_value());
-  }
 }
 
 /// Two cylinders, touched in the stated poses.

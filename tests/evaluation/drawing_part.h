@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -85,6 +86,43 @@ inline record::Characteristic about(
   out.indication.datum = std::move(datum);
   out.indication.association = association;
   return out;
+}
+
+inline record::Characteristic along(record::Characteristic asked,
+                                    record::Indication::Direction direction) {
+  asked.indication.direction = direction;
+  return asked;
+}
+
+/// Why there is no value of the last surface.
+inline core::Error why_refused(const DrawnPart& part, const record::Characteristic& asked) {
+  const auto found = part.last(asked);
+  EXPECT_FALSE(found.has_value()) << "there is a value: " << found->judged.front().value_mm;
+  return found ? core::Error{} : found.error();
+}
+
+/// Sections of a cylinder along z with the given radius as a function of angle and height.
+inline Layers turned_surface(const std::vector<double>& heights, int count,
+                             const std::function<Eigen::Vector2d(double, double)>& at) {
+  Layers out;
+  for (const double z : heights) {
+    out.emplace_back();
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector2d p = at(core::kTwoPi * i / count, z);
+      out.back().emplace_back(p.x(), p.y(), z);
+    }
+  }
+  return out;
+}
+
+inline Layers round_journal(
+    double radius, const std::vector<double>& heights, int count,
+    const std::function<Eigen::Vector2d(double)>& center = [](double) {
+      return Eigen::Vector2d(0.0, 0.0);
+    }) {
+  return turned_surface(heights, count, [&](double t, double z) {
+    return Eigen::Vector2d(center(z) + radius * Eigen::Vector2d(std::cos(t), std::sin(t)));
+  });
 }
 
 }  // namespace rondure::test
