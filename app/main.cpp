@@ -148,6 +148,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       ->needs("--resume");
   verb->add_option("--serial", arguments.serial, "Serial number of the part");
   verb->add_option("--operator", arguments.operator_name, "Who measures");
+  verb->add_option("--order", arguments.order, "Order that the run belongs to");
+  verb->add_option("--customer", arguments.customer, "For whom the part is inspected");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
   add_formats(*verb, arguments.formats,

@@ -344,6 +344,7 @@ struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
   record::Paper paper = record::Paper::kA4;  ///< Paper of the PDF.
   std::string archive;                       ///< Empty: archive.db beside the run directory.
+  std::string laboratory;  ///< File that says whose reports they are; empty: none.
 };
 
 struct Plan {

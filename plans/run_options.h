@@ -45,6 +45,8 @@ struct RunOptions {
   std::string plan_file;  ///< Name for the record.
   std::string serial;
   std::string operator_name;
+  std::string order;        ///< Order that the run belongs to.
+  std::string customer;     ///< For whom the part is inspected.
   std::string started_utc;  ///< Time of this start, also for a resumed run. For the record only.
   std::string processor;
   std::optional<std::uint64_t> seed;     ///< Replaces the seed of the plan.

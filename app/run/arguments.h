@@ -16,6 +16,8 @@ struct RunArguments {
   bool relocate = false;  ///< With `resume`: a part that has moved is located again.
   std::string serial;
   std::string operator_name;
+  std::string order;
+  std::string customer;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;    ///< Empty: as the plan says.
   std::string language = "en";         ///< Language of page and summary: "en" or "zh".

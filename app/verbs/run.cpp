@@ -139,6 +139,8 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.plan_file = fs::path(arguments.plan).filename().string();
   options.serial = arguments.serial;
   options.operator_name = arguments.operator_name;
+  options.order = arguments.order;
+  options.customer = arguments.customer;
   options.processor = processor();
   options.seed = arguments.seed;
   options.wire_log = arguments.wire_log;
@@ -220,8 +222,9 @@ core::Result<void> check_printing(const RunArguments& arguments, const plans::Pl
 
 /// Checks names of the command line as those of the plan, because every report contains them.
 core::Result<void> check_names(const RunArguments& arguments) {
-  for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
-                                     std::pair("--operator", &arguments.operator_name)}) {
+  for (const auto& [option, name] :
+       {std::pair("--serial", &arguments.serial), std::pair("--operator", &arguments.operator_name),
+        std::pair("--order", &arguments.order), std::pair("--customer", &arguments.customer)}) {
     const std::size_t at = plans::first_unshowable(*name);
     if (at == name->size()) continue;
     return core::fail(core::Code::kBadOption,

@@ -127,6 +127,7 @@ SettingTable run_table() {
   out.merge(table_of<record::DeclaredUncertainty>("uncertainty/"));
   out.merge(table_of<record::EnvironmentSettings>("environment/"));
   out.merge(table_of<record::FixtureSettings>("fixture/"));
+  out.merge(table_of<record::HeadSettings>("head/"));
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "plans/cell/truth.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
+#include "plans/checks/laboratory.h"
 #include "plans/checks/points_file.h"
 #include "plans/resume/internal/plan_changes.h"
 #include "plans/run/internal/fixture_calibration.h"
@@ -322,6 +323,12 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   const auto resolution_rad =
       cell ? std::optional(cell->fixture().limits().resolution_rad) : std::nullopt;
   for (record::Setting& setting : fixture_settings(plan, known.calibration, resolution_rad)) {
+    head.settings.push_back(std::move(setting));
+  }
+  TRY(record::HeadSettings people, laboratory_of(plan));
+  if (!options.order.empty()) people.order = options.order;
+  if (!options.customer.empty()) people.customer = options.customer;
+  for (record::Setting& setting : record::settings_of_task(std::move(people), "head/")) {
     head.settings.push_back(std::move(setting));
   }
   TRY(auto journal, record::Journal::create(options.directory, head.header, head.artefact,

@@ -49,7 +49,7 @@ using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 /// anew; the touches of the earlier placement stay in the journal and enter no result. A run that
 /// was between two clouds still ends: its decisions hold for the earlier placement.
 ///
-/// @param options  An absent `seed`, `serial` or `operator_name` is taken from the recorded run.
+/// @param options  An absent `seed` or name is taken from the recorded run.
 /// @param held  The journal of that directory, read once.
 /// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and
 ///          the new value), of the points files, version, seed, serial number or operator; kJournal

@@ -32,6 +32,17 @@ struct SourceSettings {
   std::optional<std::string> read;          ///< What the reader of points took for what.
 };
 
+/// Who measured for whom, at "head/": the laboratory of the plan, --order and --customer.
+struct HeadSettings {
+  std::optional<std::string> order;
+  std::optional<std::string> customer;
+  std::optional<std::string> laboratory;  ///< Its name; none: the plan names no laboratory.
+  std::optional<std::string> address;
+  std::optional<std::string> country;
+  std::optional<std::string> contact;
+  std::optional<std::string> logo;  ///< "data:image/png;base64,..." or of a JPEG.
+};
+
 /// The fixture that carried the parts, at "fixture/".
 struct FixtureSettings {
   std::string id;
@@ -61,6 +72,17 @@ void describe(Visitor& v, SourceSettings& p) {
   v.number("valid_for_days", p.valid_for_days, range(0.0, 36'500.0, "How long they stand."));
   v.text("plane", p.plane, {.meaning = "In which a circle is evaluated."});
   v.text("read", p.read, {.meaning = "What the reader of points took for what."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, HeadSettings& p) {
+  v.text("order", p.order, {.meaning = "Order that the run belongs to."});
+  v.text("customer", p.customer, {.meaning = "For whom the part is inspected."});
+  v.text("laboratory", p.laboratory, {.meaning = "Name of the laboratory."});
+  v.text("address", p.address, {.meaning = "Of the laboratory."});
+  v.text("country", p.country, {.meaning = "Of the laboratory."});
+  v.text("contact", p.contact, {.meaning = "Of the laboratory."});
+  v.text("logo", p.logo, {.meaning = "Of the laboratory, a picture in base64."});
 }
 
 template <class Visitor>

@@ -23,6 +23,7 @@ Json plane_json(const fit::Plane& plane) {
 
 Json header_json(const record::RunRecord& record) {
   const record::Header& h = record.header;
+  const record::HeadSettings people = people_of(record);
   return {{"run_id", h.run_id},
           {"version", h.version},
           {"processor", h.processor},
@@ -36,6 +37,9 @@ Json header_json(const record::RunRecord& record) {
           {"drawing", h.drawing},
           {"serial", h.serial},
           {"operator", h.operator_name},
+          {"order", people.order.value_or("")},
+          {"customer", people.customer.value_or("")},
+          {"laboratory", people.laboratory.value_or("")},
           {"machine", h.machine},
           {"fixture", h.fixture},
           {"decision_rule", h.decision_rule},

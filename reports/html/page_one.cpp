@@ -480,9 +480,30 @@ std::string probe_in_words(const record::RunRecord& record,
 
 }  // namespace
 
+namespace {
+
+/// Logo and name of the laboratory, and below them where it is; without one a line to fill in.
+std::string laboratory_in_words(const record::HeadSettings& people) {
+  if (!people.laboratory) return R"(<span class="fill lab"></span>)";
+  std::string html = R"(<div class="lab">)";
+  // A journal is a file that anybody can write: only a picture goes into the page.
+  const std::string logo = people.logo.value_or("");
+  if (logo.starts_with("data:image/png;base64,") || logo.starts_with("data:image/jpeg;base64,")) {
+    html += fmt::format(R"(<img src="{}" alt=""/>)", escaped(logo));
+  }
+  html += fmt::format("<b>{}</b>", isolated(*people.laboratory));
+  for (const auto* const part : {&people.address, &people.country, &people.contact}) {
+    if (*part) html += "<br/>" + isolated(**part);
+  }
+  return html + "</div>";
+}
+
+}  // namespace
+
 std::string head_section(const record::RunRecord& record, const std::string& kind,
                          const evaluation::Evaluation* evaluation) {
   const record::Header& header = record.header;
+  const record::HeadSettings people = people_of(record);
   const auto text = [](const std::string& of) { return of.empty() ? of : isolated(of); };
   const auto both = [&](const std::string& one, const std::string& other) {
     return text(one) + (one.empty() || other.empty() ? "" : " ") + text(other);
@@ -491,14 +512,15 @@ std::string head_section(const record::RunRecord& record, const std::string& kin
   if (started.size() == 20 && started[10] == 'T')
     started = started.replace(10, 1, " ").substr(0, 16) + " UTC";
   std::string html = fmt::format(
-      R"(<header><div class="brand"><span class="fill lab"></span><span class="kind">{}</span><h1>{}{}</h1></div>)"
+      R"(<header><div class="brand">{}<span class="kind">{}</span><h1>{}{}</h1></div>)"
       R"(<div class="ident"><dl>{}</dl><dl>{}</dl>)",
-      capitalised(kind), isolated(header.part_id),
+      laboratory_in_words(people), capitalised(kind), isolated(header.part_id),
       header.serial.empty() ? "" : " / " + isolated(header.serial),
       field(tr("Part"), both(header.part_id, header.part_name)) +
           field(tr("Serial"), text(header.serial)) + field(tr("Drawing"), text(header.drawing)),
-      field(tr("Plan"), both(header.plan_name, header.plan_revision)) + field(tr("Order"), "") +
-          field(tr("Customer"), ""));
+      field(tr("Plan"), both(header.plan_name, header.plan_revision)) +
+          field(tr("Order"), text(people.order.value_or(""))) +
+          field(tr("Customer"), text(people.customer.value_or(""))));
   const bool calibrated = evaluation != nullptr && evaluation->fixture;
   html += fmt::format(
       R"(<dl>{}</dl><dl>{}</dl></div>)",

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base64.h"
 #include "core/utf8.h"
 #include "record/sha256.h"
 #include "reports/escaping.h"
@@ -29,34 +30,23 @@ struct PagePart {
   std::string html;  ///< Begins with "<section".
 };
 
-/// Base64 (RFC 4648) of the 32 bytes of a SHA-256, given in hexadecimal.
-std::string base64_of_sha256(std::string_view hex) {
-  constexpr std::string_view kLetters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto digit = [](char c) {
-    return static_cast<unsigned>(c <= '9' ? c - '0' : c - 'a' + 10);
-  };
+/// The bytes that hexadecimal digits write.
+std::string bytes_of(std::string_view hex) {
+  const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
   std::string out;
-  unsigned bits = 0;
-  unsigned held = 0;
-  for (const char c : hex) {
-    bits = (bits << 4U | digit(c)) & 0xFFFU;
-    held += 4;
-    if (held < 6) continue;
-    held -= 6;
-    out += kLetters[bits >> held & 63U];
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    out += static_cast<char>(digit(hex[i]) * 16 + digit(hex[i + 1]));
   }
-  if (held > 0) out += kLetters[bits << (6 - held) & 63U];
-  while (out.size() % 4 != 0) out += '=';
   return out;
 }
 
-/// Content-Security-Policy: nothing is loaded, and only the script with this digest runs.
+/// Content-Security-Policy: nothing is loaded but the logo within the page, and only the script
+/// with this digest runs.
 std::string policy() {
   return fmt::format(
-      R"(<meta http-equiv="Content-Security-Policy" content="default-src 'none'; )"
+      R"(<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; )"
       R"(style-src 'unsafe-inline'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'"/>)",
-      base64_of_sha256(record::sha256_hex(kScript)));
+      core::base64(bytes_of(record::sha256_hex(kScript))));
 }
 
 /// A text as a string of CSS within <style>: none of its characters can end the string or the

@@ -37,7 +37,7 @@ caption{text-align:left;font-weight:600;font-size:13.5px;padding:4px 0}
 .print-only{display:none}
 .brand{display:flex;justify-content:space-between;align-items:baseline;gap:4px 24px;flex-wrap:wrap;font-size:13px;
 border-bottom:2px solid var(--ink);padding-bottom:8px}
-.brand .kind{font-weight:650;font-size:15px}.lab{min-width:190px}
+.brand .kind{font-weight:650;font-size:15px}.lab{min-width:190px}.lab img{display:block;max-height:40px;max-width:190px}
 .fill{border-bottom:1px solid var(--tick);min-width:64px;min-height:1.2em;flex:1 1 auto}
 .ident{display:grid;grid-template-columns:1.2fr 1.2fr 1.3fr 1fr;gap:4px 22px;border-bottom:1px solid var(--line);
 padding:8px 0;font-size:13px;line-height:1.4}

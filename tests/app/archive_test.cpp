@@ -32,12 +32,16 @@ Outcome run_axle_into(const fs::path& place, const std::vector<std::string>& mor
 
 TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
   const TemporaryFolder folder;
-  const int status = run_axle_into(folder / "one", {"--serial", "0042", "--operator", "mk"}).status;
+  const int status = run_axle_into(folder / "one", {"--serial", "0042", "--operator", "mk",
+                                                    "--order", "4711", "--customer", "ACME"})
+                         .status;
   ASSERT_LE(status, 1);
   ASSERT_EQ(run_axle_into(folder / "two", {"--serial", "0043"}).status, status);
   EXPECT_THAT(names_in(folder.path()), ElementsAre("archive.db", "one", "two"));
   const auto all = history_of(folder / "archive.db");
   const auto report = nlohmann::json::parse(read(folder / "one" / "report.json"));
+  EXPECT_EQ(report["header"]["order"], "4711");
+  EXPECT_EQ(report["header"]["customer"], "ACME");
   const auto& asked = report["features"][0]["characteristics"];
   ASSERT_EQ(all["results"].size(), 2 * asked.size());
   EXPECT_FALSE(all["more"]);

@@ -182,7 +182,7 @@ TEST(Resume, OfAFinishedRunIsRefusedForAnotherPartPlanSeedOrOperator) {
   const TemporaryFolder folder;
   write_plan(folder / "plan.json", {});
   ASSERT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run", "--serial", "A",
-                     "--operator", "mk"})
+                     "--operator", "mk", "--order", "4711"})
                 .status,
             0);
   const std::string journal = read(folder / "run" / "journal.db");
@@ -202,6 +202,8 @@ TEST(Resume, OfAFinishedRunIsRefusedForAnotherPartPlanSeedOrOperator) {
       rondure({"run", folder / "run", "--serial", "B", "--resume", "--format", "json"});
   EXPECT_EQ(serial.status, 2);
   EXPECT_THAT(serial.err, HasSubstr("the serial number \"A\""));
+  EXPECT_THAT(rondure({"run", folder / "run", "--order", "4712", "--resume"}).err,
+              HasSubstr("the order \"4711\", now it would be \"4712\""));
   EXPECT_EQ(read(folder / "run" / "journal.db"), journal);
   EXPECT_EQ(
       rondure({"run", folder / "plan.json", "--out", folder / "run", "--serial", "A", "--resume"})

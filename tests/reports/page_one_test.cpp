@@ -117,6 +117,30 @@ TEST(PageOne, LeavesLinesToFillInWhereTheHeadIsEmpty) {
   EXPECT_EQ(lines(), before + 2);
 }
 
+TEST(PageOne, SaysWhoMeasuredForWhom) {
+  Case made = cylinder_case(4, 7, 1);
+  const auto add = [&](const std::string& name, const std::string& text) {
+    made.record.settings.push_back({"head/" + name, std::nullopt, text});
+  };
+  add("order", "4711");
+  add("customer", "<b>ACME</b>");
+  add("laboratory", "Form room");
+  add("country", "DE");
+  add("logo", "data:image/png;base64,iVBORw0KGgo=");
+  const std::string page = page_of(made);
+  EXPECT_THAT(page, AllOf(HasSubstr("<dt>Order</dt><dd><bdi>4711</bdi></dd>"),
+                          HasSubstr("<dd><bdi>&lt;b&gt;ACME&lt;/b&gt;</bdi></dd>"),
+                          HasSubstr("<b><bdi>Form room</bdi></b><br/><bdi>DE</bdi>"),
+                          HasSubstr(R"(<img src="data:image/png;base64,iVBORw0KGgo=" alt=""/>)")));
+  for (const char* hostile :
+       {"https://example.org/x.png", "data:image/svg+xml;base64,PHN2Zz4=", "javascript:alert(1)"}) {
+    made.record.settings.back().text = hostile;
+    EXPECT_THAT(page_of(made), Not(HasSubstr("<img "))) << hostile;
+  }
+  made.record.settings.back().text = "data:image/png;base64,\"onerror=\"alert(1)";
+  EXPECT_THAT(page_of(made), Not(HasSubstr("\"onerror")));
+}
+
 TEST(PageOne, EverySheetSaysSimulatedAndIncomplete) {
   EXPECT_THAT(page_of(cylinder_case(4, 7, 1)),
               AllOf(HasSubstr("SIMULATED"), Not(HasSubstr("INCOMPLETE"))));

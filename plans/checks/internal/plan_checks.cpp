@@ -8,6 +8,7 @@
 #include "core/utc.h"
 #include "plans/analyses/analysis.h"
 #include "plans/checks/internal/calibration_use.h"
+#include "plans/checks/laboratory.h"
 #include "plans/schema/json_text.h"
 #include "record/archive/place.h"
 #include "record/files.h"
@@ -340,6 +341,9 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
 void check_plan(const Plan& plan, Findings& findings) {
   check_equipment(plan, findings);
   check_archive(plan, findings);
+  if (const auto found = laboratory_of(plan); !found && findings.sound(found.error().where)) {
+    findings.meaning(found.error().code, found.error().where, found.error().what);
+  }
   check_uncertainty(plan, findings);
   check_simulated_part(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/version.h"
 #include "plans/schema/json_text.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::plans {
 namespace {
@@ -93,9 +96,14 @@ std::vector<core::Error> changes_since(const record::RunRecord& run, const Plan&
     differs("seed", std::to_string(header.seed),
             std::to_string(options.seed.value_or(header.seed)));
   }
-  if (!options.serial.empty()) differs("serial number", header.serial, options.serial);
-  if (!options.operator_name.empty()) {
-    differs("operator", header.operator_name, options.operator_name);
+  const auto people =
+      record::task_of<record::HeadSettings>(run.settings, "head/").value_or(record::HeadSettings());
+  for (const auto& [what, before, given] :
+       {std::tuple("serial number", header.serial, &options.serial),
+        std::tuple("operator", header.operator_name, &options.operator_name),
+        std::tuple("order", people.order.value_or(""), &options.order),
+        std::tuple("customer", people.customer.value_or(""), &options.customer)}) {
+    if (!given->empty()) differs(what, before, *given);
   }
   return out;
 }

@@ -18,7 +18,7 @@ namespace rondure::plans {
                                                     std::string_view new_text);
 
 /// All reasons why a run, interrupted or finished, is not a run of this plan and these options:
-/// changes of the plan, another version, seed, serial number or operator. Empty if it is one.
+/// changes of the plan, another version, seed, or name on the command line. Empty if it is one.
 [[nodiscard]] std::vector<core::Error> changes_since(const record::RunRecord& run, const Plan& plan,
                                                      const RunOptions& options);
 

@@ -524,6 +524,10 @@ void describe(Visitor& v, ReportsPlan& p) {
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "
                      "none. Left out or empty: archive.db beside the run directory."});
+  v.text("laboratory", p.laboratory,
+         {.meaning = "Whose reports they are: a JSON file, relative to the plan, with the texts "
+                     "name, address, country and contact, and logo, a PNG or JPEG file relative to "
+                     "the plan."});
 }
 
 template <class Visitor>

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/results/measured_cloud.h"
+#include "record/tasks/settings.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -51,6 +52,11 @@ std::string sentence_of(const evaluation::DecisionRule& rule) {
 }  // namespace
 
 using core::printable;
+
+record::HeadSettings people_of(const record::RunRecord& record) {
+  return record::task_of<record::HeadSettings>(record.settings, "head/")
+      .value_or(record::HeadSettings());
+}
 
 std::string pattern_of(const evaluation::FeatureResult& feature) {
   const std::size_t points = feature.cloud.size();

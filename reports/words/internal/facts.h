@@ -9,8 +9,12 @@
 #include "evaluation/decision/decision.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/section.h"
+#include "record/tasks/run.h"
 
 namespace rondure::reports {
+
+/// Laboratory, order and customer of a run.
+[[nodiscard]] record::HeadSettings people_of(const record::RunRecord& record);
 
 /// "4 x 7 points" for a regular cloud, "500 points" otherwise.
 [[nodiscard]] std::string pattern_of(const evaluation::FeatureResult& feature);
