@@ -152,6 +152,7 @@ int plan(const PlanArguments& arguments) {
     say(document.dump(2) + "\n");
   } else {
     print(*read, *forecast, *outlook);
+    tell_doubts(*read);
   }
   return target_met(*outlook) ? kAllWell : kBadInput;
 }

@@ -302,6 +302,7 @@ int run(const RunArguments& arguments) {
   // As `plan` checks it: all poses, their spheres among them, before anything moves.
   const auto forecast = plans::forecast(*plan);
   if (!forecast) return refuse(forecast.error());
+  tell_doubts(*plan);
   const auto live = open_live(arguments, *forecast, options);
   if (!live) return refuse(live.error());
   ending.live = live->get();

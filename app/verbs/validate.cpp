@@ -10,6 +10,7 @@
 #include "app/verbs/verbs.h"
 #include "evaluation/prediction/predict.h"
 #include "plans/analyses/features.h"
+#include "plans/checks/doubts.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
 #include "record/tasks/analysis_influences.h"
@@ -65,6 +66,12 @@ void say_undeclared(const plans::Plan& plan) {
 
 }  // namespace
 
+void tell_doubts(const plans::Plan& plan) {
+  for (const core::Error& doubt : plans::doubts_of(plan)) {
+    tell(fmt::format("rondure: please check {}: {}\n", doubt.where, doubt.what));
+  }
+}
+
 int validate(const ValidateArguments& arguments) {
   const auto plan = plans::read_plan(arguments.plan);
   if (!plan) {
@@ -83,6 +90,7 @@ int validate(const ValidateArguments& arguments) {
                        plan->plan.revision, plan->features.size(),
                        plan->features.size() == 1 ? "" : "s"));
   say_undeclared(*plan);
+  tell_doubts(*plan);
   return kAllWell;
 }
 

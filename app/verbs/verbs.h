@@ -20,12 +20,18 @@ namespace CLI {
 class App;
 }
 
+namespace rondure::plans {
+struct Plan;
+}
+
 namespace rondure::app {
 
 struct ValidateArguments {
   std::string plan;
 };
 [[nodiscard]] int validate(const ValidateArguments& arguments);
+/// Says on the terminal what a valid plan hardly means: plans::doubts_of().
+void tell_doubts(const plans::Plan& plan);
 
 struct PlanArguments {
   std::string plan;

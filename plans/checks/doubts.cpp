@@ -1,0 +1,87 @@
+#include "plans/checks/doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "plans/analyses/features.h"
+#include "plans/schema/json_text.h"
+
+namespace rondure::plans {
+namespace {
+
+/// No machine that touches surfaces judges less [um]. An air-bearing spindle may be held to 10 nm,
+/// so analyses are not doubted.
+constexpr double kLeastLimit_um = 0.05;
+constexpr double kLeastDeviation_um = 0.5;  // tolerance classes of sizes begin at IT01, 0.3 um wide
+
+/// A limit that reads like mm; none: the limit is plausible.
+std::optional<core::Error> doubt(std::string where, std::optional<double> limit_um,
+                                 double least_um) {
+  if (!limit_um || *limit_um == 0.0 || std::abs(*limit_um) >= least_um) return {};
+  return core::Error{core::Code::kMeaning,
+                     fmt::format("{} um is {:g} nm; was {} um ({} mm) meant?", plain(*limit_um),
+                                 1e3 * *limit_um, plain(1e3 * *limit_um), plain(*limit_um)),
+                     std::move(where)};
+}
+
+/// The features of the plan that a datum names, where all of them are touched cylinders or circles:
+/// their nominal axis is part z.
+bool is_axis_of_part(const Plan& plan, std::string_view datum) {
+  const auto named = [&](std::string_view name) {
+    return std::ranges::any_of(plan.features, [&](const FeaturePlan& feature) {
+      const bool round =
+          feature.type == record::Shape::kCylinder || feature.type == record::Shape::kCircle;
+      return round && is_touched(feature) && (feature.letter == name || feature.id == name);
+    });
+  };
+  if (named(datum)) return true;
+  const std::size_t hyphen = datum.find('-');
+  return hyphen != std::string_view::npos && named(datum.substr(0, hyphen)) &&
+         named(datum.substr(hyphen + 1));
+}
+
+/// A second datum axis that lies on the first one.
+std::optional<core::Error> doubt(const Plan& plan, const std::vector<std::string>& datums,
+                                 const std::string& where) {
+  const auto axis = [&](const std::string& datum) { return is_axis_of_part(plan, datum); };
+  const auto first = std::ranges::find_if(datums, axis);
+  if (first == datums.end()) return {};
+  const auto second = std::find_if(first + 1, datums.end(), axis);
+  if (second == datums.end()) return {};
+  return core::Error{
+      core::Code::kMeaning,
+      fmt::format("the axis of {1} lies on that of {0}, so {1} locks nothing that {0} leaves free; "
+                  "was the common datum \"{2}-{3}\" meant?",
+                  in_quotes(*first), in_quotes(*second), *first, *second),
+      item_pointer(where, static_cast<std::size_t>(second - datums.begin()))};
+}
+
+}  // namespace
+
+std::vector<core::Error> doubts_of(const Plan& plan) {
+  std::vector<core::Error> out;
+  const auto add = [&](std::optional<core::Error> found) {
+    if (found) out.push_back(*std::move(found));
+  };
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const FeaturePlan& feature = plan.features[i];
+    if (record::is_analysis(feature.type)) continue;
+    for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
+      const record::CharacteristicTask& asked = feature.characteristics[k];
+      const std::string where = item_pointer(feature_pointer(i) + "/characteristics", k);
+      add(doubt(where + "/tolerance_um", asked.tolerance_um, kLeastLimit_um));
+      add(doubt(where + "/lower_um", asked.lower_um, kLeastDeviation_um));
+      add(doubt(where + "/upper_um", asked.upper_um, kLeastDeviation_um));
+      add(doubt(plan, asked.indication.datum, where + "/datum"));
+    }
+  }
+  return out;
+}
+
+}  // namespace rondure::plans

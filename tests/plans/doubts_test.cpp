@@ -1,0 +1,64 @@
+// What a valid plan hardly means is said, with the likely meaning; what people do mean is not.
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "plans/checks/doubts.h"
+#include "tests/plans/files.h"
+
+namespace rondure::plans {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::lines_of;
+
+/// The doubts, a line each, about a shaft with two coaxial journals A and B, a face C and one more
+/// cylinder with this characteristic.
+std::string doubts_about(const std::string& characteristic) {
+  const auto read = parse_plan(
+      R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"}, "machine": {},
+          "fixture": {}, "probe": {}, "simulation": {}, "features": [
+          {"id": "a", "letter": "A", "type": "cylinder",
+           "nominal": {"diameter_mm": 40, "from_mm": -40, "to_mm": -15}},
+          {"id": "b", "letter": "B", "type": "cylinder",
+           "nominal": {"diameter_mm": 40, "from_mm": 15, "to_mm": 40}},
+          {"id": "c", "type": "cylinder",
+           "nominal": {"diameter_mm": 50, "from_mm": -15, "to_mm": 15},
+           "characteristics": [)" +
+          characteristic + "]}]}",
+      "", "plan.json");
+  if (!read) return "refused: " + lines_of(read);
+  std::string out;
+  for (const core::Error& doubt : doubts_of(*read)) out += doubt.where + ": " + doubt.what + "\n";
+  return out;
+}
+
+TEST(Doubts, ALimitInTheWrongUnitIsNamedWithTheLikelyOne) {
+  EXPECT_EQ(doubts_about(R"({"id": "x", "form": "cylindricity", "tolerance_um": 0.004})"),
+            "/features/2/characteristics/0/tolerance_um: 0.004 um is 4 nm; was 4 um (0.004 mm) "
+            "meant?\n");
+  EXPECT_EQ(doubts_about(R"({"id": "x", "form": "diameter", "lower_um": -0.013, "upper_um": 0})"),
+            "/features/2/characteristics/0/lower_um: -0.013 um is -13 nm; was -13 um (-0.013 mm) "
+            "meant?\n");
+  EXPECT_EQ(doubts_about(R"({"id": "x", "form": "cylindricity", "tolerance_um": 0.1},
+                            {"id": "y", "form": "diameter", "lower_um": -13, "upper_um": 0})"),
+            "");
+}
+
+TEST(Doubts, ASecondDatumAxisOnTheFirstLocksNothing) {
+  const auto about = [](const std::string& datum) {
+    return doubts_about(R"({"id": "x", "form": "coaxiality", "tolerance_um": 8, "datum": )" +
+                        datum + "}");
+  };
+  EXPECT_THAT(about(R"(["A", "B"])"),
+              AllOf(HasSubstr("/features/2/characteristics/0/datum/1: the axis of \"B\" lies on "),
+                    HasSubstr("was the common datum \"A-B\" meant?")));
+  EXPECT_EQ(about(R"(["A-B"])"), "");
+  EXPECT_EQ(about(R"(["A"])"), "");
+}
+
+}  // namespace
+}  // namespace rondure::plans
