@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "app/run/archive_step.h"
-#include "app/run/processor.h"
+#include "app/run/kept_trials.h"
 #include "app/text/answer.h"
 #include "app/text/terminal.h"
-#include "evaluation/defect.h"
 #include "evaluation/results/evaluation.h"
 #include "plans/checks/record.h"
 #include "record/files.h"
@@ -51,6 +50,7 @@ reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) 
 struct EvaluatedRun {
   record::RunRecord record;
   evaluation::Evaluation evaluation;
+  KeptTrials trials;
 };
 
 core::Result<void> require_sound(const record::ReadJournal& read, const fs::path& directory) {
@@ -62,8 +62,9 @@ core::Result<void> require_sound(const record::ReadJournal& read, const fs::path
 }
 
 core::Result<EvaluatedRun> evaluate(record::RunRecord record, const fs::path& directory) {
-  TRY(auto evaluation, evaluation::evaluate_run(record, directory, processor()));
-  return EvaluatedRun{std::move(record), std::move(evaluation)};
+  KeptTrials trials(directory);
+  TRY(auto evaluation, trials.evaluate(record));
+  return EvaluatedRun{std::move(record), std::move(evaluation), std::move(trials)};
 }
 
 core::Result<EvaluatedRun> read_and_evaluate(const fs::path& directory) {
@@ -132,6 +133,7 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
     }
     return status;
   }
+  if (!failed) evaluated.trials.keep();
   if (live != nullptr) {
     live->show_result(evaluated.record, evaluation, fs::absolute(directory).string());
   }

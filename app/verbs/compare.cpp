@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "app/run/ending.h"
+#include "app/run/kept_trials.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "evaluation/evaluate.h"
 #include "evaluation/factors/study.h"
 #include "reports/data/factors.h"
 #include "reports/terminal/factors.h"
@@ -21,7 +21,7 @@ int compare(const CompareArguments& arguments) {
                     "them holds for the touches so far\n",
                     arguments.directory));
   }
-  const auto evaluation = evaluation::evaluate(*record);
+  const auto evaluation = KeptTrials(arguments.directory).evaluate(*record);
   if (!evaluation) return refuse(evaluation.error());
   const auto comparison = evaluation::compare_run(*evaluation);
   if (!comparison) return refuse(comparison.error().at(arguments.directory));

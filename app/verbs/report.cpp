@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include "app/run/ending.h"
-#include "app/run/processor.h"
+#include "app/run/kept_trials.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "evaluation/defect.h"
 #include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
 #include "record/checksums.h"
@@ -49,7 +48,8 @@ std::vector<std::string> formats_of(const ReportArguments& arguments) {
 int report(const ReportArguments& arguments) {
   const auto record = read_sound_record(arguments.directory);
   if (!record) return kBadInput;
-  const auto evaluation = evaluation::evaluate_run(*record, arguments.directory, processor());
+  KeptTrials trials(arguments.directory);
+  const auto evaluation = trials.evaluate(*record);
   if (!evaluation) return refuse(evaluation.error());
   const std::string signed_sums = signed_checksums(arguments.directory);
   const reports::Edition edition(
@@ -59,6 +59,7 @@ int report(const ReportArguments& arguments) {
   const auto written = reports::write_exports(arguments.directory, formats_of(arguments), *record,
                                               *evaluation, edition, paper);
   if (!written) return refuse(written.error());
+  if (record->sealed) trials.keep();
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }

@@ -16,6 +16,7 @@
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/sampler.h"
 #include "evaluation/uncertainty/internal/statement.h"
+#include "evaluation/uncertainty/kept_draws.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/sphere.h"
@@ -252,6 +253,12 @@ struct PartTrials::Part::Values {
   std::vector<DrawTally> tallies;  ///< By surface.
   std::size_t done = 0;
   double pivots = 0.0;  ///< Of all searches.
+
+  template <class Chain, class Use>
+  requires std::same_as<std::remove_const_t<Chain>, Values>
+  friend bool members_of(Chain& c, const Use& use) {
+    return use(c.rows_mm, c.read_mm, c.bias_mm, c.tallies, c.done, c.pivots);
+  }
 };
 
 void PartTrials::Part::make_charts() {
@@ -624,29 +631,9 @@ class PartTrials::Part::Run {
 
   /// Draws until the numbers are stable. Source: JCGM 101 section 7.9.
   void draw() {
-    const UncertaintyOptions& options = part_.options;
-    const auto each = [&](int trials) {
-      return (static_cast<std::size_t>(trials) + chains_.size() - 1) / chains_.size();
-    };
-    std::size_t most = each(part_.most_trials(questions_, 0.0));
-    if (most == 0) return;
-    // The first trials show what the searches take.
-    const std::size_t first = std::min(each(kLeastTrials), most);
-    core::watch().expect(most * chains_.size());
-    more(first);
-    double pivots = 0.0;
-    for (const Values& chain : values_) pivots += chain.pivots;
-    const auto trials = static_cast<double>(first * chains_.size());
-    most = std::max(first, each(part_.most_trials(questions_, pivots / trials)));
-    core::watch().expect((most - first) * chains_.size());
-    const std::size_t least = std::min(each(options.least_trials), most);
-    more(std::max(first, options.tolerance_mm > 0.0 ? least : most) - first);
-    while (options.tolerance_mm > 0.0) {
-      reached_ = chains_.size() > 1 && worst_tolerance_mm() <= options.tolerance_mm;
-      const std::size_t done = values_.front().done;
-      if (reached_ || done >= most) break;
-      more(std::min(std::max<std::size_t>(least / 2, 1), most - done));
-    }
+    if (part_.most_trials(questions_, 0.0) == 0) return;
+    draw_or_take(values_, [this] { draw_all(); });
+    reached_ = part_.options.tolerance_mm > 0.0 && is_stable();
   }
 
   [[nodiscard]] TrialAnswer answer(std::size_t q) const {
@@ -679,6 +666,34 @@ class PartTrials::Part::Run {
   }
 
  private:
+  void draw_all() {
+    const UncertaintyOptions& options = part_.options;
+    const auto each = [&](int trials) {
+      return (static_cast<std::size_t>(trials) + chains_.size() - 1) / chains_.size();
+    };
+    std::size_t most = each(part_.most_trials(questions_, 0.0));
+    // The first trials show what the searches take.
+    const std::size_t first = std::min(each(kLeastTrials), most);
+    core::watch().expect(most * chains_.size());
+    more(first);
+    double pivots = 0.0;
+    for (const Values& chain : values_) pivots += chain.pivots;
+    const auto trials = static_cast<double>(first * chains_.size());
+    most = std::max(first, each(part_.most_trials(questions_, pivots / trials)));
+    core::watch().expect((most - first) * chains_.size());
+    const std::size_t least = std::min(each(options.least_trials), most);
+    more(std::max(first, options.tolerance_mm > 0.0 ? least : most) - first);
+    while (options.tolerance_mm > 0.0 && !is_stable()) {
+      const std::size_t done = values_.front().done;
+      if (done >= most) break;
+      more(std::min(std::max<std::size_t>(least / 2, 1), most - done));
+    }
+  }
+
+  [[nodiscard]] bool is_stable() const {
+    return chains_.size() > 1 && worst_tolerance_mm() <= part_.options.tolerance_mm;
+  }
+
   void more(std::size_t each) {
     in_parallel(threads_of(part_.options), chains_.size(),
                 [&](std::size_t first, std::size_t last) {

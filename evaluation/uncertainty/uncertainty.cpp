@@ -10,6 +10,7 @@
 #include "core/watch.h"
 #include "evaluation/uncertainty/internal/chains.h"
 #include "evaluation/uncertainty/internal/statement.h"
+#include "evaluation/uncertainty/kept_draws.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -51,10 +52,15 @@ core::Result<void> check_all_values(const FormChains& chains) {
 constexpr std::size_t kManyPoints = 20'000;
 constexpr int kTrialsOfMany = 1000;
 
+/// Whether more draws would change no printed number.
+bool is_stable(const FormChains& chains, const UncertaintyOptions& options) {
+  const double worst = std::max(left_open(chains, &ChainValues::sampled_mm, options.coverage),
+                                left_open(chains, &ChainValues::whole_mm, options.coverage));
+  return options.chains > 1 && worst <= options.tolerance_mm;
+}
+
 /// Draws until the numbers are stable. Source: JCGM 101 section 7.9.
-core::Result<UncertaintyResult> run_chains(FormChains& chains, const UncertaintyOptions& options,
-                                           std::size_t points) {
-  UncertaintyResult out;
+void draw_chains(FormChains& chains, const UncertaintyOptions& options, std::size_t points) {
   const int most_asked =
       points > kManyPoints ? std::min(options.most_trials, kTrialsOfMany) : options.most_trials;
   const auto each = [&](int trials) {
@@ -65,16 +71,19 @@ core::Result<UncertaintyResult> run_chains(FormChains& chains, const Uncertainty
   const std::size_t budget = options.budget_trials > 0 ? each(options.budget_trials) : 0;
   core::watch().expect(most * static_cast<std::size_t>(options.chains));
   chains.run(options.tolerance_mm > 0.0 ? least : most, budget);
-  TRY_DO(check_all_values(chains));
-  while (options.tolerance_mm > 0.0) {
-    const double worst = std::max(left_open(chains, &ChainValues::sampled_mm, options.coverage),
-                                  left_open(chains, &ChainValues::whole_mm, options.coverage));
-    out.tolerance_reached = options.chains > 1 && worst <= options.tolerance_mm;
+  while (options.tolerance_mm > 0.0 && check_all_values(chains) && !is_stable(chains, options)) {
     const std::size_t done = chains.values().front().sampled_mm.size();
-    if (out.tolerance_reached || done >= most) break;
+    if (done >= most) break;
     chains.run(std::min(std::max<std::size_t>(least / 2, 1), most - done), budget);
-    TRY_DO(check_all_values(chains));
   }
+}
+
+core::Result<UncertaintyResult> run_chains(FormChains& chains, const UncertaintyOptions& options,
+                                           std::size_t points) {
+  draw_or_take(chains.values(), [&] { draw_chains(chains, options, points); });
+  TRY_DO(check_all_values(chains));
+  UncertaintyResult out;
+  out.tolerance_reached = options.tolerance_mm > 0.0 && is_stable(chains, options);
   out.uncorrected_mm = chains.uncorrected_mm();
   out.sampled = statement_of(all_of(chains, &ChainValues::sampled_mm), options.coverage);
   out.sampled.numerical_tolerance_mm =

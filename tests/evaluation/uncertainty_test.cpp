@@ -3,6 +3,7 @@
 #include "evaluation/uncertainty/uncertainty.h"
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/sampler.h"
+#include "evaluation/uncertainty/kept_draws.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -212,6 +214,37 @@ TEST(Uncertainty, HasTheSameNumbersAtAnyThreadCount) {
       EXPECT_EQ(one.budget[k].shift_mm, many.budget[k].shift_mm);
     }
   }
+}
+
+TEST(Uncertainty, TakesKeptDrawsBitForBitAndRefusesThoseOfAnotherShape) {
+  evaluation::UncertaintyOptions options = trials(401, 101);
+  options.tolerance_mm = 1e-5;
+  const auto asked = [&] { return found(shaft(4, 7), everything(), options, spectrum()); };
+  KeptDraws made;
+  const auto drawn = [&] {
+    const UseOfDraws use(made);
+    return asked();
+  }();
+  ASSERT_FALSE(made.bytes().empty());
+  const auto expect_as_drawn = [&](std::string_view known, bool taken) {
+    KeptDraws draws(known);
+    const auto again = [&] {
+      const UseOfDraws use(draws);
+      return asked();
+    }();
+    EXPECT_EQ(draws.bytes().empty(), taken) << "whether nothing was drawn";
+    expect_equal(drawn.sampled, again.sampled);
+    expect_equal(*drawn.whole, *again.whole);
+    EXPECT_EQ(drawn.sampled.values_mm, again.sampled.values_mm);
+    EXPECT_EQ(drawn.noise_inflation_mm, again.noise_inflation_mm);
+    EXPECT_EQ(drawn.tolerance_reached, again.tolerance_reached);
+    EXPECT_EQ(drawn.finding.groups, again.finding.groups);
+    EXPECT_EQ(line(drawn, "sampling").shift_mm, line(again, "sampling").shift_mm);
+  };
+  expect_as_drawn(made.bytes(), true);
+  expect_as_drawn(std::string_view(made.bytes()).substr(0, made.bytes().size() - 1), false);
+  expect_as_drawn(std::string_view(made.bytes()).substr(8), false);
+  EXPECT_EQ(UseOfDraws::current(), nullptr);
 }
 
 TEST(Uncertainty, ChangesWithTheSeedByNoMoreThanItsNumericalTolerance) {

@@ -41,6 +41,13 @@ struct ChainValues {
   DrawTally tally;
 };
 
+/// For KeptDraws.
+template <class Chain, class Use>
+requires std::same_as<std::remove_const_t<Chain>, ChainValues>
+bool members_of(Chain& c, const Use& use) {
+  return use(c.sampled_mm, c.whole_mm, c.changes_mm, c.of_errors_mm, c.read_mm, c.tally);
+}
+
 /// The draws of one measurement, as chains. A chain is a pure function of the seed and its number,
 /// so that the number of threads changes nothing.
 class FormChains {
@@ -55,6 +62,7 @@ class FormChains {
   void run(std::size_t each, std::size_t budget);
 
   [[nodiscard]] const std::vector<ChainValues>& values() const { return values_; }
+  [[nodiscard]] std::vector<ChainValues>& values() { return values_; }
 
   /// The value of the deviations as measured [mm].
   [[nodiscard]] double uncorrected_mm() const { return uncorrected_; }

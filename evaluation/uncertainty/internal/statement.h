@@ -1,7 +1,9 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/phrase.h"
@@ -29,6 +31,14 @@ struct DrawTally {
 
   void add(const FormDraw& draw);
 };
+
+/// For KeptDraws.
+template <class Tally, class Use>
+requires std::same_as<std::remove_const_t<Tally>, DrawTally>
+bool members_of(Tally& t, const Use& use) {
+  return use(t.draws, t.unresolved_mm, t.noise_mm, t.groups, t.spots, t.scatter_1, t.resolved,
+             t.spot_counts);
+}
 
 /// Estimate, standard uncertainty and interval of trials: JCGM 101 sections 7.6 and 7.7.
 [[nodiscard]] UncertaintyStatement statement_of(std::vector<double> trials, double coverage);

@@ -1,0 +1,96 @@
+#include "app/run/kept_trials.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/run/processor.h"
+#include "app/text/terminal.h"
+#include "evaluation/defect.h"
+#include "evaluation/uncertainty/kept_draws.h"
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/journal/journal.h"
+#include "record/sha256.h"
+#include "record/signature.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostTrialsBytes = std::uintmax_t{1} << 30;  // 1 GiB
+
+/// The program as its bytes: another build draws otherwise, whatever its version says.
+std::string head_of_file() {
+  const auto program = record::read_file("/proc/self/exe");
+  return fmt::format("rondure trials\nprogram {}\nprocessor {}\n",
+                     program ? record::sha256_hex(*program) : "unknown", processor());
+}
+
+core::Result<void> check_digest(const fs::path& directory, const std::string& file,
+                                const std::vector<record::Checksum>& sums) {
+  const auto line = std::ranges::find(sums, file, &record::Checksum::file);
+  if (line == sums.end()) {
+    return core::fail_with(core::Code::kFile, "{} does not name {}", record::kChecksumsName, file);
+  }
+  TRY(const std::string now, record::sha256_inside(directory, file));
+  if (now == line->sha256) return {};
+  return core::fail_with(core::Code::kFile, "{} was changed after it was written ({})", file,
+                         record::kChecksumsName);
+}
+
+/// The draws of the directory, behind their head.
+core::Result<std::string> known_draws(const fs::path& directory,
+                                      const std::vector<record::Checksum>& sums) {
+  TRY_DO(check_digest(directory, record::kJournalName, sums));
+  TRY_DO(check_digest(directory, kTrialsFile, sums));
+  TRY(std::string bytes, record::read_inside(directory, kTrialsFile, kMostTrialsBytes));
+  const std::string head = head_of_file();
+  if (!bytes.starts_with(head)) {
+    return core::fail(core::Code::kFile, "another build, or another processor, wrote it");
+  }
+  return bytes.substr(head.size());
+}
+
+}  // namespace
+
+KeptTrials::KeptTrials(fs::path directory) : directory_(std::move(directory)) {
+  const auto sums = record::read_checksums(directory_);
+  if (!sums || std::ranges::find(*sums, kTrialsFile, &record::Checksum::file) == sums->end())
+    return;
+  auto known = known_draws(directory_, *sums);
+  if (known) {
+    taken_ = *std::move(known);
+  } else {
+    tell(fmt::format("rondure: {}: {}; the intervals are computed again\n",
+                     (directory_ / kTrialsFile).string(), known.error().what));
+  }
+}
+
+core::Result<evaluation::Evaluation> KeptTrials::evaluate(const record::RunRecord& record) {
+  evaluation::KeptDraws draws(taken_);
+  const evaluation::UseOfDraws use(draws);
+  auto found = evaluation::evaluate_run(record, directory_, processor());
+  drawn_ = draws.bytes();
+  return found;
+}
+
+void KeptTrials::keep() const {
+  std::error_code unknown;
+  if (!taken_.empty() || drawn_.empty()) return;
+  if (fs::exists(directory_ / record::kSignatureName, unknown)) return;
+  const std::string bytes = head_of_file() + drawn_;
+  auto kept = record::write_inside(directory_, kTrialsFile, bytes);
+  if (kept) {
+    kept = record::update_checksums(directory_, {{kTrialsFile, record::sha256_hex(bytes)}});
+  }
+  if (!kept) {
+    tell(fmt::format("rondure: {} is not kept: {}; the reports stand, the next one takes longer\n",
+                     kTrialsFile, kept.error().what));
+  }
+}
+
+}  // namespace rondure::app
