@@ -10,8 +10,9 @@
 namespace rondure::app {
 
 struct RunArguments {
-  std::string plan;  ///< With `resume` also a run directory.
-  std::string out;   ///< Empty: runs/<plan>-<UTC>.
+  std::string plan;       ///< With `resume` also a run directory.
+  std::string plan_text;  ///< The plan itself, where `plan` names no file; empty: it does.
+  std::string out;        ///< Empty: runs/<plan>-<UTC>.
   bool resume = false;
   bool relocate = false;  ///< With `resume`: a part that has moved is located again.
   std::string serial;

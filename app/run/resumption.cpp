@@ -31,6 +31,7 @@ bool archives_beside(const plans::Plan& plan) {
 
 /// Whether a plan can be resumed only from its folder, which holds its files.
 bool needs_folder(const plans::Plan& plan, const RunArguments& arguments) {
+  if (!arguments.plan_text.empty()) return false;  // its folder is the current one
   if (arguments.archive.empty() && archives_beside(plan)) return true;
   return std::any_of(plan.features.begin(), plan.features.end(), [](const auto& feature) {
     return feature.source || plans::has_files(feature);
@@ -65,6 +66,9 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
 }
 
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
+  if (!arguments.plan_text.empty()) {
+    return plans::parse_plan(arguments.plan_text, {}, arguments.plan);
+  }
   if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
   const record::Header& header = run.held->read.record.header;
   auto plan = plans::parse_plan(header.plan_text, {}, header.plan_file);

@@ -158,6 +158,19 @@ void add_grinding(CLI::App& verb, WheelArguments& arguments) {
       ->check(CLI::NonNegativeNumber);
 }
 
+/// Refuses what a page of one form does not show.
+void check_page(const FitArguments& a) {
+  const char* const option = a.out.empty() ? "--save-plan" : "--out";
+  const auto refuse = [option](const char* why) { throw CLI::ValidationError(option, why); };
+  if (a.shape == "line" || a.shape == "cone" || a.shape == "sphere") {
+    refuse("a page is of a circle (RONt), a cylinder (CYLt) or a plane (FLTt)");
+  }
+  if (!a.sizes.empty()) refuse("it is about the form; sizes with limits: save the plan, add them");
+  if (!a.outward.empty()) refuse("the direction is not needed for a flatness; take it out");
+  if (a.json) refuse("the numbers stand in report.json of the run; take out --json");
+  if (a.file == "-") refuse("a run keeps the name of its file, which standard input has not");
+}
+
 /// Refuses options that have no meaning for the shape.
 void check_fit(const FitArguments& a) {
   const std::string& shape = a.shape;
@@ -181,7 +194,9 @@ void check_fit(const FitArguments& a) {
     throw CLI::ValidationError("--size", "LP needs sections, a sphere has GG, GN, GX and GC");
   }
   const char* const tip = a.tip_diameter_mm ? "--tip-diameter-mm" : "--inside";
-  if ((a.tip_diameter_mm || a.inside) && a.sizes.empty() && shape != "cone") {
+  const bool page = !a.out.empty() || !a.save_plan.empty();
+  if (page) check_page(a);
+  if ((a.tip_diameter_mm || a.inside) && a.sizes.empty() && shape != "cone" && !page) {
     throw CLI::ValidationError(tip,
                                "form and place are those of the tip centres; it acts on "
                                "--size and on the diameter of a cone only");
@@ -236,17 +251,35 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
            "Direction out of the material of a plane: for peak, valley and outer plane", "X,Y,Z")
       ->expected(3);
   verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
+  verb->add_option("--out", arguments.out,
+                   "Run directory, absent or empty: the form of a circle, cylinder or plane as a "
+                   "run\nwith page, journal and digests, that verify and sign take")
+      ->type_name("DIR");
+  auto* const save = verb->add_option("--save-plan", arguments.save_plan,
+                                      "Writes the plan of that run, to edit; without --out no run");
+  save->type_name("FILE");
+  verb->add_option("--tolerance-um", arguments.tolerance_um,
+                   "Limit of the form (with --out or --save-plan)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--serial", arguments.serial, "Serial number of the part (with --out)");
+  verb->add_option("--operator", arguments.operator_name, "Who measures (with --out)");
   verb->footer(
       "\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json\n"
       "         rondure fit cylinder tests/data/shaft_drawing/shaft.csv --feature A \\\n"
       "           --size GN,LP --tip-diameter-mm 2\n"
       "         rondure fit plane tests/data/shaft_drawing/shaft.csv --feature D --outward 0,0,1\n"
+      "         rondure fit cylinder tests/data/nist_cyl_13/points.csv --tolerance-um 180 \\\n"
+      "           --out runs/cylinder\n"
       "Shapes, sizes and keys of the JSON: docs/drawing.md");
   verb->require_subcommand(0, 1);
   verb->callback([verb, &arguments] {  // a verb such as roundness needs neither
     if (!verb->get_subcommands().empty()) return;
     if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
     if (arguments.file.empty()) throw CLI::RequiredError("FILE");
+    for (const char* of_page : {"--tolerance-um", "--serial", "--operator"}) {
+      if (verb->count(of_page) > 0 && arguments.out.empty() && arguments.save_plan.empty())
+        throw CLI::RequiresError(of_page, "--out");
+    }
     check_fit(arguments);
   });
 }

@@ -112,8 +112,18 @@ struct FitArguments {
   bool inside = false;
   std::vector<double> outward;  ///< Of a plane, three numbers; empty: not known.
   bool json = false;
+  // The following members ask for a plan in memory, see fit_to_page().
+  std::string out;                     ///< Run directory; empty: no run.
+  std::string save_plan;               ///< File for the plan; empty: none.
+  std::optional<double> tolerance_um;  ///< Of the form; none: the value is reported, not judged.
+  std::string serial;
+  std::string operator_name;
 };
 [[nodiscard]] int fit(const FitArguments& arguments);
+/// Writes the plan of which `arguments` are the settings, or runs it: a page, a journal, a run that
+/// `verify` and `sign` take like any other.
+/// @return  Exit status of the program.
+[[nodiscard]] int fit_to_page(const FitArguments& arguments);
 
 struct RoundnessArguments {
   std::string file;

@@ -1,0 +1,96 @@
+// `rondure fit SHAPE FILE --out DIR`: a plan in memory, run like any other.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "record/files.h"
+#include "record/tasks/form_facts.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The form of a shape that a drawing limits; only shapes of which check_fit() lets a plan pass.
+record::Form form_of(std::string_view shape) {
+  if (shape == "cylinder") return record::Form::kCylindricity;
+  return shape == "plane" ? record::Form::kFlatness : record::Form::kRoundness;
+}
+
+/// The points file as it is named in a plan that lies in this folder; empty: the current folder.
+std::string file_from(const std::string& file, const fs::path& folder) {
+  if (folder.empty() || fs::path(file).is_absolute()) return file;
+  std::error_code unknown;
+  const fs::path relative = fs::relative(file, folder, unknown);
+  return relative.empty() ? fs::absolute(file).string() : relative.string();
+}
+
+Json source_of(const FitArguments& arguments, const fs::path& folder) {
+  Json out = {{"file", file_from(arguments.file, folder)}};
+  if (!arguments.points.feature.empty()) out["feature"] = arguments.points.feature;
+  if (arguments.tip_diameter_mm) out["tip_diameter_mm"] = *arguments.tip_diameter_mm;
+  for (std::size_t i = 0; i < arguments.points.columns.size(); ++i) {
+    out["columns"].push_back({{"column", std::string(1, static_cast<char>('x' + i))},
+                              {"in_file", arguments.points.columns[i]}});
+  }
+  if (const auto unit = arguments.points.unit) out["unit"] = name_of(*unit);
+  if (const auto layers = arguments.points.layers) out["layers"] = name_of(*layers);
+  return out;
+}
+
+/// The plan of the command line, for a file in this folder.
+std::string plan_text(const FitArguments& arguments, const fs::path& folder) {
+  const record::FormFacts& facts = record::facts_of(form_of(arguments.shape));
+  Json asked = {{"id", facts.symbol}, {"form", name_of(facts.form)}};
+  if (arguments.reference != "all") asked["reference"] = arguments.reference;
+  if (arguments.tolerance_um) {
+    asked["id"] = fmt::format("{} {:g}", facts.symbol, *arguments.tolerance_um);
+    asked["tolerance_um"] = *arguments.tolerance_um;
+  }
+  const std::string part = fs::path(arguments.file).stem().string();
+  Json feature = {{"id", arguments.shape}, {"type", arguments.shape}};
+  if (arguments.inside) feature["side"] = "inside";
+  feature["source"] = source_of(arguments, folder);
+  feature["characteristics"] = Json::array({std::move(asked)});
+  const Json plan = {{"plan", {{"name", arguments.shape + " of " + part}, {"revision", "1"}}},
+                     {"part", {{"id", part}}},
+                     {"features", Json::array({std::move(feature)})}};
+  return plan.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int fit_to_page(const FitArguments& arguments) {
+  if (!arguments.save_plan.empty()) {
+    const fs::path folder = fs::absolute(arguments.save_plan).parent_path();
+    std::error_code unknown;
+    if (fs::exists(arguments.save_plan, unknown)) {
+      return refuse({core::Code::kFile, "the file exists; name another one, or remove it",
+                     arguments.save_plan});
+    }
+    if (auto saved = record::write_file(arguments.save_plan, plan_text(arguments, folder)); !saved)
+      return refuse(saved.error());
+    say_line(arguments.save_plan);
+    if (arguments.out.empty()) return kAllWell;
+  }
+  RunArguments run_arguments;
+  run_arguments.plan = arguments.save_plan;
+  if (arguments.save_plan.empty()) {
+    run_arguments.plan = "fit " + arguments.shape;
+    run_arguments.plan_text = plan_text(arguments, {});
+  }
+  run_arguments.out = arguments.out;
+  run_arguments.serial = arguments.serial;
+  run_arguments.operator_name = arguments.operator_name;
+  return run(run_arguments);
+}
+
+}  // namespace rondure::app
