@@ -11,8 +11,11 @@
 #include "evaluation/prediction/predict.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/doubts.h"
+#include "plans/checks/points_file.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
+#include "record/files.h"
+#include "record/points/points.h"
 #include "record/tasks/analysis_influences.h"
 
 namespace rondure::app {
@@ -66,6 +69,24 @@ void say_undeclared(const plans::Plan& plan) {
 
 }  // namespace
 
+namespace {
+
+/// What the reader of points took for what; the plan is valid, so that it reads every file.
+void say_what_was_read(const plans::Plan& plan) {
+  for (const plans::FeaturePlan& feature : plan.features) {
+    if (!feature.source || record::is_analysis(feature.type)) continue;
+    const auto bytes =
+        record::read_file(plan.folder / feature.source->file, record::kMostPointsBytes);
+    if (!bytes) continue;
+    const auto table =
+        record::read_points(*bytes, feature.source->file, plans::points_options(*feature.source));
+    if (table && !table->read.empty())
+      say_line(fmt::format("feature {}: {}: {}", feature.id, feature.source->file, table->read));
+  }
+}
+
+}  // namespace
+
 void tell_doubts(const plans::Plan& plan) {
   for (const core::Error& doubt : plans::doubts_of(plan)) {
     tell(fmt::format("rondure: please check {}: {}\n", doubt.where, doubt.what));
@@ -89,6 +110,7 @@ int validate(const ValidateArguments& arguments) {
   say_line(fmt::format("{}: valid; {} {}, {} feature{}", arguments.plan, plan->plan.name,
                        plan->plan.revision, plan->features.size(),
                        plan->features.size() == 1 ? "" : "s"));
+  say_what_was_read(*plan);
   say_undeclared(*plan);
   tell_doubts(*plan);
   return kAllWell;

@@ -156,12 +156,17 @@ Svg section_drawing(const evaluation::FeatureResult& feature, const evaluation::
   return svg;
 }
 
-/// "at 12.000 mm", where the section has a height.
+/// "at 12.000 mm", where the section has a height; "part z 34.6 … 35.2 mm" where its points stand
+/// on a leaning part at several, so that a point of it is not said to lie elsewhere.
 std::string height_of(const evaluation::FeatureResult& feature, const evaluation::Section& section,
                       const Drawn& drawn) {
   if (section.projected || feature.feature.shape != record::Shape::kCylinder) return {};
-  return drawn.part_z ? trf("part z {} mm", fixed(section.height_mm, 1))
-                      : trf("at {} mm", fixed(section.height_mm, 3));
+  if (!drawn.part_z) return trf("at {} mm", fixed(section.height_mm, 3));
+  const auto height = [&](std::size_t row) { return feature.cloud[row].height_mm; };
+  const auto [lowest, highest] = std::ranges::minmax_element(section.rows, {}, height);
+  const std::string low = fixed(height(*lowest), 1);
+  const std::string high = fixed(height(*highest), 1);
+  return trf("part z {} mm", low == high ? low : fmt::format("{} … {}", low, high));
 }
 
 std::string plot(const evaluation::FeatureResult& feature, const evaluation::Section& section,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "record/tasks/settings.h"
 #include "reports/escaping.h"
 #include "reports/history/earlier_results.h"
 #include "reports/history/history.h"
@@ -129,8 +130,10 @@ std::string provenance_section(const record::RunRecord& record) {
       property(tr("Plan SHA-256"), mono(header.plan_sha256));
   for (const record::Feature& feature : record.features) {
     if (feature.points_file.empty()) continue;
-    rows += property(tr("Points file"),
-                     isolated(feature.points_file) + "<br/>" + mono(feature.points_sha256));
+    std::string html = isolated(feature.points_file) + "<br/>" + mono(feature.points_sha256);
+    const auto source = record::task_of<record::SourceSettings>(feature.settings, "source/");
+    if (source && source->read) html += "<br/>" + foreign(*source->read);
+    rows += property(tr("Points file"), html);
   }
   if (header.simulated) rows += property(tr("Seed of the simulation"), std::to_string(header.seed));
   return fmt::format(R"(<section><h2>{}</h2><table class="props">{}{}</table></section>)",

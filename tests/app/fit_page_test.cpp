@@ -91,7 +91,11 @@ TEST_F(FitToAPage, ItsPlanCanBeSavedEditedAndRunFromAnywhere) {
   EXPECT_EQ(feature["side"], "inside");
   EXPECT_EQ(feature["source"]["tip_diameter_mm"], 3);
   EXPECT_EQ(feature["source"]["layers"], "heights");
+  const Outcome valid = rondure({"validate", plan});
+  EXPECT_THAT(valid.out, HasSubstr("feature cylinder: ../journal A.csv: "));
+  EXPECT_THAT(valid.out, HasSubstr("180 points"));
   ASSERT_EQ(rondure({"run", plan, "--out", run_, "--quiet"}).status, 0);
+  EXPECT_THAT(read(run_ / "report.html"), HasSubstr("180 points"));
   EXPECT_EQ(cylindricity_of(run_)["reference"], "ls");
   const Outcome again = rondure({"fit", "cylinder", points_, "--save-plan", plan});
   EXPECT_EQ(again.status, 2);
