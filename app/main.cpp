@@ -141,7 +141,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--out", arguments.out,
                    "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
   verb->add_flag("--resume", arguments.resume,
-                 "Goes on with the run in that directory behind its last touch");
+                 "Resumes the run in that directory after its last touch");
   verb->add_flag("--relocate", arguments.relocate,
                  "With --resume: a part that has moved is located again, and its present cloud\n"
                  "measured anew")

@@ -175,7 +175,7 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
 
 void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   if (!run.failure || !plans::is_resumable(*run.failure)) return;
-  tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(ending)));
+  tell(fmt::format("rondure: to resume it after its last touch: {}\n", resume_command(ending)));
 }
 
 /// Points out that a non-empty run directory may hold a run to resume.

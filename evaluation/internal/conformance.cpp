@@ -89,7 +89,7 @@ core::Phrase sampling_words(const FeatureResult& result,
       characteristic.form == Form::kRoundness || characteristic.form == Form::kHarmonicLimits;
   if (by_layer && result.layers.size() > 1) text = joined(text, core::phrase("worst layer"));
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
-    return joined(text, core::phrase("mean of {} touches a point", result.cloud.front().repeats));
+    return joined(text, core::phrase("mean of {} touches per point", result.cloud.front().repeats));
   }
   if (const int passes = passes_of(result.cloud); passes > 1) {
     return joined(text, core::phrase("{} passes at places of their own, not averaged", passes));

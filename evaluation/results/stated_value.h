@@ -23,7 +23,7 @@ class Term {
 
 using ReferenceTerm = Term<struct ReferenceTag>;      ///< "MZCY"
 using FilterTerm = Term<struct FilterTag>;            ///< "unfiltered"
-using SamplingTerm = Term<struct SamplingTag>;        ///< "4 x 7 points; mean of 5 touches a point"
+using SamplingTerm = Term<struct SamplingTag>;        ///< "4 x 7 points; mean of 5 touches per point"
 using TipTerm = Term<struct TipTag>;                  ///< "r_tip 1.9984 mm"
 using TemperatureTerm = Term<struct TemperatureTag>;  ///< "20.3 degC"
 

@@ -144,10 +144,10 @@ void say_probe(const Influences& influences, Declaration& out) {
                                    "form of {:.3f} um",
                                    kUm * *span_mm)
                     : core::phrase("not declared"));
-  out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; moves radii, no form",
+  out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
                                              kUm * probe.tip_radius_mm));
   if (probe.reference_sphere_mm > 0.0) {
-    out.line("reference-sphere", core::phrase("radius {:.4g} um, normal; moves radii, no form",
+    out.line("reference-sphere", core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
                                               kUm * probe.reference_sphere_mm));
   }
 }
@@ -173,7 +173,7 @@ void say_machine(const std::optional<MachineInfluences>& declared, Declaration& 
     }
   }
   const auto said = [&](bool any, const char* names) {
-    return any ? core::phrase("{} ({})", terms, names) : core::phrase("declared as nothing");
+    return any ? core::phrase("{} ({})", terms, names) : core::phrase("declared as zero");
   };
   out.line("machine-position", said(position, "EXX, EYY, EZZ"));
   out.line("machine-straightness", said(straightness, "EYX ... EYZ"));
@@ -192,8 +192,8 @@ void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& 
   const ThermalInfluences thermal = declared.value_or(ThermalInfluences{});
   out.group(declared.has_value());
   out.line("temperature",
-           core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; moves radii, "
-                        "no form",
+           core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; shifts radii, "
+                        "not the form",
                         thermal.temperature_K, thermal.expansion_uncertainty_1_K));
   if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
     out.never("temperature-drift",

@@ -160,7 +160,7 @@ std::string complaint(std::string_view text, std::size_t index, const Builder& b
   }
   if ((here == '}' || here == ']') && last_visible_before(text, index) == ',') {
     return fmt::format(
-        "a comma stands before this \"{}\"; JSON allows none behind the last entry, "
+        "a comma stands before this \"{}\"; JSON allows none after the last entry, "
         "remove it",
         here);
   }

@@ -43,7 +43,7 @@ struct ArchiveResult {
   std::string symbol;                 ///< "CYLt", "RONt".
   std::string reference;              ///< "MZCY", "LSCI", ...
   std::string filter;                 ///< "unfiltered".
-  std::string sampling;               ///< "4 x 7 points; mean of 5 touches a point".
+  std::string sampling;               ///< "4 x 7 points; mean of 5 touches per point".
   std::optional<double> value;        ///< Value in `unit`; empty when it could not be evaluated.
   std::optional<double> upper_limit;  ///< Limit in `unit`; empty without an upper limit.
   std::string unit = "mm";

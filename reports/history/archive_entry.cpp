@@ -16,7 +16,7 @@ namespace {
 
 using core::well_formed;
 
-/// "4 x 7 points; worst section; 5 touches a point".
+/// "4 x 7 points; worst section; 5 touches per point".
 std::string sampling_of(const evaluation::FeatureResult& feature,
                         const record::Characteristic& asked) {
   std::string text = pattern_of(feature);

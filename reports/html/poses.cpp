@@ -256,7 +256,7 @@ std::string pose_table(const evaluation::FeatureResult& feature) {
   }
   std::string html = scrolling(table(
       shown.size() <= 12 ? "short" : "", "rrrrll", spoken_caption(tr("Search for the pose")),
-      {tr("Visit"), "alpha / °", "beta / °", "f / µm", tr("Search ended"), tr("Pose")}, rows));
+      {tr("Visit"), "alpha / °", "beta / °", "f / µm", tr("End of search"), tr("Pose")}, rows));
   if (shown.size() < poses.size()) {
     html += note(trf("{} of {} poses were left out here; report.json has all of them.",
                      poses.size() - shown.size(), poses.size()));

@@ -240,7 +240,7 @@ TEST(IppRun, GoesOnWithAServerThatWasStartedAgain) {
     simulator.kill();
     const Outcome lost = run.wait();
     ASSERT_EQ(lost.status, 3) << lost.err;
-    EXPECT_THAT(lost.err, HasSubstr("to go on behind the last touch"));
+    EXPECT_THAT(lost.err, HasSubstr("to resume it after its last touch"));
   }
   const Outcome nobody = rondure({"run", folder / "run", "--resume", "--archive", "none"});
   EXPECT_EQ(nobody.status, 3);
@@ -265,7 +265,7 @@ TEST(IppRun, CtrlCStopsTheMachineAtOnceAndNothingMovesAfterwards) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(200));
   EXPECT_EQ(stopped.status, 3);
   EXPECT_THAT(stopped.err, HasSubstr("[stopped]"));
-  EXPECT_THAT(stopped.err, HasSubstr("to go on behind the last touch"));
+  EXPECT_THAT(stopped.err, HasSubstr("to resume it after its last touch"));
   const std::string log = read(folder / "wire.log");
   const std::size_t abort = log.find(" AbortE()");
   ASSERT_NE(abort, std::string::npos)

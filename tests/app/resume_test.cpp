@@ -276,8 +276,8 @@ TEST(Stop, AndResumeGiveEveryTouchOnce) {
   busy.program.send(SIGINT);
   const Outcome stopped = busy.program.wait();
   EXPECT_EQ(stopped.status, 3);
-  EXPECT_THAT(stopped.err, AllOf(HasSubstr("[stopped]"), HasSubstr("to go on behind the last "
-                                                                   "touch: rondure run ")));
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr("[stopped]"), HasSubstr("to resume it after its "
+                                                                   "last touch: rondure run ")));
   const auto before = journal_of(busy.folder / "run");
   Program resumed({"run", busy.folder / "run", "--resume"});
   wait_for_log(resumed, busy.folder / "run");

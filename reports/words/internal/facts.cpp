@@ -77,7 +77,7 @@ std::string repeats_of(const evaluation::FeatureResult& feature) {
                             return a.repeats < b.repeats;
                           });
   const auto high = static_cast<std::size_t>(most->repeats);
-  const std::string text = count(high, "touch a point", "touches a point");
+  const std::string text = count(high, "touch per point", "touches per point");
   return least->repeats == most->repeats ? text : trf("{} to {}", least->repeats, text);
 }
 

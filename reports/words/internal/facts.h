@@ -18,7 +18,7 @@ namespace rondure::reports {
 
 /// "4 x 7 points" for a regular cloud, "500 points" otherwise.
 [[nodiscard]] std::string pattern_of(const evaluation::FeatureResult& feature);
-/// "3 touches a point", "1 to 3 touches a point"; empty for a points file.
+/// "3 touches per point", "1 to 3 touches per point"; empty for a points file.
 [[nodiscard]] std::string repeats_of(const evaluation::FeatureResult& feature);
 /// "Layer 1"; "All points, seen along the axis".
 [[nodiscard]] std::string title_of(const evaluation::Section& section);
