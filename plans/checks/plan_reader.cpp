@@ -35,6 +35,23 @@ void complete_circles(Plan& plan, const Findings& findings) {
   }
 }
 
+/// Fills an empty simulation with a typical part, ground and clamped by hand, on a typical machine,
+/// so that a plan can be tried before anything of either is known.
+void complete_simulation(Plan& plan, const JsonValue& json) {
+  const JsonValue* const given = json.find("simulation");
+  if (given == nullptr || !plan.simulation || !given->members.empty()) return;
+  SimulatedPartPlan& part = plan.simulation->part;
+  part.offset_x_mm = 0.05 * plan.part.location_uncertainty_mm;
+  part.offset_y_mm = -0.03 * plan.part.location_uncertainty_mm;
+  part.tilt_deg = 0.01;
+  part.tilt_toward_deg = 40.0;
+  part.diameter_error_um = -2.0;
+  part.taper_um = 0.5;
+  part.lobes = {{2, 0.4, 20.0}, {3, 0.5, 75.0}, {5, 0.15}};
+  plan.simulation->probe.repeatability_um = 0.2;
+  plan.simulation->machine.errors = SimulatedMachinePlan::Errors::kTypical;
+}
+
 }  // namespace
 
 PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
@@ -49,6 +66,7 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   describe(reader, plan);
   reader.finish();
   complete_circles(plan, findings);
+  complete_simulation(plan, *json);
   measure_datums_in_one_pose(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();

@@ -70,12 +70,21 @@ TEST(HardPlan, AFarStartPoseDoesNotLeadTheFitAstray) {
 
 TEST(HardPlan, APerfectPartConformsAndVerifies) {
   const HardRun run(
-      {{"/simulation", json::object()},
+      {{"/simulation", {{"seed", 1}}},
        {"/decision_rule/rule", "iso-14253-1"},
        {"/uncertainty",
         {{"most_trials", 2000}, {"budget_trials", 0}, {"probe", {{"repeatability_um", 0}}}}}});
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err << run.outcome.out;
   EXPECT_LT(run.value_um(), 1e-6);
+  EXPECT_EQ(rondure({"verify", run.folder / "run"}).status, 0);
+}
+
+TEST(HardPlan, AnEmptySimulationIsATypicalPartOnATypicalMachine) {
+  const HardRun run({{"/simulation", json::object()}});
+  ASSERT_LE(run.outcome.status, 1) << run.outcome.err << run.outcome.out;
+  EXPECT_GT(run.truth_um(), 0.8);
+  EXPECT_LT(run.truth_um(), 4.0);
+  EXPECT_GT(run.value_um(), 0.8);
   EXPECT_EQ(rondure({"verify", run.folder / "run"}).status, 0);
 }
 

@@ -556,7 +556,8 @@ void describe(Visitor& v, Plan& p) {
                        "features and points of a file. Left out: none are stated."});
   v.object("simulation", p.simulation,
            {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
-                       "simulated drivers."});
+                       "simulated drivers. Empty, {}: a typical part on a typical machine; with "
+                       "any key, what is left out is without error."});
   v.object("reports", p.reports, {.meaning = "What a run writes besides its journal."});
 }
 
