@@ -273,19 +273,29 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                                ? tr("simulated")
                                : trf("from the file {}", isolated(asked.points_file)))));
   html += messages(feature) + callouts_section(feature, record, true);
+  std::string drawings;
   if (feature.analysis) {
     const auto write = [&](const auto& found) {
       return analysis_part(found, record, static_cast<int>(index));
     };
-    html += std::visit(write, feature.analysis->found);
+    drawings = std::visit(write, feature.analysis->found);
   }
   const bool passed = std::ranges::all_of(feature.gates, [](const evaluation::Gate& gate) {
     return gate.outcome == evaluation::Gate::Outcome::kPassed;
   });
+  // Beside other features, one of which nothing has to be looked at takes no pages of its own.
+  const auto conforms = [](const evaluation::CharacteristicResult& result) {
+    return result.verdict == evaluation::Verdict::kConforms;
+  };
+  const bool quiet = record.features.size() > 1 && passed && !feature.characteristics.empty() &&
+                     std::ranges::all_of(feature.characteristics, conforms);
   const std::string gates = gates_section(feature);
-  return html + (passed ? std::string() : gates) + truth_box(truth_text(record, index)) +
-         folded(tr("Call-outs that conform, conditions"),
-                callouts_section(feature, record, false) + (passed ? gates : std::string()),
+  return html + (quiet ? std::string() : drawings) + (passed ? std::string() : gates) +
+         truth_box(truth_text(record, index)) +
+         folded(quiet ? tr("Drawings, call-outs that conform, conditions")
+                      : tr("Call-outs that conform, conditions"),
+                callouts_section(feature, record, false) + (quiet ? drawings : std::string()) +
+                    (passed ? gates : std::string()),
                 detail) +
          "</section>";
 }

@@ -240,6 +240,10 @@ TEST(Examples, OfAShaftDrawingOnlyTheSpoiledCallOutsFail) {
 
 TEST(Examples, FourAnalysesUnderIso14253EndWithAVerdictEach) {
   const fs::path run = example_runs() / "16_four_analyses";
+  EXPECT_THAT(read(run / "report.html"), HasSubstr("<summary>Drawings, call-outs that conform"))
+      << "nothing has to be looked at in an analysis that conforms";
+  EXPECT_THAT(read(example_runs() / "05_spindle_three_probe" / "report.html"),
+              ::testing::Not(HasSubstr("<summary>Drawings")));
   EXPECT_EQ(example_outcome("16_four_analyses").status, 0);
   const json report = json::parse(read(run / "report.json"));
   EXPECT_EQ(report.at("verdict"), "conforms");
