@@ -87,8 +87,8 @@ void describe(Visitor& v, RotaryTask& p) {
   v.list("verification", p.verification,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "At least 5 poses of both axes that are measured but not used to find the "
-                     "errors: their residual is the figure of the calibration."});
+          .meaning = "At least 5 poses of both axes, not used to find the errors: their residual "
+                     "is the figure of the calibration."});
   v.number("valid_for_days", p.valid_for_days,
            above(0.0, 36'500.0, "How long other runs may use the calibration."));
   v.object("uncertainty", p.uncertainty,

@@ -49,11 +49,9 @@ RONDURE_WORDS(SpindleTask::Filter, {kGaussian, "gaussian"}, {kNone, "none"});
 
 template <class Visitor>
 void describe_probe_angles(Visitor& v, SpindleTask& p) {
-  v.text(
-      "layout", p.layout,
-      {.meaning = "Where the three probes stand. angles: as p1_to_p2_deg and one of p2_to_p3_deg, "
-                  "p1_to_p3_deg say. published-a, published-b: the layouts of the source; "
-                  "reference: 52.38 and 248.91 deg, the least noise for orders 2 to 50."});
+  v.text("layout", p.layout,
+         {.meaning = "Places of the probes: by p1_to_p2_deg and one of p2_to_p3_deg and "
+                     "p1_to_p3_deg, or a layout by name."});
   v.number("p1_to_p2_deg", p.p1_to_p2_deg,
            within(360.0,
                   "From probe 1 to probe 2, against the rotation of the work; negative: with it."));
@@ -71,15 +69,14 @@ void describe_swing_arm(Visitor& v, SpindleTask& p) {
                       .hint = "that suggests micrometres, give it in mm",
                       .meaning = meaning};
   };
-  v.number("crank_radius_mm", p.crank_radius_mm,
-           radius("Distance of the pin from the rotation axis when the probes follow a crank pin "
-                  "on a swing arm; 0: an ordinary shaft."));
+  v.number(
+      "crank_radius_mm", p.crank_radius_mm,
+      radius("Distance of the pin from the rotation axis, on a swing arm; 0: an ordinary shaft."));
   v.number("wheel_radius_mm", p.wheel_radius_mm,
            radius("Radius of the wheel whose centre is the pivot of the arm."));
-  v.object(
-      "wheel_radius_from", p.wheel_radius_from,
-      {.meaning = "Instead of wheel_radius_mm: radius of an earlier wheel of mode envelope, with "
-                  "its uncertainty. The probe angles are those on an arm of its nominal radius."});
+  v.object("wheel_radius_from", p.wheel_radius_from,
+           {.meaning = "Instead of wheel_radius_mm: radius of an earlier wheel of mode envelope, "
+                       "with its uncertainty."});
   v.number("pin_radius_mm", p.pin_radius_mm,
            radius("Radius of the pin or shaft; the second-order correction needs it."));
 }

@@ -112,8 +112,7 @@ void describe(Visitor& v, GroundSurfaceTask& p) {
   v.number("cusp_um", p.cusp_um,
            above(0.0, 1000.0, "Highest cusp between passes; gives the step in place of step_mm."));
   v.text("radius", p.radius,
-         {.meaning = "Radius of the path. effective: of the point farthest from the axis, which "
-                     "makes the surface when run-out matters."});
+         {.meaning = "Radius of the path. effective: of the point farthest from the axis."});
   v.number("wheel_arc_from_deg", p.wheel_arc_from_deg,
            within(90.0, "Trued arc of the wheel, from its lowest point: begin."));
   v.number("wheel_arc_to_deg", p.wheel_arc_to_deg, within(90.0, "End of the trued arc."));

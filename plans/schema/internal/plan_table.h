@@ -175,10 +175,9 @@ void describe(Visitor& v, FixturePlan& p) {
   v.text("id", p.id,
          {.meaning = "Name of this fixture, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.meaning = "What turns the part: a simulation, rotary axes of the machine behind I++ DME "
-                     "(AlignPart), stages on a Zaber controller or Thorlabs APT units, or a hand "
-                     "(the machine then measures the pose). Stages may also turn the part of a "
-                     "simulated machine."});
+         {.meaning =
+              "What turns the part: a simulation, rotary axes of the machine (AlignPart), Zaber or "
+              "Thorlabs stages, or a hand. Stages may also turn the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha), machine frame."));
   v.numbers(
@@ -214,8 +213,8 @@ void describe(Visitor& v, FixturePlan& p) {
                        "in their base frame."});
   v.object(
       "calibration", p.calibration,
-      {.meaning = "Errors of the fixture, found by a rotary_axes feature, which the run corrects "
-                  "(docs/fixture-calibration.md). Left out: the fixture is taken as nominal."});
+      {.meaning = "Errors of the fixture, which the run corrects (docs/fixture-calibration.md). "
+                  "Left out: the fixture is taken as nominal."});
   v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
   v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
   v.object("reached_pose", p.reached_pose,
