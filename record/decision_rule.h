@@ -65,29 +65,26 @@ void describe(Visitor& v, PriorTask& p) {
 template <class Visitor>
 void describe_statements(Visitor& v, DecisionRuleTask& p) {
   v.text("zones", p.zones,
-         {.meaning = "Statement of ASME B89.7.3.1: which zones there are and how large. This and "
-                     "the next three are needed by n-to-1 and guard-band."});
-  v.text("outcomes", p.outcomes,
-         {.meaning = "Statement: what is done with a part in each of the zones."});
-  v.text("repeats", p.repeats,
-         {.meaning = "Statement: how repeated measurements of one part are dealt with."});
-  v.text("outliers", p.outliers,
-         {.meaning = "Statement: how values that do not belong are dealt with."});
+         {.meaning = "Statement of ASME B89.7.3.1: the zones and their sizes. n-to-1 and "
+                     "guard-band need this and the next three."});
+  v.text("outcomes", p.outcomes, {.meaning = "Statement: what is done with a part in each zone."});
+  v.text("repeats", p.repeats, {.meaning = "Statement: treatment of repeated measurements."});
+  v.text("outliers", p.outliers, {.meaning = "Statement: treatment of values that do not belong."});
 }
 
 template <class Visitor>
 void describe(Visitor& v, DecisionRuleTask& p) {
-  v.text("rule", p.rule,
-         {.meaning = "simple-acceptance: the measured value is compared with the tolerance, no "
-                     "uncertainty is taken into account. The others need uncertainty and may end "
-                     "undecided (docs/decision-rules.md)."});
+  v.text(
+      "rule", p.rule,
+      {.meaning = "simple-acceptance compares the value with the tolerance, without uncertainty. "
+                  "The others need uncertainty and may end undecided (docs/decision-rules.md)."});
   v.text("measurand", p.measurand,
-         {.meaning = "What the verdict is about: the surface at the sampled points, or the whole "
+         {.meaning = "Subject of the verdict: the surface at the sampled points, or the whole "
                      "surface under the form spectrum."});
   v.text("judge", p.judge,
-         {.meaning = "as-read: a value that was read above the tolerance never conforms, whatever "
-                     "the correction for noise says. corrected: only the corrected value and its "
-                     "interval count, by agreement of both parties; the report says so."});
+         {.meaning = "as-read: a value read above the tolerance never conforms. corrected: only "
+                     "the value corrected for noise and its interval count, by agreement of both "
+                     "parties; the report says so."});
   v.number("guard_factor", p.guard_factor,
            range(0.0, 10.0, "iso-14253-1: guard band in parts of the interval beside the value."));
   v.number(
@@ -96,8 +93,8 @@ void describe(Visitor& v, DecisionRuleTask& p) {
   v.number("producer_risk_percent", p.producer_risk_percent,
            above(0.0, 50.0, "jcgm-106: largest probability that a rejected part conforms."));
   v.object("prior", p.prior,
-           {.meaning = "What is known of the parts of this process before the measurement. With it "
-                       "the report states the global risks, and jcgm-106 uses it."});
+           {.meaning = "Knowledge of the process before the measurement. The report then states "
+                       "the global risks, and jcgm-106 uses it."});
   v.number("ratio", p.ratio,
            range(1.0, 100.0, "n-to-1: N, tolerance over the width of the interval at least."));
   v.number("acceptance_guard_percent", p.acceptance_guard_percent,

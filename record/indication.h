@@ -83,24 +83,23 @@ RONDURE_WORDS(Indication::Outliers, {kNone, "none"}, {kFiveScales, "five-scales"
 template <class Visitor, class Keys>
 void describe_operations(Visitor& v, Keys& p) {
   v.text("association", p.association,
-         {.meaning = "How a datum is taken from its feature: one-sided, touching it from outside "
-                     "the material (the default); equalised, in the middle of the positions "
-                     "between which it rocks; ls, least squares; zone, minimum zone."});
+         {.meaning = "How a datum is taken from its feature: one-sided, from outside the material "
+                     "(the default); equalised, midway between the positions in which it rocks; "
+                     "ls, least squares; zone, minimum zone."});
   v.text("filter", p.filter,
-         {.meaning = "Filter of the profiles before anything is evaluated: none (the default), "
-                     "gaussian, robust-gaussian, spline. It needs dense sections, as of a scan."});
+         {.meaning = "Filter of the profiles before evaluation; none by default. It needs dense "
+                     "sections, as from a scan."});
   v.number("cutoff_upr", p.cutoff_upr,
            above(0.0, 100'000.0,
-                 "Cut-off of the filter round the section, in undulations per revolution; usual "
-                 "are 15, 50, 150, 500, 1500."));
+                 "Cut-off round the section, in undulations per revolution: usually 15, 50, 150, "
+                 "500 or 1500."));
   v.number("cutoff_mm", p.cutoff_mm,
            above(0.0, 1000.0,
-                 "Cut-off along the axis; usual are 0.25, 0.8, 2.5, 8, 25. Left out: the profile "
-                 "is not filtered along the axis."));
+                 "Cut-off along the axis: usually 0.25, 0.8, 2.5, 8 or 25. Left out: no filter "
+                 "along the axis."));
   v.text("outliers", p.outliers,
-         {.meaning = "Rule that takes single points out: none (the default), or five-scales, more "
-                     "than five robust scales from the least-squares feature. The report lists "
-                     "every point that it takes out."});
+         {.meaning = "five-scales leaves out points more than five robust scales from the "
+                     "least-squares feature, and the report lists them; none by default."});
 }
 
 template <class Visitor>
@@ -111,47 +110,47 @@ void describe(Visitor& v, Indication& p) {
   v.text("size", p.size,
          {.meaning = "Of a diameter (ISO 14405-1): LP, two-point size; GG, least squares; GX, "
                      "maximum inscribed; GN, minimum circumscribed; GC, minimax; CC, CA, CV from "
-                     "circumference, area, volume of dense sections."});
+                     "circumference, area, volume of dense sections. LS (spherical) is refused."});
   v.text("rank", p.rank,
          {.meaning = "Of two-point sizes: SX maximum, SN minimum, SA average, SM median, SD "
-                     "mid-range, SR range, SQ standard deviation. Left out: the greatest is held "
-                     "against the upper limit, the least against the lower."});
+                     "mid-range, SR range, SQ standard deviation. Left out: the greatest and the "
+                     "least are held against their limits."});
   v.text("section", p.section,
          {.meaning = "all: of the whole feature; ACS: of any section, the worst decides; SCS: of "
                      "the sections of section_layers."});
   v.numbers("section_layers", p.section_layers,
             range(1.0, 1000.0, "Layers of section SCS, from 1, the lowest first."));
   v.text("requirement", p.requirement,
-         {.meaning = "envelope: the mating size and the two-point sizes, one verdict (ISO 14405-1, "
-                     "the letter E in a circle)."});
+         {.meaning = "envelope: mating size and two-point sizes, one verdict (ISO 14405-1, the "
+                     "letter E in a circle)."});
   v.text("of", p.of,
          {.meaning = "Straightness of each generatrix, or of the median line of the sections."});
   v.text("direction", p.direction,
          {.meaning = "Of a run-out: radial; axial, of a face; conical, normal to a cone."});
   v.number("radius_mm", p.radius_mm,
            above(0.0, 10'000.0,
-                 "Of an axial run-out: radius of the one circle that counts. Left out: every "
-                 "circle, the worst decides."));
+                 "Of an axial run-out: radius of the one circle that counts. Left out: the worst "
+                 "circle."));
   v.number("angle_deg", p.angle_deg, range(0.0, 90.0, "Of an angularity: nominal, to the datum."));
   v.number(
       "from_mm", p.from_mm,
       within(10'000.0, "Restricted portion: its lower end, part z. Left out: of the feature."));
   v.number("to_mm", p.to_mm, within(10'000.0, "Restricted portion: its upper end, part z."));
-  v.text("axis", p.axis,
-         {.meaning = "Of an axis-error: alpha, the base-fixed axis of the fixture, or beta, the "
-                     "carried one."});
   v.text(
-      "error", p.error,
-      {.meaning = "Of an axis-error: EX, EY or EZ, the shift along this axis of the machine; EA, "
-                  "EB or EC, the tilt about its x, y or z, an angle in urad."});
+      "axis", p.axis,
+      {.meaning =
+           "Of an axis-error: alpha is the base-fixed axis of the fixture, beta the carried one."});
+  v.text("error", p.error,
+         {.meaning = "Of an axis-error: EX, EY, EZ, shift along this machine axis; EA, EB, EC, "
+                     "tilt about its x, y or z, in urad."});
   v.texts("datum", p.datum,
           {.empty_allowed = false,
-           .meaning = "Datums in their order, each the letter or id of a feature, or a common "
-                      "datum of several, e.g. \"A-B\"."});
+           .meaning = "Datums in order, each the letter or id of a feature, or a common datum, "
+                      "e.g. \"A-B\"."});
   describe_operations(v, p);
-  v.object("decision_rule", p.decision_rule,
-           {.meaning = "Rule of this characteristic alone, in place of that of the feature or of "
-                       "the plan."});
+  v.object(
+      "decision_rule", p.decision_rule,
+      {.meaning = "Rule of this characteristic; it replaces that of feature or plan as a whole."});
 }
 
 /// Defaults of a feature or of a plan for the characteristics that do not give these keys.

@@ -24,13 +24,12 @@ void describe(Visitor& v, PretravelLobePlan& p) {
 template <class Visitor>
 void describe_probe(Visitor& v, SimulatedMachinePlan& p) {
   v.number("pretravel_um", p.pretravel_um,
-           within(1000.0, "Way of the machine from contact to trigger, across the stylus: mean."));
+           within(1000.0, "Travel from contact to trigger across the stylus: mean."));
   v.number("pretravel_z_um", p.pretravel_z_um, within(1000.0, "The same along the stylus."));
   v.list("pretravel_lobes", p.pretravel_lobes,
          {.meaning = "How the pre-travel changes with the direction of the approach."});
-  v.number(
-      "stylus_length_mm", p.stylus_length_mm,
-      range(0.0, 1000.0, "Length of the stylus that the trigger force bends; 0: it is rigid."));
+  v.number("stylus_length_mm", p.stylus_length_mm,
+           range(0.0, 1000.0, "Length of the stylus that the trigger force bends; 0: rigid."));
   v.number("stylus_diameter_mm", p.stylus_diameter_mm,
            range(0.1, 50.0, "Diameter of its round shaft."));
   v.number("stylus_modulus_GPa", p.stylus_modulus_GPa,
@@ -41,8 +40,7 @@ void describe_probe(Visitor& v, SimulatedMachinePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, SimulatedMachinePlan& p) {
   v.text("errors", p.errors,
-         {.meaning = "What every error is that is not given: 0, or as of a good bridge machine "
-                     "(docs/simulation.md)."});
+         {.meaning = "Errors that are not given: 0, or those of a good bridge machine."});
   v.list("translations", p.translations,
          {.meaning = "Position and straightness errors of the axes; each takes the place of the "
                      "one of its name."});
@@ -58,7 +56,7 @@ void describe(Visitor& v, SimulatedMachinePlan& p) {
   v.number("tip_offset_z_mm", p.tip_offset_z_mm, within(2000.0, kOffset));
   describe_probe(v, p);
   constexpr std::string_view kBacklash =
-      "Hysteresis: reading when approached in the positive direction minus in the negative.";
+      "Hysteresis: reading on approach in the positive direction minus in the negative.";
   v.number("backlash_x_um", p.backlash_x_um, within(1000.0, kBacklash));
   v.number("backlash_y_um", p.backlash_y_um, within(1000.0, kBacklash));
   v.number("backlash_z_um", p.backlash_z_um, within(1000.0, kBacklash));
@@ -66,16 +64,16 @@ void describe(Visitor& v, SimulatedMachinePlan& p) {
            range(0.0, 1e-4, "Real expansion of the scales."));
   v.number("scale_temperature_degC", p.scale_temperature_degC,
            range(10.0, 40.0, "Temperature of the scales, real and as the machine reads it."));
-  constexpr std::string_view kDrift = "How far the reading of a fixed point drifts, in the end.";
+  constexpr std::string_view kDrift = "Final drift of the reading of a fixed point.";
   v.number("drift_x_um", p.drift_x_um, within(1000.0, kDrift));
   v.number("drift_y_um", p.drift_y_um, within(1000.0, kDrift));
   v.number("drift_z_um", p.drift_z_um, within(1000.0, kDrift));
   v.number("drift_time_s", p.drift_time_s,
            range(1.0, 1e6, "Time constant of the drift: 63 % of it is done then."));
   v.number("scan_start_deg", p.scan_start_deg,
-           range(0.0, 5.0, "The first point of a scan lies at most so far beside its start."));
+           range(0.0, 5.0, "Largest distance of the first point of a scan from its start."));
   v.number("scan_step_percent", p.scan_step_percent,
-           range(0.0, 50.0, "The steps of a scan are longer or shorter by at most this."));
+           range(0.0, 50.0, "Largest relative change of the steps of a scan."));
   v.number("scan_dropped_percent", p.scan_dropped_percent,
            range(0.0, 50.0, "Share of the points of a scan that are missing."));
 }

@@ -61,7 +61,7 @@ void describe(Visitor& v, SimulatedFeaturePlan& p) {
   v.text("id", p.id,
          {.required = true, .empty_allowed = false, .meaning = "Id of the touched feature."});
   const NumberSpec offset =
-      within(1000.0, "Middle of its own axis, of a sphere its centre, against the part axis.");
+      within(1000.0, "Middle of its axis, of a sphere its centre, against the part axis.");
   const NumberSpec slope = within(10'000.0, "Slope of its own axis against the part axis.");
   v.number("offset_x_um", p.offset_x_um, offset);
   v.number("offset_y_um", p.offset_y_um, offset);
@@ -129,8 +129,8 @@ void describe(Visitor& v, SimulatedFaultsPlan& p) {
            within(1000.0, "Shift of the part in the ring, x, while the run is interrupted."));
   v.number("fixture_off_deg", p.fixture_off_deg,
            within(5.0,
-                  "After the interruption the fixture stops so far beside the commanded "
-                  "alpha, and reads so."));
+                  "After the interruption the fixture stops so far beside the commanded alpha and "
+                  "reads so."));
 }
 
 template <class Visitor>
@@ -139,16 +139,15 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.number("temperature_degC", p.temperature_degC,
            range(10.0, 40.0, "Temperature of the simulated part."));
   v.object("part", p.part, {.meaning = "Form of the simulated part and how it sits in the ring."});
-  v.list(
-      "features", p.features,
-      {.meaning = "Surfaces with a place and a form of their own; then the part has all surfaces "
-                  "at once, and a tip meets whichever comes first. A surface without an entry "
-                  "lies about the part axis and has the form of `part`."});
+  v.list("features", p.features,
+         {.meaning =
+              "Surfaces with their own place and form; a tip then meets whichever comes first. A "
+              "surface without an entry lies about the part axis and has the form of `part`."});
   v.object("machine", p.machine, {.meaning = "Errors of the simulated machine."});
   v.object("probe", p.probe, {.meaning = "Errors of the simulated probe."});
   v.object("fixture", p.fixture, {.meaning = "Errors of the simulated fixture."});
   v.object("faults", p.faults,
-           {.meaning = "What interrupts the simulated run. A resumed run meets none of it."});
+           {.meaning = "Interruptions of the simulated run. A resumed run meets none."});
   v.object("spindle", p.spindle,
            {.meaning = "Part and motion that the probes of a spindle feature see."});
   v.object("wheel", p.wheel, {.meaning = "The wheel whose edge points a wheel feature gets."});

@@ -138,8 +138,8 @@ void describe(Visitor& v, ContourInfluencesTask& p) {
   v.influence("skew_ms", p.skew_ms, range(0.0, 100.0, "Time between the traces of C and X."));
   v.influence("main_differs_um", p.main_differs_um,
               range(0.0, 100.0,
-                    "Rms difference between the errors of a pin and of its main journal that do "
-                    "not follow the axes, from earlier studies."));
+                    "Rms difference, from earlier studies, between the errors of a pin and of its "
+                    "main journal that do not follow the axes."));
 }
 
 template <class Visitor>

@@ -55,9 +55,9 @@ struct CharacteristicLevel {
 template <class Visitor, class Keys>
 void describe_reference(Visitor& v, Keys& p) {
   v.text("reference", p.reference,
-         {.meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
-                     "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
-                     "(a plug gauge in a bore). Left out: mz, which the report prints."});
+         {.meaning = "Associated feature: mz, minimum zone (the default, by ISO); ls, least "
+                     "squares; mc, minimum circumscribed (ring gauge on a shaft); mi, maximum "
+                     "inscribed (plug gauge in a bore)."});
 }
 
 template <class Visitor>
@@ -71,9 +71,8 @@ void describe(Visitor& v, HarmonicLimitTask& p) {
   const auto order = [](std::string_view meaning) { return required(range(2, 10'000, meaning)); };
   v.whole("from", p.from, order("First undulation number of this line of the mask."));
   v.whole("to", p.to, order("Last undulation number."));
-  v.number(
-      "amplitude_um", p.amplitude_um,
-      required(above(0.0, 1000.0, "Largest amplitude (half of peak to valley) of each of them.")));
+  v.number("amplitude_um", p.amplitude_um,
+           required(above(0.0, 1000.0, "Largest amplitude (half of peak to valley) of each.")));
 }
 
 template <class Visitor>
@@ -82,57 +81,35 @@ void describe(Visitor& v, CharacteristicTask& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "Name in the report, unique within the feature."});
-  v.text(
-      "form", p.form,
-      {.required = true,
-       .meaning =
-           "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
-           "layer of a cylinder or of a spindle feature; diameter, straightness, "
-           "generatrix-parallelism, taper, flatness, coaxiality, concentricity, parallelism, "
-           "perpendicularity, angularity, run-out, total-run-out of surfaces (docs/drawing.md "
-           "says of which, and what each takes); harmonic-limits, a mask on the "
-           "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
-           "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
-           "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
-           "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
-           "feature: contour-deviation (peak to valley, the greatest of all parts); "
-           "contour-spread (standard deviation from part to part); harmonic-limits. Of "
-           "rotary_axes: fixture-residual, the largest distance of a ball from where the "
-           "calibration has it, and fixture-residual-rms; axis-error, the largest of one error of "
-           "an axis over its stations."});
+  v.text("form", p.form,
+         {.required = true,
+          .meaning = "What is judged; docs/drawing.md lists the forms of each type."});
   describe_reference(v, p);
   v.number("tolerance_um", p.tolerance_um,
            above(0.0, 10'000.0,
-                 "Upper limit on the drawing, of everything but a diameter (of that with rank SR "
-                 "or SQ); without a limit the value is reported, not judged."));
-  const NumberSpec deviation = within(
-      10'000.0,
-      "Of a diameter: limit on the drawing as deviation from nominal.diameter_mm; of h6 at 30 mm "
-      "lower_um is -13 and upper_um 0. Either may be left out. Of the radius of a wheel: limits of "
-      "R - nominal_radius_mm with its sign, both; of an axis-error likewise.");
+                 "Upper limit of everything but a diameter (of that with rank SR or SQ). Without a "
+                 "limit the value is reported, not judged."));
+  const NumberSpec deviation =
+      within(10'000.0,
+             "Limits of a diameter, either or both, as deviations from nominal.diameter_mm: -13 "
+             "and 0 for 30 h6. Of the radius of a wheel, both: signed limits of R - "
+             "nominal_radius_mm; likewise of an axis-error.");
   v.number("lower_um", p.lower_um, deviation);
   v.number("upper_um", p.upper_um, deviation);
   v.number("symmetric_um", p.symmetric_um,
            above(0.0, 10'000.0,
-                 "Of the radius of a wheel: limits of R - nominal_radius_mm with its sign, minus "
-                 "and plus this value, instead of lower_um and upper_um; of an axis-error "
-                 "likewise."));
-  v.number("tolerance_urad", p.tolerance_urad,
-           above(0.0, 100'000.0,
-                 "Of an axis-error EA, EB or EC, in place of tolerance_um: limit of the amount of "
-                 "the angle."));
-  const NumberSpec angle = within(
-      100'000.0,
-      "Of an axis-error EA, EB or EC, in place of lower_um and upper_um: limits of the angle with "
-      "its sign, both.");
+                 "Of the radius of a wheel or an axis-error, instead: plus and minus this value."));
+  v.number(
+      "tolerance_urad", p.tolerance_urad,
+      above(0.0, 100'000.0, "Of an axis-error EA, EB or EC: limit of the amount of the angle."));
+  const NumberSpec angle =
+      within(100'000.0, "Of an axis-error EA, EB or EC: signed limits of the angle, both.");
   v.number("lower_urad", p.lower_urad, angle);
   v.number("upper_urad", p.upper_urad, angle);
-  v.number("symmetric_urad", p.symmetric_urad,
-           above(0.0, 100'000.0,
-                 "Of an axis-error EA, EB or EC: limits of the angle with its sign, minus and plus "
-                 "this value, instead of lower_urad and upper_urad."));
-  v.text("drawing_zone", p.drawing_zone,
-         {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
+  v.number(
+      "symmetric_urad", p.symmetric_urad,
+      above(0.0, 100'000.0, "Of an axis-error EA, EB or EC, instead: plus and minus this value."));
+  v.text("drawing_zone", p.drawing_zone, {.meaning = "Place on the drawing, e.g. \"C4\"."});
   v.list("harmonic_limits", p.harmonic_limits,
          {.meaning = "The mask of harmonic-limits, instead of tolerance_um."});
   describe(v, p.indication);

@@ -66,9 +66,8 @@ void describe(Visitor& v, ContourPartTask& p) {
   v.text("axes", p.axes,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "CSV of the control, columns c_deg,c_error_deg,x_error_mm, with d_cmd_mm "
-                     "(commanded X) to check crank, wheel and the zero of C; relative to the "
-                     "plan."});
+          .meaning = "CSV of the control, relative to the plan: c_deg,c_error_deg,x_error_mm, with "
+                     "d_cmd_mm (commanded X) to check crank, wheel and zero of C."});
   v.text("pin", p.pin,
          {.required = true,
           .empty_allowed = false,
@@ -89,8 +88,8 @@ void describe_crank(Visitor& v, ContourTask& p) {
   v.number("crank_radius_mm", p.crank_radius_mm, radius("Distance of the pin from the axis, R."));
   v.number("wheel_radius_mm", p.wheel_radius_mm, radius("Radius of the grinding wheel, Rgw."));
   v.object("wheel_radius_from", p.wheel_radius_from,
-           {.meaning = "In place of wheel_radius_mm: the radius of an earlier wheel of mode "
-                       "envelope, with its uncertainty."});
+           {.meaning = "Instead of wheel_radius_mm: radius of an earlier wheel of mode envelope, "
+                       "with its uncertainty."});
   v.number("pin_radius_mm", p.pin_radius_mm, radius("Radius of the pin, r."));
   v.number("main_radius_mm", p.main_radius_mm, radius("Radius of the main journals."));
 }
@@ -98,15 +97,13 @@ void describe_crank(Visitor& v, ContourTask& p) {
 template <class Visitor>
 void describe_senses(Visitor& v, ContourTask& p) {
   v.text("error", p.error,
-         {.meaning = "Sign of the axis errors; most controls record command minus actual as "
-                     "following error."});
+         {.meaning = "Sign of the axis errors; most controls record command minus actual."});
   v.text("c_axis", p.c_axis,
          {.meaning = "with-wheel: C is the polar angle of the wheel seen from the crankshaft; "
                      "against-wheel: C counts the other way."});
   v.text("gauge", p.gauge, {.meaning = "Sense of the gauge's angles, seen as C."});
-  v.number(
-      "phase_offset_deg", p.phase_offset_deg,
-      within(360.0, "Gauge angle of the direction from the crankshaft's axis to the pin's: pins."));
+  v.number("phase_offset_deg", p.phase_offset_deg,
+           within(360.0, "Pins: gauge angle of the direction from crankshaft axis to pin."));
   v.number("main_phase_offset_deg", p.main_phase_offset_deg,
            within(360.0, "The same: main journals."));
 }
@@ -119,20 +116,18 @@ void describe(Visitor& v, ContourTask& p) {
                      "for comparison only."});
   describe_senses(v, p);
   v.whole("samples", p.samples, range(16, 100'000, "Points of a contour."));
-  v.text(
-      "filter", p.filter,
-      {.meaning = "Low pass of all contours; done-by-gauge: pins and mains are filtered already, "
-                  "the following part is filtered alike."});
+  v.text("filter", p.filter,
+         {.meaning = "Low pass of all contours; done-by-gauge: pins and mains are filtered "
+                     "already, the following part alike."});
   v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
   v.text("base_circle", p.base_circle, {.meaning = "How the base circle is taken away."});
   v.number("sampling_ms", p.sampling_ms,
            range(0.0, 1000.0,
                  "From sample to sample of the control, which uncertainty/skew_ms needs; 0: not "
                  "known."));
-  v.object(
-      "uncertainty", p.uncertainty,
-      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
-                  "Without them there is no interval."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: standard uncertainty, or value and distribution. "
+                       "Without them: no interval."});
   v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
 }
 

@@ -17,7 +17,7 @@ void describe(Visitor& v, FeatureReference& p) {
   v.text("feature", p.feature,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "Id of the feature, which stands earlier in the plan."});
+          .meaning = "Id of an earlier feature of the plan."});
 }
 
 }  // namespace rondure::record

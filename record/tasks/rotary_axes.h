@@ -44,7 +44,7 @@ void describe(Visitor& v, BallTask& p) {
           .empty_allowed = false,
           .meaning = "Name of the ball in the report, unique."});
   v.numbers("center_mm", p.center_mm,
-            within(1000.0, "Nominal centre: x, y, z in the frame of the clamping ring."));
+            within(1000.0, "Nominal centre, frame of the clamping ring."));
 }
 
 template <class Visitor>
@@ -69,33 +69,31 @@ void describe(Visitor& v, RotaryTask& p) {
                       .code = core::Code::kPoseRange,
                       .meaning = meaning};
   };
-  v.list("balls", p.balls,
-         {.required = true,
-          .empty_allowed = false,
-          .meaning = "At least 3, not on one line; better 4 or more, spread around the place where "
-                     "parts are measured."});
-  v.number(
-      "ball_diameter_mm", p.ball_diameter_mm,
-      range(1.0, 200.0, "Calibrated diameter of the balls; it is held while centres are fitted."));
+  v.list(
+      "balls", p.balls,
+      {.required = true,
+       .empty_allowed = false,
+       .meaning =
+           "At least 3, not on one line; better 4 or more, spread around the place of the parts."});
+  v.number("ball_diameter_mm", p.ball_diameter_mm,
+           range(1.0, 200.0, "Calibrated diameter of the balls, held while centres are fitted."));
   v.whole("points", p.points, range(5, 100, "Touches of each ball in each pose."));
   v.number("uncertainty_mm", p.uncertainty_mm,
-           range(0.0, 50.0, "How far a ball may be from its nominal place."));
+           range(0.0, 50.0, "Largest distance of a ball from its nominal place."));
   v.numbers("alpha_stations_deg", p.alpha_stations_deg,
-            stations("Angles of the base-fixed axis that are measured, the carried one at 0. The "
-                     "zero pose is measured besides. Their ends are the range in which the "
-                     "calibration holds."));
+            stations("Measured angles of the base-fixed axis, the carried one at 0; the zero pose "
+                     "comes besides. Their ends limit the calibration."));
   v.numbers("beta_stations_deg", p.beta_stations_deg, stations("The same of the carried axis."));
   v.list("verification", p.verification,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "At least 5 poses of both axes that are measured but not used to find the "
-                     "errors: what is left there is the figure of the calibration."});
+          .meaning = "At least 5 poses of both axes, not used to find the errors: their residual "
+                     "is the figure of the calibration."});
   v.number("valid_for_days", p.valid_for_days,
            above(0.0, 36'500.0, "How long other runs may use the calibration."));
-  v.object(
-      "uncertainty", p.uncertainty,
-      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
-                  "Without them there is no interval."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: standard uncertainty, or value and distribution. "
+                       "Without them: no interval."});
 }
 
 }  // namespace rondure::record

@@ -49,16 +49,12 @@ RONDURE_WORDS(SpindleTask::Filter, {kGaussian, "gaussian"}, {kNone, "none"});
 
 template <class Visitor>
 void describe_probe_angles(Visitor& v, SpindleTask& p) {
-  v.text(
-      "layout", p.layout,
-      {.meaning = "Where the three probes stand. angles: as p1_to_p2_deg and one of p2_to_p3_deg, "
-                  "p1_to_p3_deg say. published-a, published-b: the layouts of the source; "
-                  "reference: 52.38 and 248.91 deg, the least noise for orders 2 to 50."});
-  v.number(
-      "p1_to_p2_deg", p.p1_to_p2_deg,
-      within(360.0,
-             "From probe 1 to probe 2, against the rotation of the work; negative when counted "
-             "with it."));
+  v.text("layout", p.layout,
+         {.meaning = "Places of the probes: by p1_to_p2_deg and one of p2_to_p3_deg and "
+                     "p1_to_p3_deg, or a layout by name."});
+  v.number("p1_to_p2_deg", p.p1_to_p2_deg,
+           within(360.0,
+                  "From probe 1 to probe 2, against the rotation of the work; negative: with it."));
   v.number("p2_to_p3_deg", p.p2_to_p3_deg,
            within(360.0, "From probe 2 to probe 3 (a difference)."));
   v.number("p1_to_p3_deg", p.p1_to_p3_deg, within(360.0, "From probe 1 to probe 3 (cumulative)."));
@@ -75,16 +71,14 @@ void describe_swing_arm(Visitor& v, SpindleTask& p) {
   };
   v.number(
       "crank_radius_mm", p.crank_radius_mm,
-      radius("Distance of the pin from the rotation axis when the probes follow a crank pin on "
-             "a swing arm (tracking); 0: an ordinary shaft (static)."));
+      radius("Distance of the pin from the rotation axis, on a swing arm; 0: an ordinary shaft."));
   v.number("wheel_radius_mm", p.wheel_radius_mm,
            radius("Radius of the wheel whose centre is the pivot of the arm."));
   v.object("wheel_radius_from", p.wheel_radius_from,
-           {.meaning = "In place of wheel_radius_mm: the radius of an earlier wheel of mode "
-                       "envelope, with its uncertainty. The angles of the probes are those on an "
-                       "arm of its nominal radius."});
+           {.meaning = "Instead of wheel_radius_mm: radius of an earlier wheel of mode envelope, "
+                       "with its uncertainty."});
   v.number("pin_radius_mm", p.pin_radius_mm,
-           radius("Radius of the measured pin or shaft; the second-order correction needs it."));
+           radius("Radius of the pin or shaft; the second-order correction needs it."));
 }
 
 template <class Visitor>
@@ -99,18 +93,18 @@ void describe_recovery(Visitor& v, SpindleTask& p) {
            range(1.0, 1e9, "A harmonic with a higher noise gain is not recovered but listed."));
   v.number("probe_noise_um", p.probe_noise_um,
            range(0.0, 1000.0,
-                 "Standard deviation of one reading; left out: estimated from the scatter "
-                 "of the revolutions, of one from the harmonics beyond highest_order."));
+                 "Standard deviation of one reading; left out: from the scatter of revolutions, of "
+                 "one from harmonics beyond highest_order."));
   v.number("probe_range_um", p.probe_range_um,
            above(0.0, 100'000.0,
-                 "Whole measuring range of each probe, half of it to either side of reading 0. "
-                 "Readings in its outer tenth void the feature; uncertainty/quadratic_1 refers to "
-                 "it."));
-  v.number("tip_width_mm", p.tip_width_mm,
-           above(0.0, 100.0,
-                 "Diameter of the flat tip or of the spot of each probe, 2 b: undulations of order "
-                 "k are divided by 2 J1(x)/x, x = k b / pin_radius_mm, which the mean over it "
-                 "leaves; orders with x above 2.5 are void. Left out: a point."));
+                 "Measuring range of each probe, centred at reading 0. Readings in its outer tenth "
+                 "void the feature; uncertainty/quadratic_1 refers to it."));
+  v.number(
+      "tip_width_mm", p.tip_width_mm,
+      above(
+          0.0, 100.0,
+          "Diameter 2 b of each flat tip or spot: undulations of order k are divided by 2 J1(x)/x, "
+          "x = k b / pin_radius_mm; orders with x above 2.5 are void. Left out: a point."));
 }
 
 template <class Visitor>
@@ -118,11 +112,10 @@ void describe(Visitor& v, SpindleTask& p) {
   describe_probe_angles(v, p);
   describe_swing_arm(v, p);
   describe_recovery(v, p);
-  v.text(
-      "resampling", p.resampling,
-      {.one_of = {name_of(Switch::kOn), name_of(Switch::kOff)},
-       .meaning = "off: readings are taken as uniform in the angle on the part, which is a gross "
-                  "error for a crank pin; for comparison only."});
+  v.text("resampling", p.resampling,
+         {.one_of = {name_of(Switch::kOn), name_of(Switch::kOff)},
+          .meaning = "off: readings are taken as uniform in the angle on the part, a gross error "
+                     "for a crank pin; for comparison only."});
   v.text(
       "second_order", p.second_order,
       {.meaning = "Correction for the sideways shift of the profile under a probe; auto: above 10 "
@@ -132,10 +125,9 @@ void describe(Visitor& v, SpindleTask& p) {
                      "only."});
   v.text("filter", p.filter, {.meaning = "Filter of the profile before its roundness."});
   v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
-  v.object(
-      "uncertainty", p.uncertainty,
-      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
-                  "Without them there is no interval."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: standard uncertainty, or value and distribution. "
+                       "Without them: no interval."});
 }
 
 }  // namespace rondure::record

@@ -71,10 +71,9 @@ void describe(Visitor& v, SamplingSettings& p) {
 
 template <class Visitor>
 void describe(Visitor& v, WindowTask& p) {
-  const NumberSpec angle =
-      within(360.0,
-             "From part x about the axis of the surface, counter-clockwise from "
-             "the first to the second; both left out: the whole turn.");
+  const NumberSpec angle = within(360.0,
+                                  "From part x about the axis of the surface, counter-clockwise "
+                                  "from first to second; both left out: the whole turn.");
   const NumberSpec height =
       within(10'000.0, "Part z, of a plane the radius; left out: to the end of the surface.");
   v.text("name", p.name, {.required = true, .empty_allowed = false, .meaning = "e.g. keyway."});
@@ -84,22 +83,26 @@ void describe(Visitor& v, WindowTask& p) {
   v.number("to_mm", p.to_mm, height);
   v.number("guard_mm", p.guard_mm,
            range(0.0, 100.0,
-                 "Widens the window on all sides: the window itself is stated without "
-                 "it. Left out: 0.5 mm and the radius of the tip."));
+                 "Widens the stated window on all sides. Left out: 0.5 mm plus the tip radius."));
   v.number("found_beyond_um", p.found_beyond_um,
            above(0.0, 10'000.0,
-                 "Leaves out only the points of the window that lie farther than this from the "
-                 "robust profile, where nobody knows the place of a hole exactly."));
+                 "Leaves out only points farther than this from the robust profile, for a hole "
+                 "whose place is not known exactly."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, SurfaceSettings& p) {
-  v.text("letter", p.letter, {.meaning = "Datum letter on the drawing."});
+  v.text(
+      "letter", p.letter,
+      {.meaning =
+           "Datum letter on the drawing."});
   v.text("clamping", p.clamping, {.meaning = "Files of one name were measured in one clamping."});
   v.text("faces", p.faces, {.meaning = "Side to which a plane faces, along part z."});
   v.number("half_angle_deg", p.half_angle_deg, within(89.0, "Of a cone, nominal."));
   v.number("first_layer_mm", p.first_layer_mm, within(1e6, "Nominal, part z."));
-  v.list("exclude", p.exclude, {.meaning = "Windows that are left out."});
+  v.list("exclude", p.exclude,
+         {.meaning = "Windows left out of the surface: a keyway, an oil hole. The machine still "
+                     "touches and scans them."});
 }
 
 template <class Visitor>

@@ -104,32 +104,31 @@ void describe(Visitor& v, ProbeInfluencesTask& p) {
                  "of the run."));
   v.number("degrees_of_freedom", p.degrees_of_freedom,
            range(0.0, 1e6,
-                 "How many stand behind repeatability_um; left out or 0: it is known exactly. "
-                 "Repeats of the run bring their own."));
+                 "Those of repeatability_um; 0: it is known exactly. Repeats of the run bring "
+                 "their own."));
   v.number("correlation_length_mm", p.correlation_length_mm,
            range(0.0, 1000.0,
-                 "Of a scan: way along the surface over which the errors of neighbouring points "
-                 "lose their likeness (to 1/e). 0: each point anew."));
+                 "Of a scan: distance along the surface over which the correlation of errors falls "
+                 "to 1/e. 0: none."));
   v.list("lobes", p.lobes, {.meaning = "How the pre-travel changes with the direction."});
   v.number("form_limit_um", p.form_limit_um,
            range(0.0, 1000.0,
                  "Limit of the probing form error (ISO 10360-5), where repeatability and lobes are "
-                 "not known."));
+                 "unknown."));
   v.number("tip_radius_um", p.tip_radius_um,
            range(0.0, 1000.0,
-                 "Standard uncertainty of the qualified tip radius; normal. Left out: that of the "
-                 "qualification of the run."));
+                 "Of the qualified tip radius; normal. Left out: that of the qualification."));
   v.number("reference_sphere_um", p.reference_sphere_um,
            range(0.0, 1000.0,
-                 "Standard uncertainty of the certified radius of the reference sphere; normal. It "
-                 "moves all sizes of a run alike. Left out: 0."));
+                 "Of the certified radius of the reference sphere; normal. It moves all sizes of a "
+                 "run alike. Left out: 0."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, MachineInfluencesTask& p) {
   v.list("translations", p.translations,
-         {.meaning = "Term by term: standard uncertainty of each coefficient; a wave has the "
-                     "amplitude given and an unknown phase."});
+         {.meaning = "Standard uncertainty of each coefficient; a wave has this amplitude and an "
+                     "unknown phase."});
   v.list("rotations", p.rotations, {.meaning = "The same of roll, pitch and yaw."});
   constexpr std::string_view kSquare = "Standard uncertainty of the angle between these axes.";
   v.number("squareness_xy_urad", p.squareness_xy_urad, range(0.0, 10'000.0, kSquare));
@@ -140,9 +139,9 @@ void describe(Visitor& v, MachineInfluencesTask& p) {
   v.number("tip_offset_y_mm", p.tip_offset_y_mm, within(2000.0, kOffset));
   v.number("tip_offset_z_mm", p.tip_offset_z_mm, within(2000.0, kOffset));
   v.number("length_limit_um", p.length_limit_um,
-           range(0.0, 1000.0, "Limit of the length error (ISO 10360-2): what does not grow."));
+           range(0.0, 1000.0, "Limit of the length error (ISO 10360-2): constant part."));
   v.number("length_limit_um_m", p.length_limit_um_m,
-           range(0.0, 1000.0, "The same: what grows with the length."));
+           range(0.0, 1000.0, "The same: part that grows with the length."));
 }
 
 template <class Visitor>
@@ -177,11 +176,11 @@ void describe(Visitor& v, FormTermTask& p) {
 template <class Visitor>
 void describe(Visitor& v, FormSpectrumTask& p) {
   v.text("amplitudes", p.amplitudes,
-         {.meaning = "relative: only their ratios are known, the size common to all is estimated "
-                     "from the points."});
+         {.meaning = "relative: only their ratios are known; their common size is estimated from "
+                     "the points."});
   v.list("terms", p.terms,
-         {.meaning = "Which forms the surface may have; left out: the part's own harmonics, from "
-                     "dense layers (14 points and more)."});
+         {.meaning = "Forms the surface may have; left out: the part's own harmonics, from dense "
+                     "layers (14 points and more)."});
 }
 
 /// The groups of influences; one that is left out is not covered by the interval.
@@ -190,12 +189,13 @@ void describe_groups(Visitor& v, UncertaintyTask& p) {
   v.object("probe", p.probe, {.meaning = "Declared influences of the probe."});
   v.object("machine", p.machine, {.meaning = "Of the geometry of the machine."});
   v.object("thermal", p.thermal,
-           {.meaning = "Of temperature, beside those of part.expansion_uncertainty_per_K and "
+           {.meaning = "Of temperature, besides part.expansion_uncertainty_per_K and "
                        "environment.temperature_uncertainty_K."});
   v.object("fixture", p.fixture, {.meaning = "Of the fixture."});
-  v.object("form_spectrum", p.form_spectrum,
-           {.meaning = "What the surface between the points may be like; without it nothing is "
-                       "said of the whole surface."});
+  v.object(
+      "form_spectrum", p.form_spectrum,
+      {.meaning =
+           "Possible form between the points; without it nothing is said of the whole surface."});
 }
 
 template <class Visitor>
@@ -206,14 +206,14 @@ void describe(Visitor& v, UncertaintyTask& p) {
   v.whole("most_trials", p.most_trials, range(2000, 1'000'000, "Trials at most."));
   v.number("tolerance_um", p.tolerance_um,
            range(0.0, 100.0,
-                 "Numerical tolerance: trials end when the printed numbers are known this well "
-                 "(JCGM 101, 7.9); 0: all trials are done."));
+                 "Numerical tolerance (JCGM 101, 7.9): trials end when the printed numbers are "
+                 "known this well; 0: all are done."));
   v.whole("budget_trials", p.budget_trials,
           range(0, 1'000'000, "Trials of each influence alone; 0: no budget."));
   v.number("expected_spots", p.expected_spots,
            range(0.01, 10.0,
-                 "Points that stand out by themselves (burrs, dirt, scratches) and that a part "
-                 "is expected to have: they are form and are never smoothed away."));
+                 "Isolated points (burrs, dirt, scratches) expected on a part: they are form and "
+                 "are never smoothed away."));
   v.whole("seed", p.seed, range(0, 9007199254740991.0, "Same seed, same numbers."));
   describe_groups(v, p);
 }

@@ -84,9 +84,8 @@ template <class Visitor>
 void describe_surface_form(Visitor& v, GroundSurfaceTask& p) {
   v.text("form", p.form,
          {.required = true,
-          .meaning = "Surface z = f(x) [mm], material below, wheel above. polynomial: "
-                     "coefficients; asphere: vertex_radius_mm, conic, even_terms; table: "
-                     "table_x_mm, table_z_mm."});
+          .meaning = "Surface z = f(x) [mm], material below. polynomial: coefficients; asphere: "
+                     "vertex_radius_mm, conic, even_terms; table: table_x_mm, table_z_mm."});
   v.numbers("coefficients", p.coefficients,
             within(1e9, "a0, a1, a2, ... of a polynomial in x [mm]."));
   v.number("vertex_radius_mm", p.vertex_radius_mm,
@@ -113,8 +112,7 @@ void describe(Visitor& v, GroundSurfaceTask& p) {
   v.number("cusp_um", p.cusp_um,
            above(0.0, 1000.0, "Highest cusp between passes; gives the step in place of step_mm."));
   v.text("radius", p.radius,
-         {.meaning = "Radius of the path. effective: of the point farthest from the axis, which "
-                     "makes the surface when run-out matters."});
+         {.meaning = "Radius of the path. effective: of the point farthest from the axis."});
   v.number("wheel_arc_from_deg", p.wheel_arc_from_deg,
            within(90.0, "Trued arc of the wheel, from its lowest point: begin."));
   v.number("wheel_arc_to_deg", p.wheel_arc_to_deg, within(90.0, "End of the trued arc."));
@@ -130,7 +128,7 @@ void describe(Visitor& v, WheelTask& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "indexed: wheel at rest at known angles, points of its body. envelope: wheel "
-                     "at speed, points of the circle it sweeps; shows no run-out."});
+                     "at speed, points of the circle it sweeps; no run-out."});
   v.number("nominal_radius_mm", p.nominal_radius_mm,
            wheel_specs::radius_mm(false,
                                   "Nominal radius; R must be within 5 % of it. The "
@@ -138,26 +136,23 @@ void describe(Visitor& v, WheelTask& p) {
   v.number("axis_x_mm", p.axis_x_mm,
            wheel_specs::place_mm("Spindle axis, from calibration; run-out needs it."));
   v.number("axis_z_mm", p.axis_z_mm, wheel_specs::place_mm("The same, z."));
-  v.object(
-      "axis_from", p.axis_from,
-      {.meaning = "In place of axis_x_mm and axis_z_mm: the centre of an earlier wheel of mode "
-                  "envelope, measured on the same stage, with its uncertainty."});
+  v.object("axis_from", p.axis_from,
+           {.meaning = "Instead of axis_x_mm and axis_z_mm: centre of an earlier wheel of mode "
+                       "envelope on the same stage, with its uncertainty."});
   v.text("center", p.center,
-         {.meaning = "least-squares: of all points. as-published: plain mean of the centres of "
-                     "quadruples of points."});
+         {.meaning = "as-published: mean of the centres of quadruples of points."});
   v.number("kappa_limit", p.kappa_limit,
            range(1.0, 1e9, "Worst conditioning accepted; left out: 5, or twice the best."));
   v.number("expansion_per_K", p.expansion_per_K,
            range(0.0, 1e-4,
-                 "Expansion coefficient of the wheel: its radius is judged at 20 degC, by the "
-                 "temperature of its points. Left out: as measured."));
+                 "Expansion of the wheel: its radius is judged at 20 degC, by the temperature of "
+                 "its points. Left out: as measured."));
   v.text("robust", p.robust, {.meaning = "on: isolated points beyond 5 scales are dropped."});
   v.text("short_arc", p.short_arc, {.meaning = "Less than 20 deg of the circle."});
   v.object("surface", p.surface, {.meaning = "A surface to grind: gives the wheel-centre path."});
-  v.object(
-      "uncertainty", p.uncertainty,
-      {.meaning = "Declared influences: each a standard uncertainty, or value and distribution. "
-                  "Without them there is no interval."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "Declared influences: standard uncertainty, or value and distribution. "
+                       "Without them: no interval."});
 }
 
 }  // namespace rondure::record

@@ -22,11 +22,10 @@ void describe_scaling(Visitor& v, ThorlabsAxisPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, ThorlabsAxisPlan& p) {
-  v.text(
-      "serial", p.serial,
-      {.required = true,
-       .empty_allowed = false,
-       .meaning = "Serial number of the unit that turns this axis; rondure devices lists them."});
+  v.text("serial", p.serial,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Serial number of the unit, as `rondure devices` lists it."});
   v.text("stage", p.stage,
          {.meaning = "The stage, for its scaling; PRM1-Z8 with KDC101 or TDC001. other: give motor "
                      "and the three factors."});
@@ -40,8 +39,7 @@ void describe(Visitor& v, ThorlabsAxisPlan& p) {
            range(0.01, 100.0, "Acceleration of its moves."));
   v.number("tolerance_deg", p.tolerance_deg,
            above(0.0, 1.0,
-                 "How far from a commanded angle it may come to rest; beyond it the run "
-                 "ends."));
+                 "Largest difference at rest from the commanded angle; beyond it the run ends."));
 }
 
 template <class Visitor>
@@ -63,12 +61,12 @@ void describe(Visitor& v, ReachedPosePlan& p) {
   v.list("spheres", p.spheres,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "Two or more on the clamping ring, free from above in every pose. Three that "
-                     "are not on one line tell every pose, two only at different heights."});
+          .meaning = "Two or more on the clamping ring, free from above in every pose. Three not "
+                     "on one line tell every pose, two only at different heights."});
   v.whole("points", p.points, range(5, 100, "Touches of each sphere in each pose."));
   v.number("setting_uncertainty_deg", p.setting_uncertainty_deg,
            above(0.0, 5.0,
-                 "How far from the asked angle a hand may set an axis; beyond it the pose is "
+                 "Largest difference of a hand-set angle from the asked one; beyond it the pose is "
                  "refused."));
   v.number("residual_limit_um", p.residual_limit_um,
            above(0.0, 1000.0,

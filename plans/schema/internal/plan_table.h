@@ -52,66 +52,61 @@ void describe(Visitor& v, PartPlan& p) {
   v.text("drawing", p.drawing, {.meaning = "Drawing number with its issue."});
   v.number("location_uncertainty_mm", p.location_uncertainty_mm,
            range(0.0, 100.0,
-                 "How far the surface may be from its nominal place at the first touch, from "
-                 "a tilted or shifted clamping."));
+                 "Largest distance of the surface from its nominal place at the first touch."));
   v.number("expansion_per_K", p.expansion_per_K,
            range(0.0, 1e-4,
-                 "Thermal expansion of the material, e.g. 11.5e-6 of steel; sizes and forms "
-                 "are then brought to 20 degC. Left out: they stay as measured."));
+                 "Thermal expansion, e.g. 11.5e-6 for steel; sizes and forms are then brought to "
+                 "20 degC. Left out: as measured."));
   v.number("expansion_uncertainty_per_K", p.expansion_uncertainty_per_K,
            range(0.0, 1e-4, "Its standard uncertainty."));
   v.list("sections", p.sections,
-         {.meaning = "The part beside the inspected surfaces: shoulders, necks, "
-                     "neighbours. The path of the tip keeps clear of them, and of the "
-                     "touched outside surfaces by itself."});
+         {.meaning = "Shoulders, necks and neighbours of the inspected surfaces, which the path "
+                     "avoids. It avoids touched outside surfaces without an entry."});
 }
 
 /// Settings of the server for the driver "ippdme".
 template <class Visitor>
 void describe_server(Visitor& v, MachinePlan& p) {
   v.text("host", p.host,
-         {.empty_allowed = false,
-          .meaning = "ippdme: name or address of the computer that serves the machine."});
+         {.empty_allowed = false, .meaning = "ippdme: computer that serves the machine."});
   v.whole("port", p.port, range(1, 65'535, "ippdme: port of the server."));
-  v.text(
-      "tool", p.tool,
-      {.meaning = "ippdme: the tool to take, as the machine calls it. Left out: the tool that is "
-                  "active."});
+  v.text("tool", p.tool,
+         {.meaning = "ippdme: name of the tool to take. Left out: the active tool."});
   v.number("answer_limit_s", p.answer_limit_s,
            range(0.1, 600.0,
-                 "ippdme: a command that is not acknowledged, or a question not answered, "
-                 "within this time ends the run."));
+                 "ippdme: longest wait for an acknowledgement or an answer; then the run ends."));
   v.number("motion_limit_s", p.motion_limit_s,
            range(1.0, 3600.0,
-                 "ippdme: a motion, a tool change or the homing that takes this much longer "
-                 "than its way explains is stopped."));
+                 "ippdme: a motion, tool change or homing that takes this much longer than its "
+                 "path needs is stopped."));
   v.text("abort", p.abort,
-         {.meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
-                     "waits for the end of the motion."});
+         {.meaning = "ippdme: whether AbortE stops a motion; with broken, a stop waits for the end "
+                     "of the motion."});
   v.text("retract", p.retract,
-         {.meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
-                     "means back to the start of the touch."});
-  v.text("numbers", p.numbers,
-         {.meaning = "ippdme and simulate-cmm: length of the numbers that are sent. "
-                     "\"16-characters\" counts sign, point and exponent, for a server or client "
-                     "that refuses longer ones; directions are then rounded to 1e-13."});
+         {.meaning = "ippdme: by-distance for a server that refuses a negative Retract (back to "
+                     "the start of the touch)."});
+  v.text(
+      "numbers", p.numbers,
+      {.meaning =
+           "ippdme and simulate-cmm: length of numbers sent. 16-characters counts sign, point and "
+           "exponent, for a peer that refuses longer ones; directions are then rounded to 1e-13."});
   v.text("point", p.point,
-         {.meaning = "ippdme: the point that PtMeas and ScanOnCircle name. \"surface\" by the "
-                     "specification; \"center\" for a server that takes it for the centre of the "
-                     "tip. The first touch shows which, and ends a run that says the other."});
+         {.meaning =
+              "ippdme: the point that PtMeas and ScanOnCircle name: surface by the specification, "
+              "or center of the tip. A wrong entry ends the run at the first touch."});
 }
 
 template <class Visitor>
 void describe(Visitor& v, MachinePlan& p) {
-  v.text("driver", p.driver,
-         {.meaning = "Which machine measures: a simulation in this program, or a machine behind "
-                     "I++ DME (docs/ipp-dme.md)."});
+  v.text(
+      "driver", p.driver,
+      {.meaning = "A simulation in this program, or a machine behind I++ DME (docs/ipp-dme.md)."});
   v.number("approach_mm", p.approach_mm,
            above(0.0, 100.0, "The slow search starts this far before the expected contact."));
   v.number("search_mm", p.search_mm,
            above(0.0, 100.0,
-                 "The slow search gives up this far behind the expected contact; a "
-                 "deeper keyway ends the scan or the touch in it."));
+                 "The slow search ends this far beyond the expected contact; a deeper keyway ends "
+                 "the scan or the touch in it."));
   v.number("clearance_mm", p.clearance_mm,
            above(0.0, 500.0, "Distance kept from part, fixture and table while travelling."));
   v.number("travel_speed_mm_s", p.travel_speed_mm_s, above(0.0, 1000.0, "Speed between touches."));
@@ -121,25 +116,22 @@ void describe(Visitor& v, MachinePlan& p) {
            above(0.0, 500.0, "Speed of the tip along a scanned circle."));
   v.number("scale_expansion_per_K", p.scale_expansion_per_K,
            range(0.0, 1e-4,
-                 "Expansion of the scales; what they read is then brought to 20 degC with "
-                 "their measured temperature. Left out: the machine does it, or nobody."));
+                 "Expansion of the scales; readings are then brought to 20 degC by their "
+                 "temperature. Left out: the machine does it, or nobody does."));
   v.number("scale_expansion_uncertainty_per_K", p.scale_expansion_uncertainty_per_K,
            range(0.0, 1e-4, "Its standard uncertainty."));
   v.numbers("park_mm", p.park_mm,
-            within(kMaxCoordinate_mm,
-                   "Where the tip waits, above everything: x, y, z in the machine frame."));
+            within(kMaxCoordinate_mm, "Where the tip waits, above everything; machine frame."));
   v.numbers("volume_min_mm", p.volume_min_mm,
-            within(kMaxCoordinate_mm,
-                   "Lower ends of the travel of the tip: x, y, z in the machine frame."));
+            within(kMaxCoordinate_mm, "Lower ends of the travel of the tip, machine frame."));
   v.numbers("volume_max_mm", p.volume_max_mm,
-            within(kMaxCoordinate_mm,
-                   "Upper ends of the travel of the tip: x, y, z in the machine frame."));
+            within(kMaxCoordinate_mm, "Upper ends of the travel of the tip, machine frame."));
   v.number("step_speed_mm_s", p.step_speed_mm_s,
-           above(0.0, 50.0, "Speed between touches of a first run in single steps (run --step)."));
+           above(0.0, 50.0, "Speed between touches of run --step."));
   v.number("resume_limit_um", p.resume_limit_um,
            above(0.0, 1000.0,
-                 "A resumed run repeats its last touches; when one of them differs by more, "
-                 "part or machine has moved and the run must start again."));
+                 "Largest difference of a touch that a resumed run repeats; beyond it part or "
+                 "machine has moved, and the run must start again."));
   describe_server(v, p);
 }
 
@@ -147,8 +139,8 @@ template <class Visitor>
 void describe(Visitor& v, DatumSpherePlan& p) {
   v.numbers("center_mm", p.center_mm,
             within(kMaxCoordinate_mm,
-                   "Nominal centre: x, y, z in the base frame, which is the machine frame "
-                   "when the fixture stands in its nominal place."));
+                   "Nominal centre in the base frame: the machine frame when the fixture stands in "
+                   "its nominal place."));
 }
 
 template <class Visitor>
@@ -158,10 +150,10 @@ void describe(Visitor& v, DatumPlan& p) {
   v.list("spheres", p.spheres,
          {.required = true, .empty_allowed = false, .meaning = "Three or more, not on one line."});
   v.whole("points", p.points, range(5, 100, "Touches of each sphere."));
-  v.number("uncertainty_mm", p.uncertainty_mm,
-           range(0.0, 50.0,
-                 "How far a sphere may be from its nominal place, from the bolting of the "
-                 "fixture."));
+  v.number(
+      "uncertainty_mm", p.uncertainty_mm,
+      range(0.0, 50.0,
+            "Largest distance of a sphere from its nominal place, as the fixture is bolted down."));
   v.number("residual_limit_um", p.residual_limit_um,
            above(0.0, 1000.0,
                  "Largest distance of a sphere from its place in the base that was found."));
@@ -181,20 +173,18 @@ void describe(Visitor& v, FixturePlan& p) {
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
   v.text("id", p.id,
-         {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
+         {.meaning = "Name of this fixture, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.meaning = "Which fixture carries the part: a simulation in this program, two rotary "
-                     "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
-                     "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
-                     "friction holds, whose pose the machine then measures. Stages may also turn "
-                     "the part of a simulated machine."});
+         {.meaning =
+              "What turns the part: a simulation, rotary axes of the machine (AlignPart), Zaber or "
+              "Thorlabs stages, or a hand. Stages may also turn the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
-            place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
-  v.numbers("axis_offset_mm", p.axis_offset_mm,
-            place("From that axis to the carried axis (beta): x, y, z in the hoop frame; 0, 0, 0 "
-                  "when the axes intersect."));
+            place("A point of the base-fixed axis (alpha), machine frame."));
+  v.numbers(
+      "axis_offset_mm", p.axis_offset_mm,
+      place("From that axis to the carried axis (beta), hoop frame; 0 when the axes intersect."));
   v.numbers("part_position_mm", p.part_position_mm,
-            place("Origin of the part in the clamping ring: x, y, z in the frame of the ring."));
+            place("Origin of the part, frame of the clamping ring."));
   v.number("min_alpha_deg", p.min_alpha_deg,
            limit("Lower end of travel about the base-fixed axis."));
   v.number("max_alpha_deg", p.max_alpha_deg,
@@ -206,8 +196,8 @@ void describe(Visitor& v, FixturePlan& p) {
   v.number("rim_height_mm", p.rim_height_mm,
            place("Height of the rim of the bowl, machine z: the tip never goes below."));
   v.number("clamp_from_mm", p.clamp_from_mm,
-           place("Lower end of the band that the clamping ring covers, part z. No band when it is "
-                 "not below clamp_to_mm."));
+           place("Lower end of the band that the ring clamps, part z. No band unless it is below "
+                 "clamp_to_mm."));
   v.number("clamp_to_mm", p.clamp_to_mm, place("Upper end of the clamped band, part z."));
   v.number("ring_diameter_mm", p.ring_diameter_mm,
            range(0.0, 5000.0,
@@ -219,17 +209,17 @@ void describe(Visitor& v, FixturePlan& p) {
                  "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
   v.object("datum", p.datum,
-           {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
-                       "axis_point_mm is in the base frame they show."});
-  v.object("calibration", p.calibration,
-           {.meaning = "Errors of the fixture, found by a feature of the type rotary_axes: the run "
-                       "reckons with them (docs/fixture-calibration.md). Left out: the fixture is "
-                       "taken as nominal."});
+           {.meaning = "Reference spheres on the base, touched before a run; axis_point_mm is then "
+                       "in their base frame."});
+  v.object(
+      "calibration", p.calibration,
+      {.meaning = "Errors of the fixture, which the run corrects (docs/fixture-calibration.md). "
+                  "Left out: the fixture is taken as nominal."});
   v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
   v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
   v.object("reached_pose", p.reached_pose,
-           {.meaning = "manual: reference spheres that turn with the part, touched in every pose, "
-                       "from which the pose is taken that was reached."});
+           {.meaning = "manual: reference spheres that turn with the part; their touches give the "
+                       "pose reached."});
 }
 
 template <class Visitor>
@@ -237,16 +227,13 @@ void describe(Visitor& v, QualificationPlan& p) {
   v.number("sphere_diameter_mm", p.sphere_diameter_mm,
            range(1.0, 200.0, "Certified diameter of the reference sphere."));
   v.numbers("sphere_center_mm", p.sphere_center_mm,
-            within(kMaxCoordinate_mm,
-                   "Where the reference sphere stands: x, y, z in the machine frame."));
+            within(kMaxCoordinate_mm, "Centre of the reference sphere, machine frame."));
   v.whole("points", p.points, range(5, 100, "Touches on the reference sphere."));
-  v.number(
-      "form_limit_um", p.form_limit_um,
-      {.at_least = 0.0,
-       .at_most = 1000.0,
-       .above = true,
-       .meaning =
-           "Largest probing form (spread of the touches about the sphere) of a usable probe."});
+  v.number("form_limit_um", p.form_limit_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "Largest probing form (spread of the touches) of a usable probe."});
   v.number(
       "radius_tolerance_um", p.radius_tolerance_um,
       above(0.0, 1000.0, "Largest difference between the effective and the nominal tip radius."));
@@ -260,16 +247,15 @@ void describe(Visitor& v, ProbePlan& p) {
            above(0.0, 50.0, "Nominal diameter of the ball of the stylus."));
   v.number("stylus_length_mm", p.stylus_length_mm,
            range(0.0, 1000.0,
-                 "From the centre of the ball up to the holder; 0: unknown, then only the "
-                 "ball is kept clear of everything."));
+                 "From the centre of the ball up to the holder; 0: unknown, then only the ball is "
+                 "kept clear."));
   v.number("stylus_diameter_mm", p.stylus_diameter_mm,
            range(0.0, 50.0, "Diameter of the shaft, less than the ball's. Needed with a length."));
   v.number(
       "holder_diameter_mm", p.holder_diameter_mm,
       range(0.0, 500.0, "Diameter of what carries the stylus (extension, probe head); 0: none."));
-  v.object(
-      "qualification", p.qualification,
-      {.meaning = "How the effective tip radius is found on a reference sphere before a run."});
+  v.object("qualification", p.qualification,
+           {.meaning = "Reference sphere that gives the effective tip radius before a run."});
 }
 
 template <class Visitor>
@@ -282,12 +268,12 @@ void describe(Visitor& v, EnvironmentPlan& p) {
            range(0.0, 5.0, "Standard uncertainty of a measured or assumed temperature."));
   v.number("assumed_degC", p.assumed_degC,
            range(10.0, 40.0,
-                 "Temperature of part and scales where no sensor gives one; reports print it "
-                 "as declared. Left out: what nobody measured makes the result void."));
+                 "Temperature of part and scales where no sensor gives one; reports print it as "
+                 "declared. Left out: such a result is void."));
   v.number("max_drift_K", p.max_drift_K,
            above(0.0, 10.0,
-                 "Of spindle, wheel, contour and rotary_axes: a temperature that changes by more "
-                 "at one place while they are measured makes the result void."));
+                 "Of spindle, wheel, contour and rotary_axes: a greater change at one place during "
+                 "the measurement makes the result void."));
 }
 
 template <class Visitor>
@@ -310,9 +296,8 @@ void describe(Visitor& v, NominalPlan& p) {
            within(85.0, "Of a cone: half of its angle; > 0: it opens along part z."));
   v.number("z_mm", p.z_mm, within(kMaxCoordinate_mm, "Of a plane: its place, part z."));
   v.text("faces", p.faces,
-         {.meaning = "Of a plane: the side to which it faces, out of the material; up is "
-                     "along part z, in a file toward greater z. Needed where it is touched, is a "
-                     "datum or has a run-out."});
+         {.meaning = "Of a plane: the side away from the material; up: toward greater z of part or "
+                     "file. Needed where it is touched, is a datum or has a run-out."});
   const auto edge = [](std::string_view meaning) { return range(0.0, 1000.0, meaning); };
   v.number("from_diameter_mm", p.from_diameter_mm, edge("Of a plane: its inner edge."));
   v.number("to_diameter_mm", p.to_diameter_mm, edge("Of a plane: its outer edge."));
@@ -324,29 +309,28 @@ template <class Visitor>
 void describe(Visitor& v, SamplingPlan& p) {
   v.text(
       "method", p.method,
-      {.meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
-                  "then hundreds of points a layer cost seconds."});
+      {.meaning =
+           "touch: single touches; scan: each layer in one circle, where the machine can scan."});
   v.whole("layers", p.layers,
           range(1, 1000,
                 "Sections along the axis: at least 2 for a cylinder; 1 for a circle, "
                 "also when left out. Of a plane: circles, the innermost first."));
   v.whole("points_per_layer", p.points_per_layer,
           range(3, 100'000,
-                "Equispaced points of every section; at least 4 for a circle. Of a "
-                "scan: the points of one turn, at least 7 per undulation of the "
-                "filter, e.g. 360 at 50 UPR."));
+                "Equispaced points of each section; at least 4 for a circle. Of a scan: at least 7 "
+                "per undulation of the filter, e.g. 360 at 50 UPR."));
   v.number("margin_mm", p.margin_mm,
            range(0.0, kMaxCoordinate_mm,
-                 "Distance of the first and the last layer from the ends of the "
-                 "surface; of a plane radial, from its edges."));
+                 "Distance of the first and last layers from the ends of the surface, of a plane "
+                 "from its edges."));
   v.number("start_deg", p.start_deg,
            within(360.0,
-                  "Angle of the first point of the lowest layer: from part x, "
-                  "counter-clockwise seen against part z."));
-  v.number("stagger", p.stagger,
-           range(0.0, 1.0,
-                 "Shift of the angles from layer to layer: 0, every layer starts alike; 1, "
-                 "the layers interleave evenly."));
+                  "Angle of the first point of the lowest layer, from part x, counter-clockwise "
+                  "seen against part z."));
+  v.number(
+      "stagger", p.stagger,
+      range(0.0, 1.0,
+            "Shift of the angles from layer to layer: 0, none; 1, the layers interleave evenly."));
 }
 
 template <class Visitor>
@@ -371,21 +355,19 @@ void describe(Visitor& v, PoseSearchPlan& p) {
          {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kRefined),
                      name_of(Strategy::kAsPublished), name_of(Strategy::kVirtual),
                      name_of(Strategy::kStartPose), name_of(Strategy::kMerged)},
-          .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
-                     "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
-                     "halved steps. virtual: one cloud, turned in software. start-pose: no search; "
-                     "several features share the clamping of one start pose, as a datum and what "
-                     "refers to it must, for which it is the default. A circle, plane, cone or "
-                     "sphere is always measured in its "
-                     "start pose. merged: no search; the "
-                     "part is measured in each of `poses`, where it can be reached, and the "
-                     "clouds are one (docs/several-poses.md)."});
+          .meaning =
+              "How the levelling pose is found. guided: each cloud predicts the next pose. "
+              "as-published: grid of steps_deg. refined: that grid, then halved steps. virtual: "
+              "one cloud, turned in software. start-pose: no search, so that several features "
+              "share one clamping; the default for a datum and what refers to it, and always so "
+              "for a circle, plane, cone or sphere. merged: no search; measured in each of `poses` "
+              "where it can be reached, clouds joined (docs/several-poses.md)."});
   v.list("poses", p.poses,
-         {.meaning = "merged: the poses, at least two; every target must be reached in one of "
-                     "them, and should be in several."});
+         {.meaning = "merged: at least two; every target must be reached in one of them, and "
+                     "should be in several."});
   v.text("merge", p.merge,
-         {.meaning = "merged: how clouds come together. joint: the errors of the poses are solved "
-                     "together with the part. kinematics: the fixture is believed."});
+         {.meaning = "merged: how clouds are joined. joint: pose errors are solved together with "
+                     "the part. kinematics: the fixture is believed."});
   v.number("start_alpha_deg", p.start_alpha_deg, start);
   v.number("start_beta_deg", p.start_beta_deg, start);
   v.numbers(
@@ -394,8 +376,7 @@ void describe(Visitor& v, PoseSearchPlan& p) {
        .at_most = kMaxStep_deg,
        .above = true,
        .code = core::Code::kStep,
-       .meaning =
-           "Steps of the grid search, from coarse to fine (as-published, refined, virtual)."});
+       .meaning = "Steps of the grid, from coarse to fine (as-published, refined, virtual)."});
   v.number("min_step_deg", p.min_step_deg,
            {.at_least = 0.0,
             .at_most = kMaxStep_deg,
@@ -406,8 +387,8 @@ void describe(Visitor& v, PoseSearchPlan& p) {
           range(1, 100, "Levelling gives up after so many poses (guided)."));
   v.whole("repeats", p.repeats,
           range(1, 1000,
-                "Touches of every point of the final cloud; their mean is evaluated. "
-                "A scan is repeated as often, too: 1 is usual for it."));
+                "Touches per point of the final cloud; their mean is evaluated. Scans are repeated "
+                "as often: 1 is usual."));
 }
 
 template <class Visitor>
@@ -425,12 +406,11 @@ void describe(Visitor& v, ColumnPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, SourcePlan& p) {
-  v.text(
-      "file", p.file,
-      {.required = true,
-       .empty_allowed = false,
-       .meaning = "Points, tip centres, in one of many formats (docs/points.md); for a spindle, of "
-                  "readings (docs/spindle.md). Relative to the plan."});
+  v.text("file", p.file,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "File of points (docs/points.md) or of spindle readings (docs/spindle.md), "
+                     "relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -438,40 +418,38 @@ void describe(Visitor& v, SourcePlan& p) {
        .above = true,
        .meaning =
            "Of the probe that took the points; without it radii stay those of the tip centre."});
-  v.text("points", p.points,
-         {.meaning = "tip-centres: of the tip that took them; surface: corrected hits, the points "
-                     "of a scanner or a mesh, whose sizes need no tip."});
+  v.text(
+      "points", p.points,
+      {.meaning =
+           "surface: corrected hits, or points of a scanner or a mesh, whose sizes need no tip."});
   v.list("columns", p.columns,
-         {.meaning = "Of points, which columns are x, y and z. Of a spindle, columns that its file "
-                     "names otherwise; with this list others are passed over."});
+         {.meaning = "Of points, which columns are x, y and z. Of a spindle, columns named "
+                     "otherwise in its file; the rest are passed over."});
   v.text("unit", p.unit,
          {.meaning = "Of the points. Left out: as the head of the file says, otherwise mm."});
   v.text("mesh", p.mesh,
-         {.meaning = "accepted: the vertices of a mesh (STL, PLY with faces) are judged, although "
-                     "another program has computed them from the points. Left out: refused."});
-  v.text(
-      "layers", p.layers,
-      {.meaning =
-           "Where the layers of points come from: column, the column layer; heights, "
-           "groups of z; none, they are a cloud. Left out: the column, where the file has one."});
+         {.meaning = "accepted: vertices of a mesh (STL, PLY with faces) are judged, although "
+                     "another program computed them. Left out: refused."});
+  v.text("layers", p.layers,
+         {.meaning = "Layers of points: by the column layer, by groups of z, or none (a cloud). "
+                     "Left out: by the column, where there is one."});
   v.text("feature", p.feature,
-         {.meaning = "Takes only the rows whose column feature says this. All features of a file "
-                     "were measured in one clamping."});
+         {.meaning = "Takes only rows whose column feature says this. All features of a file were "
+                     "measured in one clamping."});
   v.text("clamping", p.clamping,
-         {.meaning = "Name of the clamping in which the points were measured, in one coordinate "
-                     "system. A datum in another file needs the same name in both."});
+         {.meaning = "Name of the clamping, in one coordinate system. A datum in another file "
+                     "needs the same name in both."});
   v.text("measured_utc", p.measured_utc,
-         {.meaning = "When the data were measured, e.g. 2026-11-21T02:33:02Z. With valid_for_days: "
-                     "data that are older at the start of the run, or measured after it, are "
-                     "void."});
+         {.meaning = "Time of measurement, e.g. 2026-11-21T02:33:02Z. With valid_for_days, data "
+                     "older than that at the start of the run, or measured after it, are void."});
   v.number("valid_for_days", p.valid_for_days,
            above(0.0, 36'500.0,
-                 "How long the data stand for the part, from measured_utc on: until it is worked, "
-                 "the wheel is dressed, the machine is set up anew."));
+                 "How long the data stand for the part: until it is worked, the wheel dressed or "
+                 "the machine set up anew."));
   v.text("plane", p.plane,
-         {.meaning = "Of a circle, where the plane of its points leans: points, it is evaluated in "
-                     "that plane; nominal, about z of the file. Left out: in that of the points, "
-                     "and void where the two differ by more than a tenth of the tolerance."});
+         {.meaning = "Of a circle whose plane of points leans: points evaluates it in that plane, "
+                     "nominal about z of the file. Left out: points, and void where the two differ "
+                     "by more than a tenth of the tolerance."});
 }
 
 template <class Visitor>
@@ -480,16 +458,17 @@ void describe(Visitor& v, FeaturePlan& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
-  v.text("type", p.type,
-         {.required = true,
-          .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
-                     "three probes; wheel: a grinding wheel, from points of its edge; contour: "
-                     "crank pins in follow grinding, and what of their error follows the axes; "
-                     "rotary_axes: calibration of the fixture with balls that it carries."});
+  v.text(
+      "type", p.type,
+      {.required = true,
+       .meaning = "The surface, or an analysis: spindle (part form and axis motion from three "
+                  "probes), wheel (grinding wheel, from points of its edge), contour (crank pins "
+                  "in follow grinding), rotary_axes (calibration of the fixture with balls)."});
   v.text("side", p.side, {.meaning = "outside: a shaft; inside: a bore."});
-  v.text("letter", p.letter,
-         {.meaning = "Datum letter on the drawing, e.g. A, unique in the plan; up to 3 letters. "
-                     "Left out: the id names the feature where it is a datum."});
+  v.text(
+      "letter", p.letter,
+      {.meaning =
+           "Datum letter, up to 3 letters, unique in the plan. Left out: the id names the datum."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
@@ -501,14 +480,14 @@ void describe(Visitor& v, FeaturePlan& p) {
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("exclude", p.exclude,
-         {.meaning = "Windows that are left out of the surface: a keyway, an oil hole. The "
-                     "machine touches and scans them all the same."});
+         {.meaning = "Windows left out of the surface: a keyway, an oil hole. The machine still "
+                     "touches and scans them."});
   v.object("defaults", p.defaults,
-           {.meaning = "For the characteristics of this feature that do not give these keys."});
+           {.meaning = "Used where a characteristic does not give these keys."});
   v.object("decision_rule", p.decision_rule,
-           {.meaning = "Rule of this feature, as a whole in place of that of the plan."});
+           {.meaning = "Rule of this feature; it replaces that of the plan as a whole."});
   v.list("characteristics", p.characteristics,
-         {.meaning = "What the drawing asks for, and what else is to be reported."});
+         {.meaning = "Call-outs of the drawing, and what else is reported."});
 }
 
 template <class Visitor>
@@ -516,14 +495,13 @@ void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
           {.one_of = spec_of_words<record::Format>({.meaning = {}}).one_of,
            .empty_allowed = false,
-           .meaning =
-               "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
-               "QIF 3.0 results, a DMIS output block, corrections for machines."});
+           .meaning = "Reports that a run writes: page, PDF, all numbers, tables, QIF 3.0 results, "
+                      "DMIS output block, corrections for machines."});
   v.text("paper", p.paper, {.meaning = "Paper that the PDF is printed on."});
   v.text("archive", p.archive,
-         {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
-                     "relative to the plan; postgresql://user@host/database without a password; "
-                     "none. Left out or empty: archive.db beside the run directory."});
+         {.meaning = "Archive of finished runs: a file of SQLite, relative to the plan; "
+                     "postgresql://user@host/database without a password; none. Left out or empty: "
+                     "archive.db beside the run directory."});
   v.text("laboratory", p.laboratory,
          {.meaning = "Whose reports they are: a JSON file, relative to the plan, with the texts "
                      "name, address, country and contact, and logo, a PNG or JPEG file relative to "
@@ -532,8 +510,7 @@ void describe(Visitor& v, ReportsPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, Plan& p) {
-  v.passed_over("$schema",
-                "Where an editor finds the schema of this file; the program does not read it.");
+  v.passed_over("$schema", "Place of the schema, for editors; the program does not read it.");
   v.object("plan", p.plan, {.required = true, .meaning = "The plan itself."});
   v.object("part", p.part, {.required = true, .meaning = "What is inspected."});
   v.object("machine", p.machine,
@@ -547,13 +524,12 @@ void describe(Visitor& v, Plan& p) {
   v.list("features", p.features,
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
   v.object("defaults", p.defaults,
-           {.meaning = "For the characteristics of all features that do not give these keys, and "
-                       "whose feature does not."});
+           {.meaning = "Used where neither characteristic nor feature gives these keys."});
   v.object("decision_rule", p.decision_rule,
            {.meaning = "How a value and its tolerance make a verdict."});
   v.object("uncertainty", p.uncertainty,
-           {.meaning = "What is declared about the measurement, for the intervals of touched "
-                       "features and points of a file. Left out: none are stated."});
+           {.meaning = "Declared influences on touched features and points of a file. Left out: "
+                       "their values have no interval."});
   v.object("simulation", p.simulation,
            {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
                        "simulated drivers. Empty, {}: a typical part on a typical machine; with "
