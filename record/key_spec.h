@@ -10,7 +10,7 @@ namespace rondure::record {
 
 // The specification of a key of a task or a plan, besides its name, its place and its default. It
 // is plain data: the same specification reads a value from a plan, writes its schema, describes it
-// in docs/plan.md and checks it in a journal.
+// in docs/ and checks it in a journal.
 
 /// A number, or each number of an array. The lower limit itself is allowed unless `above` is set.
 struct NumberSpec {

@@ -92,17 +92,12 @@ void describe(Visitor& v, WindowTask& p) {
 
 template <class Visitor>
 void describe(Visitor& v, SurfaceSettings& p) {
-  v.text(
-      "letter", p.letter,
-      {.meaning =
-           "Datum letter on the drawing."});
+  v.text("letter", p.letter, {.meaning = "Datum letter on the drawing."});
   v.text("clamping", p.clamping, {.meaning = "Files of one name were measured in one clamping."});
   v.text("faces", p.faces, {.meaning = "Side to which a plane faces, along part z."});
   v.number("half_angle_deg", p.half_angle_deg, within(89.0, "Of a cone, nominal."));
   v.number("first_layer_mm", p.first_layer_mm, within(1e6, "Nominal, part z."));
-  v.list("exclude", p.exclude,
-         {.meaning = "Windows left out of the surface: a keyway, an oil hole. The machine still "
-                     "touches and scans them."});
+  v.list("exclude", p.exclude, {.meaning = "Windows that are left out."});
 }
 
 template <class Visitor>

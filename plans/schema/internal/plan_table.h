@@ -13,7 +13,7 @@
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
-// reads a plan, SchemaWriter writes the JSON Schema, KeyList the table of docs/plan.md.
+// reads a plan, SchemaWriter writes the JSON Schema, KeyList the tables in docs/.
 
 namespace rondure::plans {
 
