@@ -58,10 +58,11 @@ core::Result<record::HeadSettings> read_laboratory(const Plan& plan) {
     const core::Error& first = problems.front();
     return core::fail_with(first.code, "{}: {}: {}", in_quotes(file), first.where, first.what);
   }
-  record::HeadSettings out{.laboratory = std::move(found.name),
-                           .address = std::move(found.address),
-                           .country = std::move(found.country),
-                           .contact = std::move(found.contact)};
+  record::HeadSettings out;
+  out.laboratory = std::move(found.name);
+  out.address = std::move(found.address);
+  out.country = std::move(found.country);
+  out.contact = std::move(found.contact);
   if (!found.logo.empty()) {
     TRY(out.logo, logo_of(plan, found.logo));
   }

@@ -485,7 +485,7 @@ struct Lot {
   int rejected = 0;
   int false_accepted = 0;
   int false_rejected = 0;
-  double stated_false_accepted = 0.0;  ///< Sums of the stated specific risks.
+  double stated_false_accepted = 0.0;  ///< Sums of the specific risks, where the rule states one.
   double stated_false_rejected = 0.0;
 };
 
@@ -504,11 +504,11 @@ Lot simulate(const evaluation::DecisionRule& rule, const Limits& limits,
     if (outcome->verdict == evaluation::Verdict::kConforms) {
       ++lot.accepted;
       if (!good) ++lot.false_accepted;
-      lot.stated_false_accepted += *outcome->specific_risk_1();
+      lot.stated_false_accepted += outcome->specific_risk_1().value_or(0.0);
     } else if (outcome->verdict == evaluation::Verdict::kDoesNotConform) {
       ++lot.rejected;
       if (good) ++lot.false_rejected;
-      lot.stated_false_rejected += *outcome->specific_risk_1();
+      lot.stated_false_rejected += outcome->specific_risk_1().value_or(0.0);
     }
   }
   return lot;
