@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,7 +11,6 @@
 #include "evaluation/uncertainty/kept_draws.h"
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
 
@@ -30,24 +28,14 @@ std::string head_of_file() {
                      program ? record::sha256_hex(*program) : "unknown", processor());
 }
 
-core::Result<void> check_digest(const fs::path& directory, const std::string& file,
-                                const std::vector<record::Checksum>& sums) {
-  const auto line = std::ranges::find(sums, file, &record::Checksum::file);
-  if (line == sums.end()) {
-    return core::fail_with(core::Code::kFile, "{} does not name {}", record::kChecksumsName, file);
-  }
-  TRY(const std::string now, record::sha256_inside(directory, file));
-  if (now == line->sha256) return {};
-  return core::fail_with(core::Code::kFile, "{} was changed after it was written ({})", file,
-                         record::kChecksumsName);
-}
-
-/// The draws of the directory, behind their head.
-core::Result<std::string> known_draws(const fs::path& directory,
-                                      const std::vector<record::Checksum>& sums) {
-  TRY_DO(check_digest(directory, record::kJournalName, sums));
-  TRY_DO(check_digest(directory, kTrialsFile, sums));
+/// The draws of the directory, behind their head. Whoever reads its journal has compared that with
+/// SHA256SUMS, so that draws of another run do not come with it.
+core::Result<std::string> known_draws(const fs::path& directory, const std::string& sha256) {
   TRY(std::string bytes, record::read_inside(directory, kTrialsFile, kMostTrialsBytes));
+  if (record::sha256_hex(bytes) != sha256) {
+    return core::fail(core::Code::kFile, fmt::format("it was changed after it was written ({})",
+                                                     record::kChecksumsName));
+  }
   const std::string head = head_of_file();
   if (!bytes.starts_with(head)) {
     return core::fail(core::Code::kFile, "another build, or another processor, wrote it");
@@ -59,9 +47,10 @@ core::Result<std::string> known_draws(const fs::path& directory,
 
 KeptTrials::KeptTrials(fs::path directory) : directory_(std::move(directory)) {
   const auto sums = record::read_checksums(directory_);
-  if (!sums || std::ranges::find(*sums, kTrialsFile, &record::Checksum::file) == sums->end())
-    return;
-  auto known = known_draws(directory_, *sums);
+  if (!sums) return;
+  const auto line = std::ranges::find(*sums, kTrialsFile, &record::Checksum::file);
+  if (line == sums->end()) return;
+  auto known = known_draws(directory_, line->sha256);
   if (known) {
     taken_ = *std::move(known);
   } else {

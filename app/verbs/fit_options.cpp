@@ -165,6 +165,9 @@ void check_page(const FitArguments& a) {
   if (a.shape == "line" || a.shape == "cone" || a.shape == "sphere") {
     refuse("a page is of a circle (RONt), a cylinder (CYLt) or a plane (FLTt)");
   }
+  if (a.tolerance_um && !(*a.tolerance_um > 0.0 && *a.tolerance_um <= 10'000.0)) {
+    throw CLI::ValidationError("--tolerance-um", "must be above 0 and at most 10000");
+  }
   if (!a.sizes.empty()) refuse("it is about the form; sizes with limits: save the plan, add them");
   if (!a.outward.empty()) refuse("the direction is not needed for a flatness; take it out");
   if (a.json) refuse("the numbers stand in report.json of the run; take out --json");
@@ -259,8 +262,7 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
                                       "Writes the plan of that run, to edit; without --out no run");
   save->type_name("FILE");
   verb->add_option("--tolerance-um", arguments.tolerance_um,
-                   "Limit of the form (with --out or --save-plan)")
-      ->check(CLI::PositiveNumber);
+                   "Limit of the form (with --out or --save-plan)");
   verb->add_option("--serial", arguments.serial, "Serial number of the part (with --out)");
   verb->add_option("--operator", arguments.operator_name, "Who measures (with --out)");
   verb->footer(

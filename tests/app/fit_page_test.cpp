@@ -65,7 +65,8 @@ TEST_F(FitToAPage, IsARunThatVerifiesAndSigns) {
   EXPECT_EQ(asked["verdict"], "conforms");
   EXPECT_EQ(asked["tolerance_um"], 2.5);
   const json fitted = json::parse(rondure({"fit", "cylinder", points_, "--json"}).out);
-  EXPECT_EQ(asked["value_um"], fitted["references"]["mz"]["deviation_um"]) << fitted.dump(1);
+  EXPECT_NEAR(asked["value_um"].get<double>(), 1e3 * fitted["mz"]["deviation_mm"].get<double>(),
+              1e-9);
   EXPECT_EQ(json::parse(read(run_ / "report.json"))["header"]["serial"], "0042");
   EXPECT_EQ(rondure({"verify", run_}).status, 0);
   const std::string key = (folder_ / "key.pem").string();
@@ -80,9 +81,9 @@ TEST_F(FitToAPage, IsARunThatVerifiesAndSigns) {
 TEST_F(FitToAPage, ItsPlanCanBeSavedEditedAndRunFromAnywhere) {
   const fs::path plan = folder_ / "plans" / "journal.json";
   fs::create_directory(plan.parent_path());
-  const Outcome saved = rondure({"fit", "cylinder", points_, "--tolerance-um", "2.5", "--reference",
-                                 "ls", "--inside", "--tip-diameter-mm", "3", "--columns", "2,3,4",
-                                 "--layers", "heights", "--save-plan", plan});
+  const Outcome saved = rondure({"fit", "cylinder", fs::relative(points_), "--tolerance-um", "2.5",
+                                 "--reference", "ls", "--inside", "--tip-diameter-mm", "3",
+                                 "--columns", "2,3,4", "--layers", "heights", "--save-plan", plan});
   ASSERT_EQ(saved.status, 0) << saved.err;
   EXPECT_FALSE(fs::exists(run_));
   const json written = json::parse(read(plan));
@@ -96,7 +97,7 @@ TEST_F(FitToAPage, ItsPlanCanBeSavedEditedAndRunFromAnywhere) {
   EXPECT_THAT(valid.out, HasSubstr("180 points"));
   ASSERT_EQ(rondure({"run", plan, "--out", run_, "--quiet"}).status, 0);
   EXPECT_THAT(read(run_ / "report.html"), HasSubstr("180 points"));
-  EXPECT_EQ(cylindricity_of(run_)["reference"], "ls");
+  EXPECT_EQ(cylindricity_of(run_)["reference"], "LSCY");
   const Outcome again = rondure({"fit", "cylinder", points_, "--save-plan", plan});
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.err, HasSubstr("the file exists"));

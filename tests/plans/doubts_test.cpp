@@ -22,11 +22,14 @@ std::string doubts_about(const std::string& characteristic) {
       R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"}, "machine": {},
           "fixture": {}, "probe": {}, "simulation": {}, "features": [
           {"id": "a", "letter": "A", "type": "cylinder",
-           "nominal": {"diameter_mm": 40, "from_mm": -40, "to_mm": -15}},
+           "nominal": {"diameter_mm": 40, "from_mm": -80, "to_mm": -40},
+           "sampling": {"margin_mm": 12}},
           {"id": "b", "letter": "B", "type": "cylinder",
-           "nominal": {"diameter_mm": 40, "from_mm": 15, "to_mm": 40}},
+           "nominal": {"diameter_mm": 40, "from_mm": 40, "to_mm": 80},
+           "sampling": {"margin_mm": 12}},
           {"id": "c", "type": "cylinder",
            "nominal": {"diameter_mm": 50, "from_mm": -15, "to_mm": 15},
+           "sampling": {"points_per_layer": 8},
            "characteristics": [)" +
           characteristic + "]}]}",
       "", "plan.json");
