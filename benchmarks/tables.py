@@ -1,4 +1,4 @@
-"""What stands in docs/performance.md besides the gates: machine, times, peers."""
+"""What stands in docs/developer/performance.md besides the gates: machine, times, peers."""
 
 import pathlib
 import platform
