@@ -105,8 +105,6 @@ def table(product, of_tests, ran, units, cases):
     out.append(f"| precompiled headers; shared by tests | {by_room['precompiled headers']:.1f} | {by_room['shared by tests']:.1f} | |")
     out += ["", "| heaviest units | s | MB |", "|---|--:|--:|"]
     out += [f"| `{short(unit)}` | {seconds:.1f} | {megabytes} |" for seconds, megabytes, unit in units[:5]]
-    out += ["", f"| tests above {LIMIT_S:.0f} s | s |", "|---|--:|"]
-    out += [f"| `{name}` | {seconds:.1f} |" for seconds, name in cases if seconds > LIMIT_S]
     return "\n".join(out) + "\n"
 
 

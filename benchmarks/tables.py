@@ -19,18 +19,14 @@ def rows_by_size(runs, what):
 
 
 def time_table(runs):
-    lines = ["| shape | points | order | T us | T / S1 | passes | pivots |",
-             "|---|---|---|---|---|---|---|"]
+    lines = ["| shape | points | order | T us | T / S1 |", "|---|---|---|---|---|"]
     for shape in ("cylinder", "circle"):
         for (points, variant), names in rows_by_size(runs, f"mz/{shape}").items():
             time = median(runs.time_ns(name) for name in names)
             ratios = [runs.ratio(name, "s1" + name[2:]) for name in names]
             ratios = [value for value in ratios if value]
             ratio = f"{median(ratios):.3g}" if ratios else "-"
-            effort = [max(runs.worst(name, key) or 0 for name in names) 
-                      for key in ("passes", "pivots")]
-            lines.append(f"| {shape} | {points} | {variant} | {time / 1e3:.4g} | {ratio} | "
-                         f"{effort[0]:.4g} | {effort[1]:.4g} |")
+            lines.append(f"| {shape} | {points} | {variant} | {time / 1e3:.4g} | {ratio} |")
     return lines
 
 
