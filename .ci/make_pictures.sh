@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of README and docs: the way of the tip of example plan 01, its report on a screen, in dark, narrow,
+# Makes the pictures of README and docs: the paths of example plan 01 and of the first plan, the report of 01 on a screen, in dark, narrow,
 # in Chinese, on paper and with numbered parts, each below 300 kB. Needs a release build and the packages of the browser tests
 # (tests/browser/README.md), imagemagick, poppler-utils and, for Chinese, fonts-noto-cjk.
 set -euo pipefail
@@ -8,6 +8,8 @@ build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/pic
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+sed -n '/^```json/,/^```/{/^```/d;p}' docs/first-plan.md >"$work/first.json"
+build/release/rondure plan "$work/first.json" --svg docs/pictures/first-plan.svg >/dev/null
 export RONDURE_BINARY=$PWD/build/release/rondure RONDURE_SOURCE_DIR=$PWD RONDURE_PICTURES=$work
 tests/browser/run.sh "$PWD/build/release/tests/browser/packages" ../../.ci/pictures.mjs
 
