@@ -36,3 +36,36 @@ test('chinese', async () => {
   rondure(['report', copy, '--format', 'html', '--lang', 'zh']);
   await picture('chinese', join(copy, 'report.html'), screen);
 });
+
+// Page one with the numbers of docs/reading-the-report.md.
+test('reading', async () => {
+  const {page} = await open(spool().html, {width: 1100, height: 1400});
+  const bottom = await page.evaluate(() => {
+    const one = (selector) => document.querySelector(selector);
+    const every = (selector) => [...document.querySelectorAll(selector)];
+    every('header.top').forEach((bar) => bar.remove());
+    one('table.results').style.marginTop = '32px';
+    const columns = every('table.results th').filter(
+      (cell) => ['Call-out', 'Value', 'U', 'Share of the limit', 'Worst at'].includes(cell.textContent));
+    const put = (number, left, top) => {
+      const mark = document.body.appendChild(document.createElement('div'));
+      mark.textContent = number;
+      mark.style.cssText = `position:absolute;left:${left}px;top:${top}px;width:22px;height:22px;border-radius:50%;` +
+        'background:#b00060;color:#fff;font:bold 13px/22px sans-serif;text-align:center;z-index:9';
+    };
+    let number = 0;
+    for (const part of [one('.ident'), one('.word'), one('.banner'), ...columns, ...every('.worst-one figure'),
+                        ...every('dl.lines > div'), one('.sign-box'), one('.foot dl')]) {
+      const box = part.getBoundingClientRect();
+      const text = document.createRange();
+      text.selectNodeContents(part);
+      const words = text.getBoundingClientRect();
+      if (columns.includes(part)) put(++number, words.left, box.top - 20);
+      else if (part.matches('.word, .banner')) put(++number, words.right + 8, words.top);
+      else put(++number, box.left - 26, box.top);
+    }
+    return one('.foot').getBoundingClientRect().bottom;
+  });
+  await page.screenshot({path: place('reading.png'), clip: {x: 0, y: 0, width: 1100, height: bottom + 20}});
+  await page.close();
+});

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Processor time of the build and of every test, from nothing, in build/times; writes the table of docs/performance.md.
+"""Processor time of the build and of every test, from nothing, in build/times; writes the table of docs/developer/performance.md.
 
   .ci/times.py             builds, runs the tests, writes the table
   .ci/times.py --launch LOG COMMAND...   runs one command and adds its processor time to LOG (the build calls this)
@@ -85,7 +85,7 @@ def measure():
     return product, of_tests, ran, sorted(rows(units), reverse=True), cases
 
 
-def table(product, of_tests, ran, units, cases, known):
+def table(product, of_tests, ran, units, cases):
     by_room, tests_by_room = collections.Counter(), collections.Counter()
     for seconds, _, unit in units:
         by_room[room_of(unit)] += seconds
@@ -104,27 +104,22 @@ def table(product, of_tests, ran, units, cases, known):
         out.append(f"| {room} | {by_room[room]:.1f} | {by_room['tests of ' + room]:.1f} | {tests_by_room[room]:.1f} |")
     out.append(f"| precompiled headers; shared by tests | {by_room['precompiled headers']:.1f} | {by_room['shared by tests']:.1f} | |")
     out += ["", "| heaviest units | s | MB |", "|---|--:|--:|"]
-    out += [f"| `{short(unit)}` | {seconds:.1f} | {megabytes} |" for seconds, megabytes, unit in units[:12]]
-    out += ["", f"| tests above {LIMIT_S:.0f} s | s | reason |", "|---|--:|---|"]
-    out += [f"| `{name}` | {seconds:.1f} | {known.get(name, '**none**')} |" for seconds, name in cases if seconds > LIMIT_S]
+    out += [f"| `{short(unit)}` | {seconds:.1f} | {megabytes} |" for seconds, megabytes, unit in units[:5]]
     return "\n".join(out) + "\n"
 
 
 def main():
     if sys.argv[1:2] == ["--launch"]:
         return launch(sys.argv[2], sys.argv[3:])
-    known = {}
     with open(os.path.join(ROOT, "tests", "slow_tests.txt")) as lines:
-        for line in lines:
-            name, _, reason = line.rstrip("\n").split("\t")
-            known[name] = reason
+        known = {line.split("\t")[0] for line in lines}
     measured = measure()
-    page = os.path.join(ROOT, "docs", "performance.md")
+    page = os.path.join(ROOT, "docs", "developer", "performance.md")
     text = open(page).read()
     begin, end = "<!-- build: begin -->\n", "<!-- build: end -->"
     head, tail = text.split(begin)[0], text.split(end)[1]
     with open(page, "w") as out:
-        out.write(head + begin + table(*measured, known) + end + tail)
+        out.write(head + begin + table(*measured) + end + tail)
     slow = [name for seconds, name in measured[-1] if seconds > LIMIT_S and name not in known]
     for name in slow:
         print(f"{name} takes more than {LIMIT_S:.0f} s of processor time and is not in tests/slow_tests.txt", file=sys.stderr)

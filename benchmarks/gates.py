@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Judges a run of rondure_benchmarks against the gates and writes docs/performance.md.
+"""Judges a run of rondure_benchmarks against the gates and writes docs/developer/performance.md.
 
-    gates.py RUN.json [--doc docs/performance.md] [--command TEXT] [--allow-noise] [--partial]
+    gates.py RUN.json [--doc docs/developer/performance.md] [--command TEXT] [--allow-noise] [--partial]
 
 Exit status: 0 every gate met; 1 a gate broken, or not measured (but with --partial); 2 the file
 cannot be read; 3 the machine was too noisy to judge times (0 with --allow-noise).

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the benchmarks, runs them, judges the gates and writes the table of docs/performance.md.
+# Builds the benchmarks, runs them, judges the gates and writes the table of docs/developer/performance.md.
 #   ./benchmarks/run.sh [--quick | --full] [--allow-noise]
 #     --quick        few and small sets: does everything run? Writes no table.
 #     --full         1e7 points too
@@ -8,7 +8,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 command="./benchmarks/run.sh${*:+ $*}"
-extent="" noise="" repetitions=9 doc="--doc docs/performance.md"
+extent="" noise="" repetitions=9 doc="--doc docs/developer/performance.md"
 for argument in "$@"; do
   case "$argument" in
     --quick) extent=--quick repetitions=2 doc=--partial ;;

@@ -8,8 +8,8 @@
 
 namespace rondure::core {
 
-/// All error and warning codes. JSON spells them in kebab case (see code_name()); docs/sources.md
-/// maps its E_ and W_ names to these codes.
+/// All error and warning codes. JSON spells them in kebab case (see code_name());
+/// docs/developer/sources.md maps its E_ and W_ names to these codes.
 enum class Code {
   // Data that cannot be evaluated.
   kNoPoints,        ///< no-points: nothing to evaluate

@@ -24,7 +24,7 @@ inline constexpr const char* kJournalName = "journal.db";
 /// each row it writes or changes is linked in a hash chain in the same transaction.
 /// It holds the lock of the directory (run_lock.h) until it is destroyed: one process per run. Any
 /// call can fail with kJournal (full disk, read-only directory, ...); `what` names the file, the
-/// cause in words and the remedy. Schema: docs/journal.md.
+/// cause in words and the remedy. Schema: docs/developer/journal.md.
 class Journal {
  public:
   /// Creates `directory` and the journal in it. An existing directory must be empty. On an error

@@ -6,7 +6,7 @@
 
 #include "core/message.h"
 
-// Messages as stored in the journal (docs/journal.md, table decision).
+// Messages as stored in the journal (docs/developer/journal.md, table decision).
 
 namespace rondure::record {
 

@@ -1,7 +1,8 @@
 // How often the interval of measurement_uncertainty() holds the truth, on simulated inspections
 // whose surfaces and errors are made here, by other code. 1 000 inspections a scenario with
 // RONDURE_FULL=1 (./test.sh --full); else a few of fewer trials, whose mean width is held against
-// that of docs/accuracy.md, because so few show a wrong width before they show a wrong coverage.
+// that of docs/developer/accuracy.md, because so few show a wrong width before they show a wrong
+// coverage.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -189,7 +190,7 @@ std::vector<Vector3d> inspected(std::vector<Vector3d> points,
 struct Scenario {
   std::string name;
   evaluation::Influences influences;
-  double sampled_um = 0.0;  ///< Mean U of the sampled points, docs/accuracy.md.
+  double sampled_um = 0.0;  ///< Mean U of the sampled points, docs/developer/accuracy.md.
   double whole_um = 0.0;    ///< Of the whole surface.
 };
 
@@ -272,7 +273,7 @@ evaluation::UncertaintyOptions few_trials() {
 }
 
 /// 93 to 97 % of 1 000. Of fewer, within 3.3 standard deviations of 95 %, and U in the mean as
-/// docs/accuracy.md has it: within 10 % and 3.3 standard deviations of the mean.
+/// docs/developer/accuracy.md has it: within 10 % and 3.3 standard deviations of the mean.
 void expect_covered(const Tally& tally, const std::string& name, double expanded_um) {
   const double width = tally.count >= 1000 ? 0.02 : 3.3 * std::sqrt(0.95 * 0.05 / tally.count);
   EXPECT_NEAR(tally.coverage(), 0.95, width) << name;

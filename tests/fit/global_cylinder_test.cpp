@@ -229,7 +229,7 @@ TEST(CertificateCheck, FindsEveryWrongStatement) {
   EXPECT_NE(check_zone(points, moved, right).fault, "");
 }
 
-// The table of docs/accuracy.md.
+// The table of docs/developer/accuracy.md.
 TEST(GlobalCylinder, ProvesFullSurfaceSetsOfAnySize) {
   struct Size {
     int layers;

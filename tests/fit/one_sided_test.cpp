@@ -165,7 +165,7 @@ Space regular_layers(std::uint64_t seed) {
   return out;
 }
 
-// The figure of docs/accuracy.md.
+// The figure of docs/developer/accuracy.md.
 TEST(OneSidedCylinder, SaysHowOftenRegularLayersLeaveItWithoutCertificate) {
   const std::uint64_t sets = test::full() ? 400 : 40;
   std::uint64_t without = 0;

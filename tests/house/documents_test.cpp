@@ -57,7 +57,7 @@ DeclaredTests declared_tests() {
 std::vector<fs::path> documents() {
   const fs::path root = RONDURE_SOURCE_DIR;
   std::vector<fs::path> out = {root / "README.md"};
-  for (const auto& entry : fs::directory_iterator(root / "docs")) {
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
     if (entry.path().extension() == ".md") out.push_back(entry.path());
   }
   return out;

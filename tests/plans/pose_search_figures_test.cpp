@@ -1,5 +1,5 @@
-// The figures of the pose search on random simulated parts, as docs/accuracy.md states them.
-// 200 parts with RONDURE_FULL=1 (./test.sh --full), else three.
+// The figures of the pose search on random simulated parts, as docs/developer/accuracy.md states
+// them. 200 parts with RONDURE_FULL=1 (./test.sh --full), else three.
 
 #include <algorithm>
 #include <cmath>

@@ -279,9 +279,9 @@ TEST(Chain, OfASealedRunCannotBeCutAtItsEnd) {
   EXPECT_THAT(read->broken[1].what, HasSubstr(" rows, expected "));
 }
 
-/// Runs the checker of docs/journal.md; its exit status.
+/// Runs the checker of docs/developer/journal.md; its exit status.
 int checked_by_the_document(const fs::path& journal) {
-  const auto document = read_file(fs::path(RONDURE_SOURCE_DIR) / "docs/journal.md");
+  const auto document = read_file(fs::path(RONDURE_SOURCE_DIR) / "docs/developer/journal.md");
   const std::size_t begin = document->find("```python\n") + 10;
   const Scratch scratch;
   std::ofstream(scratch / "check.py")

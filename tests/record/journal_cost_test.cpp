@@ -1,4 +1,4 @@
-// What a touch costs on its way to the disk; prints the table of docs/reliability.md.
+// What a touch costs on its way to the disk; prints the figures of docs/reliability.md.
 
 #include <algorithm>
 #include <chrono>

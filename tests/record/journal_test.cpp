@@ -255,7 +255,7 @@ TEST(Journal, ReadsAJournalInAPlaceWithoutWriting) {
 }
 
 TEST(Journal, TheDocumentShowsTheTablesAsTheyAre) {
-  const auto document = read_file(fs::path(RONDURE_SOURCE_DIR) / "docs/journal.md");
+  const auto document = read_file(fs::path(RONDURE_SOURCE_DIR) / "docs/developer/journal.md");
   ASSERT_TRUE(document) << document.error().what;
   EXPECT_EQ(all_tables().size(), 19U);
   for (const Table& table : all_tables()) EXPECT_THAT(*document, HasSubstr(table.sql));

@@ -9,8 +9,8 @@
 
 #include <soci/soci.h>
 
-// Private to the room: the bytes over which digests are computed (docs/journal.md, "Bytes of a
-// value"), and the rows of a table as such bytes. Functions that read throw soci::soci_error.
+// Private to the room: the bytes over which digests are computed (docs/developer/journal.md, "Bytes
+// of a value"), and the rows of a table as such bytes. Functions that read throw soci::soci_error.
 
 namespace rondure::record {
 

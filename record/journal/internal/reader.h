@@ -9,8 +9,8 @@
 
 namespace rondure::record {
 
-/// Throws Contradiction unless the file holds exactly the tables of docs/journal.md, byte for byte,
-/// and no index, view, trigger or other table.
+/// Throws Contradiction unless the file holds exactly the tables of docs/developer/journal.md, byte
+/// for byte, and no index, view, trigger or other table.
 void require_schema(soci::session& sql);
 
 /// Reads and checks every table of an open journal. Throws soci::soci_error, Contradiction, Damage.

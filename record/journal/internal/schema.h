@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-// Private to the room: the tables of journal.db. docs/journal.md explains them; a test checks that
-// both agree.
+// Private to the room: the tables of journal.db. docs/developer/journal.md explains them; a test
+// checks that both agree.
 
 namespace rondure::record {
 
