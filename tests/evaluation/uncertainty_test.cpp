@@ -643,8 +643,8 @@ TEST(Uncertainty, RefusesWhatItCannotUse) {
 
 // The figure: 10 000 trials of 28 points with all influences in under 1 s on two cores. Held
 // against processor time, which other programs change little: 2 s of it. With the whole surface it
-// is not met (docs/accuracy.md), because each draw evaluates a grid: there the limit only finds
-// what gets slower yet.
+// is not met (docs/developer/accuracy.md), because each draw evaluates a grid: there the limit only
+// finds what gets slower yet.
 TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
   const auto timed = [&](int threads, const std::optional<evaluation::FormSpectrum>& stated) {
     evaluation::UncertaintyOptions options =
