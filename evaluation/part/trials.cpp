@@ -419,8 +419,9 @@ void PartTrials::Part::make_modes(const std::vector<Vector3d>& reference_mm) {
   if (limit) {
     // The constant of the limit may be an error of the tip as well as one of single touches: a
     // length between opposite touches is then out by twice it, however many points there are.
-    add(Distribution::kRectangular, nowhere, [](const TrialSurface& surface) {
-      return surface.influences.machine->length_limit_mm / (2.0 * std::sqrt(3.0));
+    // Of the machine, hence of all surfaces; one that no question asks about declares nothing.
+    add(Distribution::kRectangular, nowhere, [&](const TrialSurface&) {
+      return shared.machine->length_limit_mm / (2.0 * std::sqrt(3.0));
     });
   } else {
     add(Distribution::kNormal, nowhere,

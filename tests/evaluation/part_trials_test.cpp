@@ -444,6 +444,21 @@ TEST(PartTrials, StateNoIntervalWithoutNoiseOfATouch) {
   }
 }
 
+TEST(PartTrials, ALengthLimitNeedsNoDeclarationOfASurfaceThatNoQuestionAsksAbout) {
+  SimulatedPart part;
+  part.add({}, 1.0);
+  part.add({.low_mm = 50.0, .high_mm = 80.0}, 1.0);
+  part.touch(0.3 * kMicrometre, core::KeyedNoise(7, {1}));
+  Influences limit = noise_alone(0.3 * kMicrometre);
+  limit.machine.emplace().length_limit_mm = 1.5 * kMicrometre;
+  std::vector<TrialSurface> surfaces = part.surfaces(limit);
+  surfaces[1].rows.clear();
+  surfaces[1].influences = {};
+  const auto gg = question_of({0}, gg_of(0), part.measured());
+  const auto found = PartTrials(surfaces, {}, options_of(400)).answers({&gg, 1}).front();
+  EXPECT_TRUE(found.values[0]);
+}
+
 TEST(PartTrials, AValueThatSomeTrialsLackHasNoInterval) {
   SimulatedPart part;
   part.add({}, 1.0);

@@ -120,5 +120,25 @@ TEST(Documents, NameSourcesThatAreThere) {
   EXPECT_GT(checked, 30U);
 }
 
+// A relative link of a page leads to a file that is there.
+TEST(Documents, LinkToFilesThatAreThere) {
+  std::size_t checked = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = text_of(document);
+    for (const auto& link : matches_of(text, R"(\]\(([^)#:\s]+)(#[^)\s]*)?\))")) {
+      EXPECT_TRUE(fs::exists(document.parent_path() / link.str(1))) << document << ": " << link[1];
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100U);
+}
+
+TEST(Documents, ReadmeHasAtMost700Words) {
+  std::istringstream text(text_of(fs::path(RONDURE_SOURCE_DIR) / "README.md"));
+  std::size_t words = 0;
+  for (std::string word; text >> word;) ++words;
+  EXPECT_LE(words, 700U);
+}
+
 }  // namespace
 }  // namespace rondure

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -174,6 +175,37 @@ TEST(PlanDrawing, TheTouchedShaftOfTheDocumentIsMeasured) {
   ASSERT_EQ(c.size(), 2U);
   ASSERT_TRUE(c.back().finding);
   EXPECT_NEAR(c.back().finding->judged.front().value_mm, 0.008, 1e-5) << "twice the offset";
+}
+
+/// Points of one journal as a German program writes them.
+std::string german_export() {
+  std::istringstream rows(bytes_of(testing::source_dir() / "plans/examples/15_shaft.csv"));
+  std::string out = "Punkt;X-Ist [mm];Y-Ist [mm];Z-Ist [mm]\n";
+  int number = 0;
+  for (std::string row; std::getline(rows, row);) {
+    if (!row.starts_with("journal B,")) continue;
+    std::string point = row.substr(row.find(',', row.find(',') + 1) + 1);
+    std::ranges::replace(point, ',', ';');
+    std::ranges::replace(point, '.', ',');
+    out += std::to_string(++number) + ";" + point + "\n";
+  }
+  return out;
+}
+
+TEST(PlanDrawing, PlansOfTheFirstPagesAreValid) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "first_pages";
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"export.csv", "your_points.csv"}) {
+    ASSERT_TRUE(record::write_file(folder / name, german_export()));
+  }
+  for (const char* page : {"README.md", "docs/first-result.md", "docs/first-plan.md"}) {
+    SCOPED_TRACE(page);
+    const std::string text = bytes_of(testing::source_dir() / page);
+    const std::size_t at = text.find("```json\n") + 8;
+    const auto plan = parse_plan(text.substr(at, text.find("```", at) - at), folder, "plan.json");
+    EXPECT_TRUE(plan) << lines_of(plan);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {
