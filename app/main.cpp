@@ -42,10 +42,12 @@ void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* 
       ->type_name("LIST");
 }
 
-void add_edition(CLI::App& verb, std::string& language, bool& detail) {
+void add_edition(CLI::App& verb, std::string& language, bool& detail, bool& verbose) {
+  verb.add_flag("--verbose", verbose,
+                "On the terminal all details: every feature, warnings, settings, files");
   verb.add_flag("--detail", detail,
                 "Open all of the page, on paper too: call-outs that conform, numbers, searches");
-  verb.add_option("--lang", language, "Language of page and summary: en or zh (default: en)")
+  verb.add_option("--lang", language, "Language of page and terminal: en or zh (default: en)")
       ->check(CLI::IsMember(reports::language_names()))
       ->type_name("LANG");
 }
@@ -152,14 +154,14 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       ->check(check_seed);
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,corrections (default: as the plan says)");
-  add_edition(*verb, arguments.language, arguments.detail);
+  add_edition(*verb, arguments.language, arguments.detail, arguments.verbose);
   add_paper(*verb, arguments.paper);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
   verb->add_option("--wire-log", arguments.wire_log,
                    "File for every line to and from a machine behind I++ DME");
-  verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
+  verb->add_flag("--quiet", arguments.quiet, "No progress, no answer on the terminal");
   verb->add_flag("--step", arguments.step,
                  "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
                  "without asking, q stop in order)");
@@ -226,7 +228,7 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,corrections (default: all but corrections;\npdf where "
               "there is Chromium)");
-  add_edition(*verb, arguments.language, arguments.detail);
+  add_edition(*verb, arguments.language, arguments.detail, arguments.verbose);
   add_paper(*verb, arguments.paper);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }

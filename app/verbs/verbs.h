@@ -55,6 +55,7 @@ struct ReportArguments {
   std::vector<std::string> formats;
   std::string language = "en";         ///< Language of page and summary: "en" or "zh".
   bool detail = false;                 ///< All of the page is open.
+  bool verbose = false;                ///< All details after the answer.
   std::optional<record::Paper> paper;  ///< Paper of report.pdf; none: as the plan says.
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
