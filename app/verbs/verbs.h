@@ -91,6 +91,11 @@ struct HistoryArguments {
 };
 [[nodiscard]] int history(const HistoryArguments& arguments);
 
+struct ExplainArguments {
+  std::string code;  ///< Of a message, with or without its brackets; empty: lists all.
+};
+[[nodiscard]] int explain(const ExplainArguments& arguments);
+
 struct SignArguments {
   std::string directory;
   std::string key;  ///< Private key file.
