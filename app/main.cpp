@@ -285,12 +285,13 @@ void add_history_filters(CLI::App& verb, HistoryArguments& arguments) {
 
 void add_history(CLI::App& app, HistoryArguments& arguments) {
   auto* verb =
-      app.add_subcommand("history", "Past results: list, filter, run chart, capability");
+      app.add_subcommand("history", "Past runs, one a line; filter, run chart, capability");
   verb->add_option("ARCHIVE", arguments.archive,
                    "File or postgresql://user@host/database (default: runs/archive.db)");
   add_history_filters(*verb, arguments);
   verb->add_option("--last", arguments.last,
-                   "The newest N results (default: 50; of charts and JSON 1000; of CSV all)")
+                   "The newest N runs (default: 50); of charts, JSON and CSV the newest N\n"
+                   "results (default: 1000; of CSV all)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   verb->add_flag("--chart", arguments.chart, "Run chart of the newest result's characteristic");
   verb->add_option("--svg", arguments.svg, "The same chart as a file")->type_name("FILE");

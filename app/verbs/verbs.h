@@ -79,7 +79,7 @@ struct HistoryArguments {
   std::string since;  ///< Day or time, UTC; also for `until`.
   std::string until;
   std::string verdict;  ///< Words separated by blanks or hyphens.
-  /// Number of results; default 50, for charts 1000, for CSV all.
+  /// Number of runs, default 50; of results for charts, default 1000, and for CSV, default all.
   std::optional<std::size_t> last;
   bool chart = false;
   bool json = false;
