@@ -13,9 +13,4 @@ if [ $# -gt 0 ]; then
   exec "$here/build/release/rondure" "$@"
 fi
 cd "$here"
-status=0
-output=$(build/release/rondure run plans/examples/01_spool_simulated.json) || status=$?
-printf '%s\n' "$output"
-report=$(grep -o 'runs/.*report\.html$' <<<"$output" || true)
-[ -n "$report" ] && echo && echo "The report: $here/$report   (open it in a browser)"
-exit $status
+exec build/release/rondure run plans/examples/01_spool_simulated.json

@@ -19,6 +19,7 @@
 #include "cmm/ipp_server/profile.h"
 #include "core/numbers.h"
 #include "core/version.h"
+#include "plans/schema/near_words.h"
 #include "plans/schema/simulation_table.h"
 #include "reports/formats/exports.h"
 #include "reports/words/language.h"
@@ -42,10 +43,12 @@ void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* 
       ->type_name("LIST");
 }
 
-void add_edition(CLI::App& verb, std::string& language, bool& detail) {
+void add_edition(CLI::App& verb, std::string& language, bool& detail, bool& verbose) {
+  verb.add_flag("--verbose", verbose,
+                "On the terminal all details: every feature, warnings, settings, files");
   verb.add_flag("--detail", detail,
                 "Open all of the page, on paper too: call-outs that conform, numbers, searches");
-  verb.add_option("--lang", language, "Language of page and summary: en or zh (default: en)")
+  verb.add_option("--lang", language, "Language of page and terminal: en or zh (default: en)")
       ->check(CLI::IsMember(reports::language_names()))
       ->type_name("LANG");
 }
@@ -154,14 +157,14 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       ->check(check_seed);
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,corrections (default: as the plan says)");
-  add_edition(*verb, arguments.language, arguments.detail);
+  add_edition(*verb, arguments.language, arguments.detail, arguments.verbose);
   add_paper(*verb, arguments.paper);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
   verb->add_option("--wire-log", arguments.wire_log,
                    "File for every line to and from a machine behind I++ DME");
-  verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
+  verb->add_flag("--quiet", arguments.quiet, "No progress, no answer on the terminal");
   verb->add_flag("--step", arguments.step,
                  "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
                  "without asking, q stop in order)");
@@ -228,7 +231,7 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,corrections (default: all but corrections;\npdf where "
               "there is Chromium)");
-  add_edition(*verb, arguments.language, arguments.detail);
+  add_edition(*verb, arguments.language, arguments.detail, arguments.verbose);
   add_paper(*verb, arguments.paper);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
@@ -283,12 +286,14 @@ void add_history_filters(CLI::App& verb, HistoryArguments& arguments) {
 }
 
 void add_history(CLI::App& app, HistoryArguments& arguments) {
-  auto* verb = app.add_subcommand("history", "Past results: list, filter, run chart, capability");
+  auto* verb =
+      app.add_subcommand("history", "Past runs, one a line; filter, run chart, capability");
   verb->add_option("ARCHIVE", arguments.archive,
                    "File or postgresql://user@host/database (default: runs/archive.db)");
   add_history_filters(*verb, arguments);
   verb->add_option("--last", arguments.last,
-                   "The newest N results (default: 50; of charts and JSON 1000; of CSV all)")
+                   "The newest N runs (default: 50); of charts, JSON and CSV the newest N\n"
+                   "results (default: 1000; of CSV all)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   verb->add_flag("--chart", arguments.chart, "Run chart of the newest result's characteristic");
   verb->add_option("--svg", arguments.svg, "The same chart as a file")->type_name("FILE");
@@ -395,33 +400,79 @@ void add_manual(CLI::App& app) {
       ->footer("\nExample: rondure manual | man -l -");
 }
 
+void add_explain(CLI::App& app, ExplainArguments& arguments) {
+  auto* verb = app.add_subcommand("explain", "What the code of a message means, and what to do");
+  verb->add_option("CODE", arguments.code,
+                   "Code of an error, a warning or a decision, or name of an influence; without\n"
+                   "it all are listed");
+  verb->footer("\nExample: rondure explain no-certificate\n         rondure explain probe-lobing");
+}
+
+void add_help(CLI::App& app, std::vector<std::string>& verb_words) {
+  auto* verb = app.add_subcommand("help", "Options and examples of a verb, as its --help");
+  verb->add_option("VERB", verb_words, "A verb, or two words: fit roundness");
+  verb->footer("\nExample: rondure help fit roundness");
+}
+
+/// "; did you mean report?", or nothing.
+std::string hint(std::string_view word, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  const std::string_view near = plans::nearest_word(word, views);
+  return near.empty() ? std::string() : fmt::format("; did you mean {}?", near);
+}
+
+std::vector<std::string> verbs_of(const CLI::App& app) {
+  std::vector<std::string> out;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    out.push_back(verb->get_name());
+  return out;
+}
+
+bool has_verb(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> known = verbs_of(app);
+  return std::ranges::find(known, word) != known.end();
+}
+
+/// Names options that the verb does not have, with the nearest that it has.
+void tell_unknown_options(const CLI::App& verb, const std::vector<std::string>& words) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const std::string& word : words) {
+    const std::string option = word.substr(0, word.find('='));
+    if (!option.starts_with("--") || option == "--" ||
+        std::ranges::find(known, option) != known.end())
+      continue;
+    tell(fmt::format("rondure: there is no option {}{}\n", option, hint(option, known)));
+  }
+}
+
 /// Prints help and version on standard output; any other case is a mistake in the arguments.
-int explain(const CLI::App& app, const CLI::ParseError& error,
-            const std::vector<std::string>& words) {
-  if (error.get_exit_code() == 0) {
+int answer_parse(const CLI::App& app, const CLI::ParseError& error,
+                 const std::vector<std::string>& words) {
+  const bool option_first = words.empty() || words.front().starts_with('-');
+  const bool verb_known = !option_first && has_verb(app, words.front());
+  if (error.get_exit_code() == 0 && (option_first || verb_known)) {
     app.exit(error);
     return kAllWell;
   }
-  const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
-  const bool verb_known = std::any_of(verbs.begin(), verbs.end(), [&](const CLI::App* verb) {
-    return !words.empty() && verb->get_name() == words.front();
-  });
-  if (verb_known) {
-    tell(fmt::format("rondure: {}\n", error.what()));
-  } else if (words.empty() || words.front().starts_with('-')) {
-    tell("rondure: a verb is missing\n");
-  } else {
-    tell(fmt::format("rondure: there is no verb {}\n", words.front()));
-  }
   if (!verb_known) {
+    tell(option_first ? "rondure: a verb is missing\n"
+                      : fmt::format("rondure: there is no verb {}{}\n", words.front(),
+                                    hint(words.front(), verbs_of(app))));
     tell("The verbs: rondure --help\n");
     return kBadInput;
   }
-  std::string verb = words.front();
-  for (const CLI::App* inner : app.get_subcommand(verb)->get_subcommands({})) {
-    if (words.size() > 1 && inner->get_name() == words[1]) verb += " " + words[1];
+  const CLI::App* verb = app.get_subcommand(words.front());
+  std::string name = words.front();
+  if (words.size() > 1 && has_verb(*verb, words[1])) {
+    verb = verb->get_subcommand(words[1]);
+    name += " " + words[1];
   }
-  tell(fmt::format("What it takes, with an example: rondure {} --help\n", verb));
+  tell(fmt::format("rondure: {}\n", error.what()));
+  tell_unknown_options(*verb, words);
+  tell(fmt::format("What it takes, with an example: rondure {} --help\n", name));
   return kBadInput;
 }
 
@@ -484,14 +535,23 @@ int main_of(int argc, char** argv) {
   add_verb(app, add_devices, devices, verbs);
   add_verb(*app.get_subcommand("devices"), add_server_device, server_device, verbs);
   add_verb(app, add_record, record_readings, verbs);
+  add_verb(app, add_explain, explain, verbs);
+  std::vector<std::string> help_of;
+  add_help(app, help_of);
   std::string shell;
   add_completion(app, shell);
   add_manual(app);
   limit_numbers(app);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(
+        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last first
   } catch (const CLI::ParseError& error) {
-    return explain(app, error, {argv + 1, argv + argc});
+    return answer_parse(app, error, words);
   }
   // The verbs of `fit` and `devices` follow their parents in the list, and take precedence.
   const auto given = std::find_if(verbs.rbegin(), verbs.rend(),

@@ -55,9 +55,6 @@ std::string escaped(std::string_view text) {
 
 std::string isolated(std::string_view text) { return fmt::format("<bdi>{}</bdi>", escaped(text)); }
 
-namespace {
-
-/// Replaces " um" and " degC" by their signs.
 std::string with_signs(std::string_view text) {
   std::string out(text);
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -71,8 +68,6 @@ std::string with_signs(std::string_view text) {
   replace(" degC", " \u00b0C");
   return out;
 }
-
-}  // namespace
 
 std::string foreign(std::string_view text) {
   if (language() == Language::kEnglish) return isolated(text);

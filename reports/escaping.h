@@ -26,6 +26,9 @@ namespace rondure::reports {
 /// escaped() and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
 [[nodiscard]] std::string isolated(std::string_view text);
 
+/// The text with " um" and " degC" as signs: " µm", " °C".
+[[nodiscard]] std::string with_signs(std::string_view text);
+
 /// Text of the program that is English in every report (an error from another room, a device's
 /// name): escaped, isolated and, in a report in another language, marked as English.
 [[nodiscard]] std::string foreign(std::string_view text);

@@ -27,6 +27,7 @@ struct RunArguments {
   std::string archive;                 ///< Empty: as the plan says.
   std::string wire_log;                ///< Empty: none.
   bool quiet = false;
+  bool verbose = false;  ///< All details after the answer.
   bool step = false;     ///< Each move is confirmed on the terminal and made at reduced speed.
   std::string watch;     ///< Port of the live page; "auto": any free one; empty: no page.
   bool control = false;  ///< With `watch`: a button that stops the run.

@@ -13,6 +13,7 @@
 #include "evaluation/results/evaluation.h"
 #include "plans/checks/record.h"
 #include "record/files.h"
+#include "record/signature.h"
 #include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
@@ -138,8 +139,8 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
     live->show_result(evaluated.record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(evaluated.record, evaluation, edition.language));
-    say_written(*written);
+    say_result(directory, evaluated.record, evaluation, edition.language, arguments.verbose,
+               *written);
   }
   if (failed) return kRunFailed;
   (void)archive_run(archive, directory, evaluated.record, evaluation);
@@ -187,15 +188,29 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   return conclude_evaluated(ending, *evaluated, nullptr);
 }
 
-void say_written(const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) {
-    say_line(file.string());
+void say_result(const fs::path& directory, const record::RunRecord& record,
+                const evaluation::Evaluation& evaluation, reports::Language language, bool verbose,
+                const std::vector<fs::path>& written) {
+  say(verbose ? reports::write_summary(record, evaluation, language)
+              : reports::write_answer(record, evaluation, language));
+  fs::path report = written.empty() ? directory : written.front();
+  for (const fs::path& file : written) {
+    if (file.extension() == ".html") report = file;
+    if (verbose) say_line(file.string());
     if (file.filename() != reports::kCorrectionsFile) continue;
     std::istringstream summary(record::read_file(file).value_or(""));
     for (std::string line; std::getline(summary, line);) {
-      if (line.find(": none: ") != std::string::npos) say_line("  " + line);
+      if (line.find(": none: ") != std::string::npos) say_line(line);
     }
   }
+  std::error_code unknown;
+  const bool is_signed = fs::exists(directory / record::kSignatureName, unknown);
+  const std::string next =
+      record.ending != "finished"
+          ? ""
+          : fmt::format("rondure {} {} --key {}", is_signed ? "verify" : "sign",
+                        quoted(directory.string()), is_signed ? "PUBLIC.pem" : "KEY.pem");
+  say_line(reports::write_whereabouts(report.string(), next, language));
 }
 
 std::optional<record::RunRecord> read_sound_record(const std::string& directory) {

@@ -8,9 +8,12 @@
 #include "app/run/arguments.h"
 #include "app/run/resumption.h"
 #include "evaluation/decision/verdict.h"
+#include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
+#include "record/run_record.h"
+#include "reports/words/language.h"
 
 namespace rondure::app {
 
@@ -31,9 +34,12 @@ namespace rondure::app {
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
 
-/// Prints the names of the files that were written, and of corrections.txt the features that have
-/// none, with the reason: a technician who asked for a table would miss it at the machine.
-void say_written(const std::vector<std::filesystem::path>& files);
+/// Prints the answer of a run, with all details and the names of all files where `verbose` asks for
+/// them; then the features that have no corrections, with the reason (a technician who asked for a
+/// table would miss it at the machine), where the report is, and what comes next.
+void say_result(const std::filesystem::path& directory, const record::RunRecord& record,
+                const evaluation::Evaluation& evaluation, reports::Language language, bool verbose,
+                const std::vector<std::filesystem::path>& written);
 
 /// The record of a run that can be evaluated; none, after a message for every fault, when its
 /// journal cannot be read or is damaged.

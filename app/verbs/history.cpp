@@ -26,6 +26,7 @@ using record::ArchivedResult;
 
 constexpr std::size_t kListed = 50;
 constexpr std::size_t kCharted = 1000;
+constexpr std::size_t kAll = static_cast<std::size_t>(-1);
 constexpr std::size_t kPage = 5000;  ///< Rows per query: short locks, little memory.
 
 tl::unexpected<core::Error> bad(std::string what) {
@@ -68,7 +69,8 @@ core::Result<record::ArchiveFilter> filter_of(const HistoryArguments& arguments)
                   core::printable(arguments.verdict)));
 }
 
-/// The newest `count` results, page by page; `take` receives each page, newest first.
+/// The newest `count` results, page by page; `take` receives each page, newest first, and returns
+/// whether it wants more.
 template <class Take>
 core::Result<void> read_pages(record::Archive& archive, const record::ArchiveFilter& filter,
                               std::size_t count, const Take& take) {
@@ -79,7 +81,7 @@ core::Result<void> read_pages(record::Archive& archive, const record::ArchiveFil
     if (results.empty()) return {};
     last = results.back();
     count -= results.size();
-    take(std::move(results));
+    if (!take(std::move(results))) return {};
   }
   return {};
 }
@@ -90,22 +92,43 @@ core::Result<std::vector<ArchivedResult>> read_newest(record::Archive& archive,
   std::vector<ArchivedResult> all;
   TRY_DO(read_pages(archive, filter, count, [&](std::vector<ArchivedResult> page) {
     all.insert(all.end(), page.begin(), page.end());
+    return true;
   }));
   return all;
 }
 
+/// The newest `count` runs with their results.
+/// @return  Whether there are older ones.
+core::Result<bool> show_runs(record::Archive& archive, const record::ArchiveFilter& filter,
+                             std::size_t count) {
+  std::vector<ArchivedResult> all;
+  std::size_t runs = 0;
+  TRY_DO(read_pages(archive, filter, kAll, [&](const std::vector<ArchivedResult>& page) {
+    for (const ArchivedResult& one : page) {
+      if (all.empty() || !reports::in_one_run(all.back(), one)) ++runs;
+      if (runs > count) return false;
+      all.push_back(one);
+    }
+    return true;
+  }));
+  say(all.empty() ? "no results\n" : reports::history_table(all));
+  return runs > count;
+}
+
 core::Result<void> write_csv(record::Archive& archive, const record::ArchiveFilter& filter,
                              const HistoryArguments& arguments) {
-  const std::size_t count = arguments.last.value_or(static_cast<std::size_t>(-1));
+  const std::size_t count = arguments.last.value_or(kAll);
   if (arguments.csv == "-") {
     say(reports::history_csv_header());
     return read_pages(archive, filter, count, [](const std::vector<ArchivedResult>& page) {
       say(reports::history_csv_rows(page));
+      return true;
     });
   }
   std::string text = reports::history_csv_header();
   auto read = read_pages(archive, filter, count, [&](const std::vector<ArchivedResult>& page) {
     text += reports::history_csv_rows(page);
+    return true;
   });
   if (!read) return read;
   if (auto written = record::write_file(arguments.csv, text); !written) return written;
@@ -128,26 +151,22 @@ core::Result<void> show(record::Archive& archive, const std::string& place,
                         const HistoryArguments& arguments) {
   TRY(const auto filter, filter_of(arguments));
   if (!arguments.csv.empty()) return write_csv(archive, filter, arguments);
-  const bool charted = arguments.chart || arguments.json || !arguments.svg.empty();
-  const std::size_t count = arguments.last.value_or(charted ? kCharted : kListed);
+  if (!arguments.chart && !arguments.json && arguments.svg.empty()) {
+    const std::size_t count = arguments.last.value_or(kListed);
+    TRY(const bool more, show_runs(archive, filter, count));
+    if (more)
+      say(fmt::format("the newest {}; older ones with --last N, all with --csv FILE\n", count));
+    return {};
+  }
+  const std::size_t count = arguments.last.value_or(kCharted);
   // one more shows whether there are older ones
   TRY(auto results, read_newest(archive, filter, count + 1));
   const bool more = results.size() > count;
   if (more) results.resize(count);
-  if (charted) {
-    const reports::RunChart chart = reports::run_chart_of(results);
-    if (arguments.json) say(reports::history_json(place, results, more, chart));
-    if (arguments.chart) say(reports::history_chart(chart, is_coloured()));
-    if (!arguments.svg.empty()) return write_svg(chart, arguments.svg);
-    return {};
-  }
-  if (results.empty()) {
-    say("no results\n");
-    return {};
-  }
-  say(reports::history_table(results));
-  if (more)
-    say(fmt::format("the newest {}; older ones with --last N, all with --csv FILE\n", count));
+  const reports::RunChart chart = reports::run_chart_of(results);
+  if (arguments.json) say(reports::history_json(place, results, more, chart));
+  if (arguments.chart) say(reports::history_chart(chart, is_coloured()));
+  if (!arguments.svg.empty()) return write_svg(chart, arguments.svg);
   return {};
 }
 

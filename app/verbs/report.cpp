@@ -15,7 +15,6 @@
 #include "record/signature.h"
 #include "reports/data/corrections.h"
 #include "reports/formats/exports.h"
-#include "reports/terminal/summary.h"
 #include "reports/words/language.h"
 
 namespace rondure::app {
@@ -63,8 +62,8 @@ int report(const ReportArguments& arguments) {
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
-  say(reports::write_summary(*record, *evaluation, edition.language));
-  say_written(*written);
+  say_result(arguments.directory, *record, *evaluation, edition.language, arguments.verbose,
+             *written);
   return exit_status(evaluation->verdict);
 }
 

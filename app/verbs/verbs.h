@@ -61,6 +61,7 @@ struct ReportArguments {
   std::vector<std::string> formats;
   std::string language = "en";         ///< Language of page and summary: "en" or "zh".
   bool detail = false;                 ///< All of the page is open.
+  bool verbose = false;                ///< All details after the answer.
   std::optional<record::Paper> paper;  ///< Paper of report.pdf; none: as the plan says.
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
@@ -84,7 +85,7 @@ struct HistoryArguments {
   std::string since;  ///< Day or time, UTC; also for `until`.
   std::string until;
   std::string verdict;  ///< Words separated by blanks or hyphens.
-  /// Number of results; default 50, for charts 1000, for CSV all.
+  /// Number of runs, default 50; of results for charts, default 1000, and for CSV, default all.
   std::optional<std::size_t> last;
   bool chart = false;
   bool json = false;
@@ -95,6 +96,11 @@ struct HistoryArguments {
   std::vector<std::string> add;  ///< Run directories.
 };
 [[nodiscard]] int history(const HistoryArguments& arguments);
+
+struct ExplainArguments {
+  std::string code;  ///< Of a message, with or without its brackets; empty: lists all.
+};
+[[nodiscard]] int explain(const ExplainArguments& arguments);
 
 struct SignArguments {
   std::string directory;

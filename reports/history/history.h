@@ -9,7 +9,12 @@
 
 namespace rondure::reports {
 
-/// Results as a table of 80 columns, oldest first.
+/// Whether two results are of one run of an archive.
+[[nodiscard]] bool in_one_run(const record::ArchivedResult& one,
+                              const record::ArchivedResult& other);
+
+/// Runs as a table of 80 columns, a line each, oldest first: how many results conform, and the one
+/// that decides or is nearest to its limit.
 /// @param newest_first  In the order of Archive::newest().
 [[nodiscard]] std::string history_table(std::span<const record::ArchivedResult> newest_first);
 

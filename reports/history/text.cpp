@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
+#include "evaluation/decision/verdict.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/history/history.h"
 #include "reports/terminal/internal/columns.h"
@@ -26,10 +29,6 @@ constexpr std::size_t kRows = 17;
 /// Text in a field of `width` columns.
 std::string cell(const std::string& text, std::size_t width) {
   return padded(shortened(printable(text), width), width);
-}
-
-std::string um_or_dash(const std::optional<double>& value_mm) {
-  return value_mm ? um(*value_mm) : std::string("-");
 }
 
 /// "2026-11-21 02:33" from "2026-11-21T02:33:02Z".
@@ -136,25 +135,61 @@ std::string legend_of(const RunChart& chart) {
   return out;
 }
 
+int severity_of(const record::ArchivedResult& one) {
+  for (const auto& word : words_of(evaluation::Verdict::kConforms)) {
+    if (one.result.verdict == word.text) return severity(word.value);
+  }
+  return -1;
+}
+
+/// Share of the limit as Callout has it; 0 where there is none.
+double share_of(const record::ArchiveResult& one) {
+  if (!one.value) return 0.0;
+  if (one.upper_limit && one.lower_limit) {
+    const double half = 0.5 * (*one.upper_limit - *one.lower_limit);
+    return half > 0.0 ? std::abs(*one.value - *one.lower_limit - half) / half : 0.0;
+  }
+  const bool size = one.symbol.starts_with("d ");
+  return one.upper_limit && *one.upper_limit > 0.0 && !size ? *one.value / *one.upper_limit : 0.0;
+}
+
+/// One run: how many of its results conform, and the one that decides or is nearest to its limit.
+std::string run_line(std::span<const record::ArchivedResult> run) {
+  const auto& worst = *std::ranges::max_element(run, {}, [](const record::ArchivedResult& one) {
+    return std::pair(severity_of(one), share_of(one.result));
+  });
+  const auto number = [&](evaluation::Verdict verdict) {
+    return std::ranges::count_if(
+        run, [&](const auto& one) { return one.result.verdict == name_of(verdict); });
+  };
+  const auto toleranced = std::ssize(run) - number(evaluation::Verdict::kNotToleranced);
+  const std::string value = worst.result.value
+                                ? fmt::format("{} {}", um(*worst.result.value),
+                                              name_of(unit_of_archive(worst.result.unit)))
+                                : "-";
+  std::string line =
+      fmt::format("{} {} {} {:>7} {} {:>11} {}", cell(minute_of(worst.head.started_utc), 16),
+                  cell(worst.head.part_id, 8), cell(worst.head.serial, 7),
+                  fmt::format("{}/{}", number(evaluation::Verdict::kConforms), toleranced),
+                  cell(worst.result.characteristic, 9), value, cell(worst.result.verdict, 16));
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
 }  // namespace
 
+bool in_one_run(const record::ArchivedResult& one, const record::ArchivedResult& other) {
+  return one.run == other.run && one.head.run_id == other.head.run_id;
+}
+
 std::string history_table(std::span<const record::ArchivedResult> newest_first) {
-  std::string out = "started (UTC)    part      serial  charact.    value/um   limit verdict\n";
-  for (auto r = newest_first.rbegin(); r != newest_first.rend(); ++r) {
-    std::string line =
-        fmt::format("{} {} {} {} {:>8} {:>7} {}", cell(minute_of(r->head.started_utc), 16),
-                    cell(r->head.part_id, 9), cell(r->head.serial, 7),
-                    cell(r->result.characteristic, 11), um_or_dash(r->result.value),
-                    um_or_dash(r->result.upper_limit), cell(r->result.verdict, 16));
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
-    if (unit_of_archive(r->result.unit) == core::ValueUnit::kUrad) {  // the head says um
-      out += fmt::format("{:>63}\n", "in urad");
-    }
-    if (r->result.lower_limit) {  // below the limit, which is the upper one
-      out += fmt::format("{:>{}}\n",
-                         fmt::format("lower limit {:>7}", um_or_dash(r->result.lower_limit)), 63);
-    }
+  std::string out = "started (UTC)    part     serial  conform nearest         value verdict\n";
+  for (auto left = newest_first; !left.empty();) {
+    const auto first = std::ranges::find_if(left.rbegin(), left.rend(), [&](const auto& one) {
+                         return !in_one_run(one, left.back());
+                       }).base();
+    out += run_line({first, left.end()});
+    left = {left.begin(), first};
   }
   return out;
 }

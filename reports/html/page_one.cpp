@@ -16,7 +16,6 @@
 #include "reports/html/sections.h"
 #include "reports/words/callouts.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/gates.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -268,59 +267,8 @@ std::string results_table(const std::vector<Callout>& callouts) {
                 "is the limit. Worst at: part z, angle from part x."));
 }
 
-/// "CYLt of journal B is 0.31 µm over its limit of 4 µm".
-std::string failing_in_words(const Callout& callout) {
-  const std::string name =
-      trf("{} of {}", escaped(callout.symbol), isolated(callout.feature->feature.id));
-  const evaluation::Verdict verdict = callout.result->verdict;
-  if (verdict != evaluation::Verdict::kDoesNotConform || callout.beyond.empty())
-    return trf("{}: {}", name, tr(name_of(verdict)));
-  return callout.below ? trf("{} is {} below its limit of {}", name, callout.beyond, callout.passed)
-                       : trf("{} is {} over its limit of {}", name, callout.beyond, callout.passed);
-}
-
-/// The failing call-outs or the one nearest to its limit, then the count.
-std::string answer(const std::vector<Callout>& callouts) {
-  constexpr std::size_t kMostNamed = 2;
-  std::size_t toleranced = 0;
-  std::size_t conforming = 0;
-  std::size_t named = 0;
-  std::string html;
-  for (const Callout& callout : callouts) {
-    if (!callout.result->characteristic.toleranced()) continue;
-    ++toleranced;
-    if (callout.result->verdict == evaluation::Verdict::kConforms) {
-      ++conforming;
-      continue;
-    }
-    if (named++ < kMostNamed) html += (html.empty() ? "" : tr("; ")) + failing_in_words(callout);
-  }
-  if (toleranced == 0) return tr("No characteristic has a tolerance.");
-  if (named > 0) {
-    html = trf("{}.", html);
-  } else if (const Callout& nearest = callouts.front(); nearest.share_1) {
-    html = trf("Nearest to its limit: {} of {}, {} %.", escaped(nearest.symbol),
-               isolated(nearest.feature->feature.id), fixed(100.0 * *nearest.share_1, 0));
-  }
-  return html + " " +
-         (conforming == 1 ? trf("{} of {} conforms.", conforming, toleranced)
-                          : trf("{} of {} conform.", conforming, toleranced));
-}
-
-/// The banners that are true of the run: simulated, some values only bounds.
-std::string banners(const record::RunRecord& record, const std::vector<Callout>& callouts) {
-  std::string html;
-  const auto add = [&](const std::string& word, const std::string& text) {
-    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", word, text);
-  };
-  if (record.header.simulated) add(tr("Simulated:"), tr("no real part was measured."));
-  if (std::ranges::any_of(callouts, [](const Callout& callout) {
-        return callout.result->value && is_bound(*callout.result->value);
-      })) {
-    add(tr("Bounds:"), tr("of a value with ≤ or ≥ only one end of its interval is known: an upper "
-                          "or a lower bound, no estimate."));
-  }
-  return html;
+std::string callout_in_html(const Callout& callout) {
+  return trf("{0} of {1}", escaped(callout.symbol), isolated(callout.feature->feature.id));
 }
 
 /// The worst call-out: the section where it is worst and the whole surface beside it.
@@ -372,41 +320,6 @@ std::string measured_in_words(const record::RunRecord& record,
                            fixed(1e3 * evaluation.probe->form_mm, 2));
   }
   return html.empty() ? tr("nothing") : html;
-}
-
-/// In U, not in U; why there is none.
-std::string uncertainty_in_words(const std::vector<Callout>& callouts) {
-  std::vector<std::string> in;
-  std::vector<std::string> out;
-  std::string why;
-  bool all = true;
-  const auto add = [](std::vector<std::string>& to, const std::string& name) {
-    if (std::ranges::find(to, name) == to.end()) to.push_back(name);
-  };
-  for (const Callout& callout : callouts) {
-    if (!callout.result->value) continue;
-    const evaluation::UncertaintyStatus& status = callout.result->value->uncertainty();
-    if (!status.result()) {
-      all = false;
-      if (why.empty() && !status.why().empty()) why = in_sentence(status.why());
-      continue;
-    }
-    for (const evaluation::InfluenceStatement& one : status.result()->declaration)
-      add(one.covered ? in : out, worded(core::Phrase(one.name)));
-  }
-  std::erase_if(in,
-                [&](const std::string& name) { return std::ranges::find(out, name) != out.end(); });
-  const auto listed = [](const std::vector<std::string>& names) {
-    std::string html;
-    for (const std::string& name : names) html += (html.empty() ? "" : tr(", ")) + name;
-    return html;
-  };
-  std::string html;
-  if (!in.empty()) html += trf("In U: {}.", listed(in)) + " ";
-  if (!out.empty()) html += trf("Not in U: {}.", listed(out)) + " ";
-  if (all && !html.empty()) return html;
-  return html + (why.empty() ? tr("Without U: no uncertainty is stated.")
-                             : trf("Without U: no uncertainty is stated ({}).", why));
 }
 
 std::string not_seen_in_words(const evaluation::Evaluation& evaluation) {
@@ -552,15 +465,16 @@ std::string verdict_section(const record::RunRecord& record,
       "</div></div>",
       verdict_mark(verdict, 48), css_name(verdict),
       incomplete_headline(record, evaluation).value_or(capitalised(tr(name_of(verdict)))),
-      answer(callouts));
-  html +=
-      banners(record, callouts) + results_table(callouts) + worst_drawing(drawn_callout(callouts));
+      answer_in_words(callouts, callout_in_html));
+  for (const auto& [word, text] : remarks_on(record, callouts))
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", word, text);
+  html += results_table(callouts) + worst_drawing(drawn_callout(callouts));
   const std::string rule =
       in_sentence(rule_sentence(evaluation),
                   evaluation.rule ? std::string_view() : evaluation.rule.error().what);
   return html + R"(<dl class="lines">)" +
          entry(tr("Measured"), measured_in_words(record, evaluation)) + entry(tr("Rule"), rule) +
-         entry(tr("Uncertainty"), uncertainty_in_words(callouts)) +
+         entry(tr("Uncertainty"), uncertainty_in_words(callouts, in_sentence)) +
          entry(tr("Not seen"), not_seen_in_words(evaluation)) + "</dl>" + foot(record.header) +
          "</section>";
 }

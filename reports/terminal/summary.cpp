@@ -1,6 +1,7 @@
 #include "reports/terminal/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "reports/data/contour.h"
 #include "reports/escaping.h"
 #include "reports/terminal/internal/columns.h"
+#include "reports/words/callouts.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/gates.h"
 
@@ -159,29 +161,29 @@ std::string line_of(core::Error error) {
   return titled(error.code) + core::to_line(error);
 }
 
-std::string upper(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return result;
+/// A call-out by the name that the plan gives it.
+std::string callout_in_text(const Callout& callout) {
+  return trf("{0} of {1}", printable(callout.result->characteristic.id),
+             printable(callout.feature->feature.id));
 }
 
+void add_plain(std::string& out, std::string_view text) {
+  out += wrapped("", text, LineBreaks::kAtWideCharacters);
+}
+
+/// The count, remarks on all values, and why the run did not finish.
 void add_head(std::string& out, const record::RunRecord& record,
-              const evaluation::Evaluation& evaluation) {
-  const record::Header& header = record.header;
-  out += incomplete_headline(record, evaluation).value_or(upper(tr(name_of(evaluation.verdict)))) +
-         "\n";
-  const auto rule = rule_sentence(evaluation);
-  add_wrapped(out, tr("rule"), rule ? *rule : evaluation.rule.error().what);
-  std::string part = header.part_id;
-  for (const std::string& more : {header.part_name, header.drawing}) {
-    if (!more.empty()) part += ", " + more;
+              const evaluation::Evaluation& evaluation, const std::vector<Callout>& callouts) {
+  const auto carries_verdict = [&](const Callout& callout) {
+    return callout.result->verdict == evaluation.verdict;
+  };
+  if (const auto incomplete = incomplete_headline(record, evaluation)) {
+    add_plain(out, *incomplete);
+  } else if (std::ranges::none_of(callouts, carries_verdict)) {
+    add_plain(out, capitalised(tr(name_of(evaluation.verdict))));  // of a feature without a result
   }
-  if (!header.serial.empty()) part += trf(", serial {}", header.serial);
-  add_wrapped(out, tr("part"), part);
-  add_wrapped(out, tr("run"), header.run_id);
-  if (header.simulated) add_wrapped(out, tr("simulated"), tr("no real part was measured"));
+  add_plain(out, answer_in_words(callouts, callout_in_text));
+  for (const auto& [word, text] : remarks_on(record, callouts)) add_plain(out, word + " " + text);
   if (record.ending == "finished") return;
   add_wrapped(out, tr("not finished"),
               record.ending.empty() ? tr("the run has no end on record")
@@ -192,10 +194,108 @@ void add_head(std::string& out, const record::RunRecord& record,
   }
 }
 
-/// Bias of a value, the largest influence, and what the interval contains and what it does not.
-/// @param said  Said of the feature so far: what several intervals contain is said once.
-void add_uncertainty(std::string& out, const evaluation::StatedValue& value,
-                     std::set<std::string>& said) {
+void add_origin(std::string& out, const record::Header& header,
+                const evaluation::Evaluation& evaluation) {
+  const auto rule = rule_sentence(evaluation);
+  add_wrapped(out, tr("rule"), rule ? *rule : evaluation.rule.error().what);
+  std::string part = header.part_id;
+  for (const std::string& more : {header.part_name, header.drawing}) {
+    if (!more.empty()) part += ", " + more;
+  }
+  if (!header.serial.empty()) part += trf(", serial {}", header.serial);
+  add_wrapped(out, tr("part"), part);
+  add_wrapped(out, tr("run"), header.run_id);
+}
+
+/// A column of the call-outs, as wide as its widest cell.
+struct Column {
+  std::string head;
+  bool right = false;
+  int spared = 0;  ///< Left out as the n-th where the lines are too long; 0: never.
+  std::vector<std::string> cells = {};
+  std::size_t width = 0;
+};
+
+std::vector<Column> columns_of(const std::vector<Callout>& callouts) {
+  std::vector<Column> out = {{tr("Feature")},
+                             {tr("Call-out")},
+                             {tr("Characteristic"), false, 1},
+                             {tr("Value"), true},
+                             {"U", true},
+                             {""},
+                             {tr("Limit"), true},
+                             {tr("Share"), true, 3},
+                             {tr("Worst at"), false, 2}};
+  for (const Callout& one : callouts) {
+    const record::Characteristic& asked = one.result->characteristic;
+    const std::array<std::string, 9> cells = {
+        printable(one.feature->feature.id),
+        printable(asked.id),
+        fmt::format("{} {}", one.symbol, evaluation::reference_of(asked)),
+        one.value.empty() ? tr("no value") : one.value,
+        one.expanded,
+        std::string(core::sign_of(one.unit)),
+        one.limit,
+        one.share_1 ? fixed(100.0 * *one.share_1, 0) + " %" : "",
+        one.place};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].cells.push_back(cells[i]);
+  }
+  std::erase_if(out, [](const Column& column) {
+    const bool names = !column.right && column.spared == 0;
+    return !names && std::ranges::all_of(column.cells, &std::string::empty);
+  });
+  for (Column& column : out) {
+    column.width = columns(column.head);
+    for (const std::string& cell : column.cells)
+      column.width = std::max(column.width, columns(cell));
+  }
+  return out;
+}
+
+/// Leaves out what a reader can best do without, then shortens names, until a line fits.
+void fit_into_line(std::vector<Column>& table) {
+  const auto too_wide = [&table] {
+    std::size_t sum = 0;
+    for (const Column& column : table) sum += column.width + 2;
+    return sum > kTerminalColumns;
+  };
+  for (int next = 1; next <= 3 && too_wide(); ++next)
+    std::erase_if(table, [next](const Column& column) { return column.spared == next; });
+  constexpr std::size_t kLeastName = 6;
+  while (too_wide()) {
+    Column& name = table[0].width > table[1].width ? table[0] : table[1];
+    if (name.width <= kLeastName) return;
+    --name.width;
+  }
+}
+
+/// The call-outs below their verdicts, a line each.
+void add_table(std::string& out, const std::vector<Callout>& callouts) {
+  if (callouts.empty()) return;
+  std::vector<Column> table = columns_of(callouts);
+  fit_into_line(table);
+  const auto add_row = [&](const auto& cell_of) {
+    std::string line;
+    for (const Column& column : table) {
+      const std::string cell = shortened(cell_of(column), column.width);
+      const std::string space(column.width - columns(cell), ' ');
+      line += "  " + (column.right ? space + cell : cell + space);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += shortened(line, kTerminalColumns) + "\n";
+  };
+  out += "\n";
+  add_row([](const Column& column) { return column.head; });
+  for (std::size_t i = 0; i < callouts.size(); ++i) {
+    const evaluation::Verdict verdict = callouts[i].result->verdict;
+    if (i == 0 || callouts[i - 1].result->verdict != verdict)
+      out += capitalised(tr(name_of(verdict))) + "\n";
+    add_row([i](const Column& column) { return column.cells[i]; });
+  }
+}
+
+/// The interval of a value, its bias and the largest influence.
+void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   const evaluation::UncertaintyResult& u = *value.uncertainty().result();
   const std::string unit(name_of(value.unit()));
   const auto line = [&](const std::string& name, const evaluation::UncertaintyStatement& s) {
@@ -233,12 +333,6 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value,
   }
   add_wrapped(out, "    " + tr("bias"), bias);
   for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
-  for (const bool covered : {true, false}) {
-    const std::string names =
-        influences_in_words(u, covered, [](const std::string& name) { return tr(name); });
-    const std::string head = "    " + (covered ? tr("in it") : tr("not in it"));
-    if (!names.empty() && said.insert(head + names).second) add_wrapped(out, head, names);
-  }
 }
 
 /// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm", of a value with a sign "-20 to 5
@@ -333,7 +427,7 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
                         std::set<std::string>& said) {
   const record::Characteristic& asked = result.characteristic;
   const std::string value = result.value
-                                ? fmt::format("{}{} {}", bound_sign(*result.value, "<= ", ">= "),
+                                ? fmt::format("{}{} {}", bound_sign(*result.value, "≤ ", "≥ "),
                                               result.value->in_digits(result.value->quoted_mm()),
                                               name_of(result.value->unit()))
                                 : tr("no value");
@@ -356,7 +450,7 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
   if (const std::string own = own_rule_in_words(asked); !own.empty())
     add_wrapped(out, "    " + tr("rule"), own);
   if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
-  if (!simple && result.value) add_uncertainty(out, *result.value, said);
+  if (!simple && result.value) add_uncertainty(out, *result.value);
   if (result.finding && result.value) add_finding(out, *result.finding, *result.value, said);
 }
 
@@ -454,41 +548,73 @@ void add_analysis(std::string& out, const record::RunRecord& record, std::size_t
   }
 }
 
+bool conforms(const evaluation::CharacteristicResult& result) {
+  using evaluation::Verdict;
+  return result.verdict == Verdict::kConforms || result.verdict == Verdict::kNotToleranced;
+}
+
+/// @param all  False: only the call-outs that do not conform, and why there is no result.
+void add_details(std::string& out, const record::RunRecord& record, std::size_t index,
+                 const evaluation::FeatureResult& feature, bool all) {
+  if (!all && !feature.failure && std::ranges::all_of(feature.characteristics, conforms)) return;
+  out += "\n";
+  add_wrapped(out, tr("feature"), heading_of(feature));
+  std::set<std::string> said;
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+    if (!all && conforms(result)) continue;
+    add_characteristic(out, result, said);
+    for (core::Error warning : feature.warnings) {
+      if (std::exchange(warning.where, "") != result.characteristic.id) continue;
+      add_wrapped(out, "    " + tr("warning"), line_of(std::move(warning)));
+    }
+  }
+  if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
+  if (!all) return;
+  add_absent_intervals(out, feature);
+  add_analysis(out, record, index, feature);
+  add_gates(out, feature);
+  add_zone(out, feature);
+  add_one_sided(out, feature);
+  add_truth(out, evaluation::truth_of(record, index), feature);
+  for (const core::Error& warning : feature.warnings) {
+    const auto stands = [&](const evaluation::CharacteristicResult& result) {
+      return result.characteristic.id == warning.where;
+    };
+    if (std::ranges::any_of(feature.characteristics, stands)) continue;
+    add_wrapped(out, "  " + tr("warning"), line_of(warning));
+  }
+}
+
+std::string terminal_text(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                          Language language, bool all) {
+  const LanguageScope scope(language);
+  const std::vector<Callout> callouts = callouts_of(evaluation);
+  std::string out;
+  add_head(out, record, evaluation, callouts);
+  if (all) add_origin(out, record.header, evaluation);
+  add_table(out, callouts);
+  for (std::size_t i = 0; i < evaluation.features.size(); ++i)
+    add_details(out, record, i, evaluation.features[i], all);
+  out += "\n";
+  add_plain(out, uncertainty_in_words(callouts, words));
+  return with_signs(out);
+}
+
 }  // namespace
+
+std::string write_answer(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                         Language language) {
+  return terminal_text(record, evaluation, language, false);
+}
 
 std::string write_summary(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
                           Language language) {
+  return terminal_text(record, evaluation, language, true);
+}
+
+std::string write_whereabouts(std::string_view report, std::string_view next, Language language) {
   const LanguageScope scope(language);
-  std::string out;
-  add_head(out, record, evaluation);
-  for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
-    const evaluation::FeatureResult& feature = evaluation.features[i];
-    out += "\n";
-    add_wrapped(out, tr("feature"), heading_of(feature));
-    std::set<std::string> said;
-    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
-      add_characteristic(out, result, said);
-      for (core::Error warning : feature.warnings) {
-        if (std::exchange(warning.where, "") != result.characteristic.id) continue;
-        add_wrapped(out, "    " + tr("warning"), line_of(std::move(warning)));
-      }
-    }
-    if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
-    add_absent_intervals(out, feature);
-    add_analysis(out, record, i, feature);
-    add_gates(out, feature);
-    add_zone(out, feature);
-    add_one_sided(out, feature);
-    add_truth(out, evaluation::truth_of(record, i), feature);
-    for (const core::Error& warning : feature.warnings) {
-      const auto stands = [&](const evaluation::CharacteristicResult& result) {
-        return result.characteristic.id == warning.where;
-      };
-      if (std::ranges::any_of(feature.characteristics, stands)) continue;
-      add_wrapped(out, "  " + tr("warning"), line_of(warning));
-    }
-  }
-  return out;
+  return next.empty() ? trf("Report: {}", report) : trf("Report: {}; next: {}", report, next);
 }
 
 }  // namespace rondure::reports

@@ -191,6 +191,15 @@ void add_value(Callout& out) {
   out.expanded = number(known->expanded_mm());
 }
 
+/// "CYLt of journal B is 0.31 µm over its limit of 4 µm".
+std::string failing_in_words(const Callout& callout, const std::string& name) {
+  const evaluation::Verdict verdict = callout.result->verdict;
+  if (verdict != evaluation::Verdict::kDoesNotConform || callout.beyond.empty())
+    return trf("{}: {}", name, tr(name_of(verdict)));
+  return callout.below ? trf("{} is {} below its limit of {}", name, callout.beyond, callout.passed)
+                       : trf("{} is {} over its limit of {}", name, callout.beyond, callout.passed);
+}
+
 }  // namespace
 
 std::string limits_in_words(const record::Characteristic& asked, std::string_view between) {
@@ -239,6 +248,78 @@ std::vector<Callout> callouts_of(const evaluation::Evaluation& evaluation) {
     return one != other ? one > other : a.share_1.value_or(0.0) > b.share_1.value_or(0.0);
   });
   return out;
+}
+
+std::string answer_in_words(const std::vector<Callout>& callouts,
+                            std::string (*name)(const Callout&)) {
+  constexpr std::size_t kMostNamed = 2;
+  std::size_t toleranced = 0;
+  std::size_t conforming = 0;
+  std::string failing;
+  for (const Callout& callout : callouts) {
+    if (!callout.result->characteristic.toleranced()) continue;
+    ++toleranced;
+    if (callout.result->verdict == evaluation::Verdict::kConforms) {
+      ++conforming;
+    } else if (toleranced - conforming <= kMostNamed) {
+      failing += tr("; ") + failing_in_words(callout, name(callout));
+    }
+  }
+  if (toleranced == 0) return tr("No characteristic has a tolerance.");
+  const std::string number = conforming == 1 ? trf("{} of {} conforms", conforming, toleranced)
+                                             : trf("{} of {} conform", conforming, toleranced);
+  const Callout& nearest = callouts.front();
+  if (!failing.empty() || !nearest.share_1) return trf("{}.", number + failing);
+  return trf("{}; nearest: {}, {} %.", number, name(nearest), fixed(100.0 * *nearest.share_1, 0));
+}
+
+std::vector<std::pair<std::string, std::string>> remarks_on(const record::RunRecord& record,
+                                                            const std::vector<Callout>& callouts) {
+  std::vector<std::pair<std::string, std::string>> out;
+  if (record.header.simulated) out.emplace_back(tr("Simulated:"), tr("no real part was measured."));
+  if (std::ranges::any_of(callouts, [](const Callout& callout) {
+        return callout.result->value && is_bound(*callout.result->value);
+      })) {
+    out.emplace_back(tr("Bounds:"),
+                     tr("of a value with ≤ or ≥ only one end of its interval is known: an upper "
+                        "or a lower bound, no estimate."));
+  }
+  return out;
+}
+
+std::string uncertainty_in_words(const std::vector<Callout>& callouts,
+                                 std::string (*say)(const core::Phrase&)) {
+  std::vector<std::string> in;
+  std::vector<std::string> out;
+  std::string why;
+  bool all = true;
+  const auto add = [](std::vector<std::string>& to, const std::string& name) {
+    if (std::ranges::find(to, name) == to.end()) to.push_back(name);
+  };
+  for (const Callout& callout : callouts) {
+    if (!callout.result->value) continue;
+    const evaluation::UncertaintyStatus& status = callout.result->value->uncertainty();
+    if (!status.result()) {
+      all = false;
+      if (why.empty() && !status.why().empty()) why = say(status.why());
+      continue;
+    }
+    for (const evaluation::InfluenceStatement& one : status.result()->declaration)
+      add(one.covered ? in : out, say(core::Phrase(one.name)));
+  }
+  std::erase_if(in,
+                [&](const std::string& name) { return std::ranges::find(out, name) != out.end(); });
+  const auto listed = [](const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : tr(", ")) + name;
+    return text;
+  };
+  std::string text;
+  if (!in.empty()) text += trf("In U: {}.", listed(in)) + " ";
+  if (!out.empty()) text += trf("Not in U: {}.", listed(out)) + " ";
+  if (all && !text.empty()) return text;
+  return text + (why.empty() ? tr("Without U: no uncertainty is stated.")
+                             : trf("Without U: no uncertainty is stated ({}).", why));
 }
 
 }  // namespace rondure::reports

@@ -3,11 +3,15 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/phrase.h"
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/finding.h"
+#include "record/run_record.h"
 
 namespace rondure::reports {
 
@@ -37,5 +41,21 @@ struct Callout {
 /// "≤ 30 mm, ≥ 29.987 mm".
 [[nodiscard]] std::string limits_in_words(const record::Characteristic& asked,
                                           std::string_view between);
+
+/// The sentence that page and terminal begin with: "20 of 20 conform; nearest: GPRt 4 of journal B,
+/// 76 %.", "19 of 20 conform; CYLt of journal B is 0.31 µm over its limit of 4 µm."
+/// @param callouts  In the order of callouts_of(). The first two that do not conform are named.
+/// @param name      A call-out as page or terminal names it.
+[[nodiscard]] std::string answer_in_words(const std::vector<Callout>& callouts,
+                                          std::string (*name)(const Callout&));
+
+/// What is true of all results: simulated; some are only bounds. A word and its sentence each.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> remarks_on(
+    const record::RunRecord& record, const std::vector<Callout>& callouts);
+
+/// The influences that are in U, those that are not, and why a value has no U.
+/// @param say  Words of another room as page or terminal writes them.
+[[nodiscard]] std::string uncertainty_in_words(const std::vector<Callout>& callouts,
+                                               std::string (*say)(const core::Phrase&));
 
 }  // namespace rondure::reports

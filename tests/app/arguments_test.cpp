@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.h"
+#include "core/message.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 
@@ -32,6 +38,125 @@ TEST(Arguments, HelpNamesEveryVerbAndTheExitStatus) {
   for (const char* word : {"validate", "plan", "run", "fit", "report", "verify", "Exit status"}) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
   }
+}
+
+TEST(Arguments, HelpVerbIsTheHelpOfThatVerb) {
+  for (const std::vector<std::string>& verb :
+       {std::vector<std::string>{}, {"run"}, {"fit", "roundness"}, {"help"}}) {
+    std::vector<std::string> by_verb = {"help"};
+    std::vector<std::string> by_flag = verb;
+    by_verb.insert(by_verb.end(), verb.begin(), verb.end());
+    by_flag.emplace_back("--help");
+    const Outcome outcome = rondure(by_verb);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.out, HasSubstr("--help"));
+    if (verb != std::vector<std::string>{"help"}) {
+      EXPECT_EQ(outcome.out, rondure(by_flag).out);
+    }
+  }
+  const Outcome unknown = rondure({"help", "mesure"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("there is no verb mesure"));
+}
+
+/// The commands that the examples of all --help texts show: the manual page holds them all.
+std::vector<std::vector<std::string>> examples_of_help() {
+  std::string manual = rondure({"manual"}).out;
+  manual.erase(0, manual.find(".SH VERBS"));
+  for (std::size_t at = 0; (at = manual.find("\\-", at)) != std::string::npos; ++at)
+    manual.erase(at, 1);
+  std::vector<std::vector<std::string>> out;
+  std::istringstream lines(manual);
+  bool in_example = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    std::string text = line.substr(indent);
+    for (const std::string_view before : {"Example: ", "source <("})
+      if (text.starts_with(before)) text.erase(0, before.size());
+    const bool begins = text.starts_with("rondure ");
+    in_example = begins || (in_example && indent >= 4 && text.starts_with("--"));
+    if (!in_example) continue;
+    if (begins) out.emplace_back();
+    std::istringstream words(begins ? text.substr(text.find(' ')) : text);
+    for (std::string word; words >> word && word != "|";) {
+      if (word == "\\e") continue;  // the line goes on
+      if (word.ends_with(')')) word.pop_back();
+      out.back().push_back(word == "cmm.lab:1294" ? "127.0.0.1:1" : word);
+    }
+  }
+  return out;
+}
+
+// Those that only compute are run; the others stand in an empty folder, where they are understood
+// and then find no plan, no run or no machine.
+TEST(Arguments, EveryExampleOfHelpIsUnderstood) {
+  const TemporaryFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::create_directory(folder / "empty");
+  for (const char* named : {"plans", "tests"})
+    std::filesystem::create_directory_symlink(source_dir() / named, folder / named);
+  const auto examples = examples_of_help();
+  EXPECT_GE(examples.size(), 30U);
+  for (const std::vector<std::string>& words : examples) {
+    SCOPED_TRACE(::testing::PrintToString(words));
+    const bool computes = words.front() == "fit" || words.front() == "validate";
+    bool complete = computes;
+    for (const std::string& word : words) {
+      const bool ours = word.starts_with("plans/") || word.starts_with("tests/");
+      if (ours) EXPECT_TRUE(std::filesystem::exists(source_dir() / word)) << word;
+      complete = complete && word.find("a1.csv") == std::string::npos;
+    }
+    std::filesystem::current_path(computes ? folder.path() : folder / "empty");
+    const Outcome outcome = rondure(words);
+    std::filesystem::current_path(before);
+    EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("--help")));
+    if (complete) EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+}
+
+TEST(Arguments, AMisspeltVerbOrOptionFindsItsWord) {
+  EXPECT_THAT(rondure({"raport", "runs/7"}).err,
+              HasSubstr("there is no verb raport; did you mean report?"));
+  EXPECT_THAT(rondure({"run", "plan.json", "--serail", "7"}).err,
+              HasSubstr("there is no option --serail; did you mean --serial?"));
+  EXPECT_THAT(rondure({"fit", "roundness", "a.csv", "--cutof-upr=50"}).err,
+              HasSubstr("there is no option --cutof-upr; did you mean --cutoff-upr?"));
+  const std::string far = rondure({"run", "plan.json", "--colour"}).err;
+  EXPECT_THAT(far, AllOf(HasSubstr("there is no option --colour\n"),
+                         ::testing::Not(HasSubstr("did you mean"))));
+}
+
+TEST(Explain, KnowsEveryCodeAndSaysWhatToDo) {
+  std::istringstream words(rondure({"explain"}).out);
+  std::vector<std::string> names;
+  for (std::string word; words >> word;) names.push_back(word);
+  for (int i = 0; i <= static_cast<int>(core::kLastCode); ++i)
+    EXPECT_THAT(names, ::testing::Contains(core::code_name(static_cast<core::Code>(i))));
+  for (int i = 0; i <= static_cast<int>(core::kLastMessageCode); ++i)
+    EXPECT_THAT(names, ::testing::Contains(core::message_name(static_cast<core::MessageCode>(i))));
+  const Outcome one = rondure({"explain", "[no-touch]"});
+  EXPECT_EQ(one.status, 0);
+  EXPECT_THAT(one.out, AllOf(::testing::StartsWith("no-touch: The probe met nothing"),
+                             HasSubstr("correct its place in the plan.\n")));
+  const Outcome unknown = rondure({"explain", "no-toch"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("there is no code no-toch; did you mean no-touch?"));
+}
+
+// What `validate` names as not declared has its line, too.
+TEST(Explain, KnowsTheInfluences) {
+  const std::string names = rondure({"explain"}).out;
+  const TemporaryFolder folder;
+  write_plan(folder / "plan.json", {{"/uncertainty", {{"coverage_percent", 95}}}});
+  std::string told = rondure({"validate", folder / "plan.json"}).out;
+  told.erase(0, told.find("so in no interval: ") + 19);
+  std::istringstream words(told);
+  int known = 0;
+  for (std::string word; words >> word; ++known) {
+    if (word.ends_with(',')) word.pop_back();
+    EXPECT_THAT(names, HasSubstr(word));
+  }
+  EXPECT_GT(known, 10) << told;
 }
 
 TEST(Arguments, WhatIsNotUnderstoodIsNamed) {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/schema/internal/near_words.h"
 #include "plans/schema/key_spec.h"
+#include "plans/schema/near_words.h"
 #include "plans/schema/utf8.h"
 
 namespace rondure::plans {
@@ -89,6 +89,20 @@ TEST(NearWords, ASlipFindsItsWordAndAForeignWordNone) {
   EXPECT_EQ(nearest_word("from", known), "form");
   EXPECT_EQ(nearest_word("operator", known), "");
   EXPECT_EQ(nearest_word(std::string(100'000, 'x'), known), "");
+}
+
+TEST(NearWords, AWordOfTheTradeFindsThatOfThePlan) {
+  const std::vector<std::string_view> forms = {"cylindricity", "roundness", "run-out",
+                                               "total-run-out", "perpendicularity"};
+  EXPECT_EQ(nearest_word("circularity", forms), "roundness");
+  EXPECT_EQ(nearest_word("runout", forms), "run-out");
+  EXPECT_EQ(nearest_word("Total Runout", forms), "total-run-out");
+  EXPECT_EQ(nearest_word("squareness", forms), "perpendicularity");
+  EXPECT_EQ(nearest_word("Least squares", {"mz", "ls"}), "ls");
+  // A word has its meaning where it is one of those that are known there.
+  EXPECT_EQ(nearest_word("bore", {"outside", "inside"}), "inside");
+  EXPECT_EQ(nearest_word("bore", {"plane", "cylinder"}), "cylinder");
+  EXPECT_EQ(nearest_word("bore", forms), "");
 }
 
 TEST(KeySpec, TheUnitIsTheSuffixOfTheKey) {

@@ -189,7 +189,7 @@ TEST(AnalysisInterval, StandsInEveryWriter) {
               HasSubstr("$$ F1T1: EM sync = 1.6 um, 95 % [0.1, 3.2]; as read 3.1 um"));
   EXPECT_THAT(write_qif(made.record, made.evaluation),
               HasSubstr("combinedUncertainty=\"0.0008\">0.0016<"));
-  EXPECT_THAT(analysis_summary(made), HasSubstr("1.6 um, 95 % within [0.1, 3.2] um"));
+  EXPECT_THAT(analysis_summary(made), HasSubstr("1.6 µm, 95 % within [0.1, 3.2] µm"));
   const std::string page = page_of(made);
   EXPECT_EQ(testing::first_unbalanced_tag(page), "");
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>Uncertainty</h2>"), HasSubstr("1.6 [0.1, 3.2]"),
@@ -314,7 +314,7 @@ TEST(AnalysisInterval, AnUpperBoundIsNowhereAValue) {
                          HasSubstr("none: the value is the upper bound, 97.5 % lie below")));
   EXPECT_TRUE(check_qif(qif).empty());
   EXPECT_THAT(analysis_summary(made),
-              AllOf(HasSubstr("<= 3.2 um"), HasSubstr("at most 3.2 um at the "),
+              AllOf(HasSubstr("≤ 3.2 µm"), HasSubstr("at most 3.2 µm at the "),
                     Not(HasSubstr("within ["))));
   const std::string page = page_of(made);
   EXPECT_EQ(testing::first_unbalanced_tag(page), "");
@@ -338,7 +338,7 @@ TEST(AnalysisInterval, ALowerBoundIsNowhereWithinTwoEnds) {
   EXPECT_THAT(write_results_csv(made.record, made.evaluation), HasSubstr(",,0.1,\n"));
   EXPECT_THAT(write_qif(made.record, made.evaluation),
               HasSubstr("none: the value is the lower bound, 97.5 % lie above"));
-  EXPECT_THAT(analysis_summary(made), AllOf(HasSubstr(">= 0.1 um"), Not(HasSubstr("within ["))));
+  EXPECT_THAT(analysis_summary(made), AllOf(HasSubstr("≥ 0.1 µm"), Not(HasSubstr("within ["))));
   EXPECT_THAT(page_of(made), AllOf(HasSubstr("<b class=\"value\">≥ 0.1</b>"), HasSubstr("Bounds:"),
                                    HasSubstr("<td class=\"n\">3.1</td>"), Not(HasSubstr("[0.1"))));
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -172,6 +174,36 @@ TEST(History, TableAndChartFitATerminal) {
   }
 }
 
+// Of a run the table shows what decides: what fails, else what is nearest to its limit.
+TEST(History, HasALineForEachRun) {
+  std::vector<ArchivedResult> all;
+  for (const ArchivedResult& one : results(2)) {  // run-1, then run-0
+    const bool failing = one.head.run_id == "run-0";
+    for (const auto& [id, value, upper, verdict] :
+         {std::tuple{"near", 0.009, 0.010, "conforms"},
+          {"far", 0.001, 0.010, "conforms"},
+          {"reported", 0.5, 0.1, "not toleranced"},
+          {"over", 0.0045, 0.004, failing ? "does not conform" : "conforms"}}) {
+      if (std::string_view(id) == "over" && !failing) continue;
+      all.push_back(one);
+      all.back().result.characteristic = id;
+      all.back().result.value = value;
+      all.back().result.upper_limit = upper;
+      all.back().result.verdict = verdict;
+    }
+  }
+  EXPECT_EQ(history_table(all),
+            "started (UTC)    part     serial  conform nearest         value verdict\n"
+            "2026-01-01 08:00 SP-100   0000        2/3 over         4.500 um does not conform\n"
+            "2026-01-02 08:00 SP-100   0001        2/2 near         9.000 um conforms\n");
+  // Of a size between two limits the middle is farthest from them, of one limit there is no share.
+  for (ArchivedResult& one : all) one.result.verdict = "conforms";
+  all[0].result = {"f", "middle", "d GN", "", "", "", 30.0, 30.01, "mm", "conforms", "", 29.99};
+  all[1].result = {"f", "one side", "d GN", "", "", "", 29.0, 30.0, "mm", "conforms", ""};
+  all[2].result = {"f", "edge", "d GN", "", "", "", 30.009, 30.01, "mm", "conforms", "", 29.99};
+  EXPECT_THAT(history_table(all), HasSubstr("edge       30009.0 um conforms"));
+}
+
 TEST(History, OfASizeShowsBothLimits) {
   auto sizes = results(60);
   for (ArchivedResult& r : sizes) {
@@ -189,7 +221,6 @@ TEST(History, OfASizeShowsBothLimits) {
   EXPECT_THAT(text, AllOf(HasSubstr("L 29995.0"), HasSubstr("U 30004.0"),
                           HasSubstr("L: its lower limit"), HasSubstr("0.135 % point")));
   expect_plain_80_columns(history_table(sizes));
-  EXPECT_THAT(history_table(sizes), HasSubstr("lower limit 29995.0"));
   EXPECT_THAT(history_svg(chart), HasSubstr("lower limit 29995.0"));
   EXPECT_THAT(history_csv_header(), HasSubstr(",lower_limit\n"));
   EXPECT_THAT(history_csv_rows(sizes), HasSubstr(",29995\n"));
@@ -210,7 +241,7 @@ TEST(History, OfAnAngleIsInMicroradians) {
   EXPECT_EQ(unit_of(chart), core::ValueUnit::kUrad);
   EXPECT_THAT(history_chart(chart, false), AllOf(HasSubstr("  urad +"), Not(HasSubstr("  um +"))));
   EXPECT_THAT(history_svg(chart), HasSubstr("EC \u03b1 / \u00b5rad"));
-  EXPECT_THAT(history_table(angles), HasSubstr("in urad\n"));
+  EXPECT_THAT(history_table(angles), HasSubstr(" 4.250 urad conforms\n"));
   EXPECT_THAT(history_csv_rows(angles), HasSubstr(",4.25,12.5,urad,"));
   EXPECT_THAT(history_table(results(3)), Not(HasSubstr("urad")));
 }

@@ -190,7 +190,7 @@ TEST(Html, NonConformityIsSaidInWords) {
   EXPECT_TRUE(holds(page, ">Does not conform<"));
   EXPECT_TRUE(holds(page, "2.300 µm above the limit"));
   EXPECT_TRUE(
-      holds(page, "CYLt of <bdi>land-A</bdi> is 2.30 µm over its limit of 6 µm. 1 of 2 conforms."));
+      holds(page, "1 of 2 conforms; CYLt of <bdi>land-A</bdi> is 2.30 µm over its limit of 6 µm."));
 }
 
 TEST(Html, RadiiOfAnOutsideFeatureAreReducedByTheTip) {

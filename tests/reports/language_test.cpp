@@ -372,9 +372,10 @@ TEST(ChineseReport, TheSummaryFitsEightyColumnsAndSaysTheVerdict) {
   }
   const Case made = failing_case();
   const std::string text = write_summary(made.record, made.evaluation, Language::kChinese);
-  EXPECT_THAT(text, StartsWith("不合格\n"));
+  EXPECT_THAT(text,
+              StartsWith("2 项中 1 项合格；land-A 的 cyl-A超出公差 6 µm，超出量 2.30 µm。\n"));
   EXPECT_THAT(
-      text, HasSubstr("  CYLt MZCY      8.300 um   公差 6.000 um       不合格            cyl-A\n"));
+      text, HasSubstr("  CYLt MZCY      8.300 µm   公差 6.000 µm       不合格            cyl-A\n"));
 }
 
 TEST(ChineseReport, FormatsForProgramsStayEnglish) {

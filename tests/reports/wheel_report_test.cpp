@@ -135,7 +135,7 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
       EXPECT_FALSE(result.outcome);
       EXPECT_THAT(result.reason, HasSubstr(path.reason));
       EXPECT_THAT(testing::one_line(write_summary(run, *evaluation)),
-                  HasSubstr("because " + printable(result.reason.english())));
+                  HasSubstr("because " + printable(with_signs(result.reason.english()))));
       EXPECT_THAT(write_html(run, *evaluation),
                   HasSubstr(in_sentence(core::Phrase(capitalised(result.reason.english())))));
     }

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/internal/near_words.h"
+#include "plans/schema/near_words.h"
 #include "plans/schema/utf8.h"
 
 namespace rondure::plans {

@@ -170,16 +170,6 @@ std::string own_rule_in_words(const record::Characteristic& asked) {
   return own ? sentence_of(evaluation::rule_of(*own)) : std::string();
 }
 
-std::string influences_in_words(const evaluation::UncertaintyResult& found, bool covered,
-                                std::string (*say)(const std::string& name)) {
-  std::string out;
-  for (const evaluation::InfluenceStatement& influence : found.declaration) {
-    if (influence.covered != covered) continue;
-    out += (out.empty() ? "" : tr(", ")) + say(influence.name);
-  }
-  return out;
-}
-
 std::vector<AbsentInterval> absent_intervals(const evaluation::FeatureResult& feature) {
   std::vector<AbsentInterval> out;
   if (!record::is_analysis(feature.feature.shape)) return out;

@@ -49,12 +49,6 @@ namespace rondure::reports {
 /// The rule of a characteristic that has its own, in words; empty where that of the run holds.
 [[nodiscard]] std::string own_rule_in_words(const record::Characteristic& asked);
 
-/// The names of the influences that an interval contains, or of those that it does not.
-/// @param say  A name as terminal or page writes it.
-[[nodiscard]] std::string influences_in_words(const evaluation::UncertaintyResult& found,
-                                              bool covered,
-                                              std::string (*say)(const std::string& name));
-
 /// Why values of an analysis have no interval: each reason once.
 struct AbsentInterval {
   core::Phrase why;
