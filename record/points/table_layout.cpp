@@ -83,6 +83,9 @@ class Finder {
   /// The layouts to try, the best one first.
   core::Result<std::vector<TableLayout>> find() {
     std::optional<core::Error> fault;
+    if (const std::size_t k = next(0); k < lines_.size() && begins_off(lines_[k].text)) {
+      return core::fail(error_at(lines_[k].number, "the file is an OFF mesh; convert it to PLY"));
+    }
     for (const bool comment : {false, true}) {
       for (std::size_t k = 0; k < lines_.size(); ++k) {
         if (lines_[k].comment != comment) continue;
@@ -123,6 +126,12 @@ class Finder {
     return at_line(syntax_error(std::move(what)), name_, line);
   }
 
+  /// "OFF", "COFF", "STCN4nOFF": the counts of such a mesh would be taken for its first point.
+  static bool begins_off(std::string_view line) {
+    const std::string_view word = fields_of(line, ' ').front();
+    return word.ends_with("OFF") && word.find_first_not_of("STCN4nOF") == std::string_view::npos;
+  }
+
   /// Lines from a place on that are no comments.
   [[nodiscard]] std::size_t next(std::size_t k) const {
     while (k < lines_.size() && lines_[k].comment) ++k;
@@ -141,8 +150,12 @@ class Finder {
 
   /// The unit that a line above the rows states, unless it contradicts another one.
   core::Result<void> take_units(TableLayout& layout, std::size_t end) const {
+    std::string_view before;
     for (std::size_t k = 0; k < end && !options_.unit && !wanted_.polar; ++k) {
-      const auto unit = unit_in_text(lines_[k].text);
+      const std::string_view line = lines_[k].text;  // "Units:" may stand on the line before
+      const auto unit =
+          unit_in_text(before.ends_with(':') ? fmt::format("{} {}", before, line) : line);
+      before = line;
       if (!unit) continue;
       if (layout.unit && layout.unit != unit) {
         return core::fail(at_line({Code::kUnits,

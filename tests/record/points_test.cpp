@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -121,6 +122,9 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"x [mm];y [inch];z [mm]\n1;2;3\n", kUnits, "pin.csv:1", "in mm and in inch"},
       {"Units: inch\nx [mm];y [mm]\n1;2\n", kUnits, "pin.csv:1", "says mm and inch"},
       {"//X Y Z I\n3\n1 2 3 4\n5 6 7 8\n", kSyntax, "pin.csv:4", "announces 3 of them, 2 follow"},
+      {"# cloud\nNOFF\n3 0 0\n\n1.5 2 3\n4 5 6\n7 8 9\n", kSyntax, "pin.csv:2", "an OFF mesh"},
+      {"axis0,axis1,min0,max0,num0\nX,Y,5.00,275.00,5\n0.1,0.2,0.3,0.4,0.5\n", kSyntax, "pin.csv:1",
+       "names none of the columns x,y"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
@@ -384,6 +388,29 @@ TEST(PointsText, TakesWhatIsSaidBeforehand) {
   const auto missing = read_points(plain, "pin.csv", {.feature = "", .columns = {"A", "B"}});
   ASSERT_FALSE(missing);
   EXPECT_THAT(missing.error().what, HasSubstr("names a column \"A\""));
+}
+
+TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
+  using enum LengthUnit;
+  const std::vector<std::pair<std::string_view, std::optional<LengthUnit>>> lines = {
+      {"Units: inch", kInch},
+      {"> Units:\n\ninch", kInch},
+      {"Units:\n# inch", kInch},
+      {"Units: in, deg", kInch},
+      {"unit of length: in", kInch},
+      {"All dimensions in inches", kInch},
+      {"Einheit (unit): mm", kMm},
+      {"units are m", kM},
+      {"Unit under test: block 7, clamped in the vice", std::nullopt},
+      {"# Unit 3, M. Weber", std::nullopt},
+      {"Units:\nmeasured in Jena", std::nullopt},
+  };
+  for (const auto& [line, unit] : lines) {
+    SCOPED_TRACE(line);
+    const PointTable table = points(fmt::format("{}\nx,y,z\n1,2,3\n4,5,6\n", line));
+    const std::string_view word = unit ? name_of(*unit) : "mm (not stated)";
+    EXPECT_THAT(table.read, HasSubstr(fmt::format(" in {};", word)));
+  }
 }
 
 TEST(PointsText, CountsLayersFromNoughtOrOne) {
