@@ -282,9 +282,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
       ended = true;
     } else if (word == "comment" || word == "obj_info") {
       if (const auto stated = unit_in_text(line)) unit = stated;
-    } else if (body.line > 1 && !line.empty()) {
-      return wrong();
-    }
+    }  // other lines mean nothing: "Created by ..."
   }
   if (!form) return body.fail(Code::kSyntax, "the head of the PLY file names no format");
   body.form = *form;

@@ -83,6 +83,9 @@ class Finder {
   /// The layouts to try, the best one first.
   core::Result<std::vector<TableLayout>> find() {
     std::optional<core::Error> fault;
+    if (const std::size_t k = next(0); k < lines_.size() && begins_off(lines_[k].text)) {
+      return core::fail(error_at(lines_[k].number, "the file is an OFF mesh; convert it to PLY"));
+    }
     for (const bool comment : {false, true}) {
       for (std::size_t k = 0; k < lines_.size(); ++k) {
         if (lines_[k].comment != comment) continue;
@@ -123,6 +126,12 @@ class Finder {
     return at_line(syntax_error(std::move(what)), name_, line);
   }
 
+  /// "OFF", "COFF", "STCN4nOFF": the counts of such a mesh would be taken for its first point.
+  static bool begins_off(std::string_view line) {
+    const std::string_view word = fields_of(line, ' ').front();
+    return word.ends_with("OFF") && word.find_first_not_of("STCN4nOF") == std::string_view::npos;
+  }
+
   /// Lines from a place on that are no comments.
   [[nodiscard]] std::size_t next(std::size_t k) const {
     while (k < lines_.size() && lines_[k].comment) ++k;
@@ -141,8 +150,12 @@ class Finder {
 
   /// The unit that a line above the rows states, unless it contradicts another one.
   core::Result<void> take_units(TableLayout& layout, std::size_t end) const {
+    std::string_view before;
     for (std::size_t k = 0; k < end && !options_.unit && !wanted_.polar; ++k) {
-      const auto unit = unit_in_text(lines_[k].text);
+      const std::string_view line = lines_[k].text;  // "Units:" may stand on the line before
+      const auto unit =
+          unit_in_text(before.ends_with(':') ? fmt::format("{} {}", before, line) : line);
+      before = line;
       if (!unit) continue;
       if (layout.unit && layout.unit != unit) {
         return core::fail(at_line({Code::kUnits,
@@ -210,7 +223,12 @@ class Finder {
     }
     std::ranges::stable_sort(fitting, std::greater(),
                              [&](Notation d) { return score(head.roles, d, first); });
-    TRY_DO(check_above(k, head.roles, fitting.front()));
+    const auto by_number = [](const std::string& column) {
+      return place_of_column(column).has_value();
+    };
+    if (std::ranges::all_of(options_.columns, by_number)) {  // names show which line is the head
+      TRY_DO(check_above(k, head.roles, fitting.front()));
+    }
     TRY_DO(take_units(layout, first));
     std::vector<TableLayout> out;
     for (const Notation d : fitting) {
@@ -355,7 +373,7 @@ class Finder {
     const auto is = [&](std::string_view ending) { return name_.ends_with(ending); };
     const bool xyz =
         is(".xyz") || is(".XYZ") || is(".asc") || is(".ASC") || is(".pts") || is(".PTS");
-    if (found.numbers.size() > 3 && !xyz) {
+    if (found.numbers.size() > 3 && !xyz && !has_directions(found)) {
       const bool commas = found.notation.separator == ',' && found.numbers.size() % 2 == 0;
       return core::fail(error_at(
           first.number, fmt::format("{} has {} columns of numbers and no head line; {}{}",
@@ -365,6 +383,27 @@ class Finder {
     out = found.numbers;
     out.resize(std::min<std::size_t>(out.size(), 3));
     return out;
+  }
+
+  /// Whether each row is x y z i j k, as machines write them: the last three are a direction.
+  [[nodiscard]] bool has_directions(const Found& found) const {
+    constexpr double kRounding = 2e-3;  // of three decimals, in the square
+    // without a decimal point, commas may be decimal signs
+    if (found.numbers.size() != 6 || std::get<2>(found.score) == 0) return false;
+    for (std::size_t k = found.first; k < lines_.size(); k = next(k + 1)) {
+      const Cells fields = fields_of(lines_[k].text, found.notation.separator);
+      if (!agrees(fields, found.columns)) return false;
+      double square = 0.0;
+      for (std::size_t i = 3; i < 6; ++i) {
+        const std::string_view field = fields[found.numbers[i]];
+        const char* const end = field.data() + field.size();
+        double value = 0.0;
+        if (read_number(field.data(), end, found.notation.decimal, value).ptr != end) return false;
+        square += value * value;
+      }
+      if (std::abs(square - 1.0) > kRounding) return false;
+    }
+    return true;
   }
 
   /// Whether the first column of numbers is 0, 1, 2, ... or 1, 2, 3, ...

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -121,6 +122,11 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"x [mm];y [inch];z [mm]\n1;2;3\n", kUnits, "pin.csv:1", "in mm and in inch"},
       {"Units: inch\nx [mm];y [mm]\n1;2\n", kUnits, "pin.csv:1", "says mm and inch"},
       {"//X Y Z I\n3\n1 2 3 4\n5 6 7 8\n", kSyntax, "pin.csv:4", "announces 3 of them, 2 follow"},
+      {"# cloud\nNOFF\n3 0 0\n\n1.5 2 3\n4 5 6\n7 8 9\n", kSyntax, "pin.csv:2", "an OFF mesh"},
+      {"axis0,axis1,min0,max0,num0\nX,Y,5.00,275.00,5\n0.1,0.2,0.3,0.4,0.5\n", kSyntax, "pin.csv:1",
+       "names none of the columns x,y"},
+      {"10,5,20,0,1,0\n11,5,21,0,1,0\n", kSyntax, "pin.csv:1", "6 columns of numbers"},
+      {"1.5 2 3 0.6 0.8 0\n4 5 6 0.6 0.9 0\n", kSyntax, "pin.csv:1", "6 columns of numbers"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
@@ -347,6 +353,9 @@ TEST(PointsText, ReadsWhatProgramsWrite) {
       {"part 7|of 9\nX Koordinate (mm)|Y Koordinate (mm)|Z Koordinate (mm)\n"
        "5.2683941E+01|-17.491|101\n46.431122|-6.667203|+101\n33.931813|-6.665358|107.5\n",
        "bar, decimal point"},
+      {"52.683941 -17.491 101 0.0041 0.009 1\n46.431122 -6.667203 101 -0.6 0.8 0\n"
+       "33.931813 -6.665358 107.5 0 -1 0\n",
+       "blanks, decimal point, columns 1 2 3 in mm (not stated)"},
       {"P1 52.683941 -17.491 101.0\nP2 46.431122 -6.667203 101.0\nP3 33.931813 -6.665358 107.5\n",
        "blanks, decimal point, columns 2 3 4"},
   };
@@ -374,6 +383,11 @@ TEST(PointsText, TakesWhatIsSaidBeforehand) {
                                 {.feature = "", .columns = {"a [M]", "B [m]", "C [m]"}});
   EXPECT_EQ(named.points_mm.at(0), Eigen::Vector3d(2000, 3000, 4000));
   EXPECT_TRUE(named.unit_stated);
+  const PointTable plate =
+      read("title,ball plate\nplace,250.0,316.0,50.0\nid,mmt_x,mmt_y,mmt_z\n1,2,3,4\n",
+           {.feature = "", .columns = {"mmt_x", "mmt_y", "mmt_z"}});
+  ASSERT_EQ(plate.points_mm.size(), 1U);
+  EXPECT_EQ(plate.points_mm[0], Eigen::Vector3d(2, 3, 4));
   const PointTable inches = read("x,y,z\n1,2,3\n", {.feature = "", .unit = LengthUnit::kInch});
   EXPECT_EQ(inches.points_mm.at(0), Eigen::Vector3d(25.4, 50.8, 25.4 * 3));
   EXPECT_THAT(inches.read, HasSubstr("x y z in inch;"));
@@ -384,6 +398,29 @@ TEST(PointsText, TakesWhatIsSaidBeforehand) {
   const auto missing = read_points(plain, "pin.csv", {.feature = "", .columns = {"A", "B"}});
   ASSERT_FALSE(missing);
   EXPECT_THAT(missing.error().what, HasSubstr("names a column \"A\""));
+}
+
+TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
+  using enum LengthUnit;
+  const std::vector<std::pair<std::string_view, std::optional<LengthUnit>>> lines = {
+      {"Units: inch", kInch},
+      {"> Units:\n\ninch", kInch},
+      {"Units:\n# inch", kInch},
+      {"Units: in, deg", kInch},
+      {"unit of length: in", kInch},
+      {"All dimensions in inches", kInch},
+      {"Einheit (unit): mm", kMm},
+      {"units are m", kM},
+      {"Unit under test: block 7, clamped in the vice", std::nullopt},
+      {"# Unit 3, M. Weber", std::nullopt},
+      {"Units:\nmeasured in Jena", std::nullopt},
+  };
+  for (const auto& [line, unit] : lines) {
+    SCOPED_TRACE(line);
+    const PointTable table = points(fmt::format("{}\nx,y,z\n1,2,3\n4,5,6\n", line));
+    const std::string_view word = unit ? name_of(*unit) : "mm (not stated)";
+    EXPECT_THAT(table.read, HasSubstr(fmt::format(" in {};", word)));
+  }
 }
 
 TEST(PointsText, CountsLayersFromNoughtOrOne) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/utf8.h"
 #include "record/csv/internal/lines.h"
 
@@ -38,6 +39,14 @@ constexpr auto kMeasuredWords = std::to_array<std::string_view>(
 constexpr auto kLayerWords =
     std::to_array<std::string_view>({"layer", "layers", "schicht", "ebene", "schnitt", "section",
                                      "couche", "strato", "capa", "层"});
+/// NameWords that announce a unit in the text above a table, those that may stand between, and
+/// those that show that "in" was the unit: "Units: in, deg".
+constexpr auto kUnitHeadings = std::to_array<std::string_view>(
+    {"unit", "units", "einheit", "einheiten", "单位", "dimensions", "coordinates", "values"});
+constexpr auto kBetween = std::to_array<std::string_view>(
+    {"in", "is", "are", "of", "ist", "sind", "length", "linear", "used", "system"});
+constexpr auto kAngles =
+    std::to_array<std::string_view>({"deg", "degree", "degrees", "rad", "radian", "grad"});
 
 bool is_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
@@ -201,6 +210,11 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
     columns.push_back(wanted.polar ? polar_column(fields[i]) : column_of(fields[i]));
     coordinates += columns.back().role <= Role::kZ ? 1 : 0;
   }
+  // "X,Y,5.00,275.00,...": the frame of a grid of heights
+  const auto is_number = [](std::string_view field) {
+    return core::parse_number(field).has_value();
+  };
+  if (std::ranges::any_of(fields, is_number)) coordinates = 0;
   if (!options.columns.empty()) {
     bool named = false;
     for (Column& column : columns) {
@@ -255,14 +269,19 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
 }
 
 std::optional<LengthUnit> unit_in_text(std::string_view line) {
-  bool said = false;
-  std::optional<LengthUnit> out;
-  for (const std::string& word : words_in(line)) {
-    if (const auto unit = unit_named(word); unit && said) out = unit;  // the last: "in mm"
-    said = said || word == "unit" || word == "units" || word == "einheit" || word == "einheiten" ||
-           word == "单位";
+  const NameWords words = words_in(line);
+  const auto is_one_of = [](const auto& list, std::string_view word) {
+    return std::ranges::find(list, word) != list.end();
+  };
+  // The unit follows at once: "Unit 3, M. Weber" and "unit clamped in a vice" state none.
+  std::size_t k = 0;
+  while (k < words.size() && !is_one_of(kUnitHeadings, words[k])) ++k;
+  for (++k; k < words.size(); ++k) {
+    const bool between = is_one_of(kBetween, words[k]) || is_one_of(kUnitHeadings, words[k]);
+    const bool ends = k + 1 == words.size() || is_one_of(kAngles, words[k + 1]);
+    if (!between || ends) return unit_named(words[k]);  // "in" at the end is inch
   }
-  return out;
+  return std::nullopt;
 }
 
 std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields) {
