@@ -519,7 +519,7 @@ int main_of(int argc, char** argv) {
   add_verb(app, add_plan, plan, verbs);
   add_verb(app, add_run, run, verbs);
   add_verb(app, add_simulate_cmm, simulate_cmm, verbs);
-  add_verb(app, add_fit, fit, verbs);
+  add_verb(app, add_fit, fit_or_run, verbs);
   CLI::App& fit_verb = *app.get_subcommand("fit");
   add_verb(fit_verb, add_roundness, roundness, verbs);
   add_verb(fit_verb, add_spindle, spindle, verbs);

@@ -592,7 +592,6 @@ Eigen::Isometry3d plane_of(const record::PointTable& table) {
 }  // namespace
 
 int fit(const FitArguments& arguments) {
-  if (!arguments.out.empty() || !arguments.save_plan.empty()) return fit_to_page(arguments);
   auto table = load_points(arguments);
   if (!table) return refuse(table.error());
   std::optional<Eigen::Isometry3d> plane;

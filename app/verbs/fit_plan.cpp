@@ -68,7 +68,8 @@ std::string plan_text(const FitArguments& arguments, const fs::path& folder) {
 
 }  // namespace
 
-int fit_to_page(const FitArguments& arguments) {
+int fit_or_run(const FitArguments& arguments) {
+  if (arguments.out.empty() && arguments.save_plan.empty()) return fit(arguments);
   if (!arguments.save_plan.empty()) {
     const fs::path folder = fs::absolute(arguments.save_plan).parent_path();
     std::error_code unknown;

@@ -118,7 +118,7 @@ struct FitArguments {
   bool inside = false;
   std::vector<double> outward;  ///< Of a plane, three numbers; empty: not known.
   bool json = false;
-  // The following members ask for a plan in memory, see fit_to_page().
+  // The following members ask for a plan in memory, see fit_or_run().
   std::string out;                     ///< Run directory; empty: no run.
   std::string save_plan;               ///< File for the plan; empty: none.
   std::optional<double> tolerance_um;  ///< Of the form; none: the value is reported, not judged.
@@ -126,10 +126,10 @@ struct FitArguments {
   std::string operator_name;
 };
 [[nodiscard]] int fit(const FitArguments& arguments);
-/// Writes the plan of which `arguments` are the settings, or runs it: a page, a journal, a run that
-/// `verify` and `sign` take like any other.
+/// fit(), or with `out` or `save_plan` the plan of which `arguments` are the settings: it is written
+/// or run, to a page and a journal that `verify` and `sign` take like any other.
 /// @return  Exit status of the program.
-[[nodiscard]] int fit_to_page(const FitArguments& arguments);
+[[nodiscard]] int fit_or_run(const FitArguments& arguments);
 
 struct RoundnessArguments {
   std::string file;
