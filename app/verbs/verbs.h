@@ -126,8 +126,8 @@ struct FitArguments {
   std::string operator_name;
 };
 [[nodiscard]] int fit(const FitArguments& arguments);
-/// fit(), or with `out` or `save_plan` the plan of which `arguments` are the settings: it is written
-/// or run, to a page and a journal that `verify` and `sign` take like any other.
+/// fit(), or with `out` or `save_plan` the plan of which `arguments` are the settings: it is
+/// written or run, to a page and a journal that `verify` and `sign` take like any other.
 /// @return  Exit status of the program.
 [[nodiscard]] int fit_or_run(const FitArguments& arguments);
 

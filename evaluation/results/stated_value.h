@@ -21,10 +21,10 @@ class Term {
   core::Phrase words_;
 };
 
-using ReferenceTerm = Term<struct ReferenceTag>;      ///< "MZCY"
-using FilterTerm = Term<struct FilterTag>;            ///< "unfiltered"
-using SamplingTerm = Term<struct SamplingTag>;        ///< "4 x 7 points; mean of 5 touches per point"
-using TipTerm = Term<struct TipTag>;                  ///< "r_tip 1.9984 mm"
+using ReferenceTerm = Term<struct ReferenceTag>;  ///< "MZCY"
+using FilterTerm = Term<struct FilterTag>;        ///< "unfiltered"
+using SamplingTerm = Term<struct SamplingTag>;    ///< "4 x 7 points; mean of 5 touches per point"
+using TipTerm = Term<struct TipTag>;              ///< "r_tip 1.9984 mm"
 using TemperatureTerm = Term<struct TemperatureTag>;  ///< "20.3 degC"
 
 /// How a value came about: the verification operator in the sense of ISO 17450-2. It cannot be

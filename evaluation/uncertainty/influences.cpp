@@ -147,8 +147,9 @@ void say_probe(const Influences& influences, Declaration& out) {
   out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
                                              kUm * probe.tip_radius_mm));
   if (probe.reference_sphere_mm > 0.0) {
-    out.line("reference-sphere", core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
-                                              kUm * probe.reference_sphere_mm));
+    out.line("reference-sphere",
+             core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
+                          kUm * probe.reference_sphere_mm));
   }
 }
 
@@ -191,10 +192,11 @@ void say_machine(const std::optional<MachineInfluences>& declared, Declaration& 
 void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& out) {
   const ThermalInfluences thermal = declared.value_or(ThermalInfluences{});
   out.group(declared.has_value());
-  out.line("temperature",
-           core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; shifts radii, "
-                        "not the form",
-                        thermal.temperature_K, thermal.expansion_uncertainty_1_K));
+  out.line(
+      "temperature",
+      core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; shifts radii, "
+                   "not the form",
+                   thermal.temperature_K, thermal.expansion_uncertainty_1_K));
   if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
     out.never("temperature-drift",
               core::phrase("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",

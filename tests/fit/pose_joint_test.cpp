@@ -213,7 +213,8 @@ TEST(PoseJoint, WhatOverlapTouchesAndNoiseDoToIt) {
     EXPECT_LT(errors.joint_median, 0.25);
     EXPECT_LT(5.0 * errors.joint_median, errors.naive_median);
     if (test::full()) {
-      // Of half shells that only meet, a shift of one looks like form (67 %, docs/several-poses.md).
+      // Of half shells that only meet, a shift of one looks like form (67 %,
+      // docs/several-poses.md).
       const bool only_meet = study.overlap_deg == 0.0 && !study.ends;
       EXPECT_GT(errors.covered, only_meet ? 0.60 : 0.80);
     }

@@ -45,7 +45,8 @@ std::string places(bool big) {
 std::string ply(std::string_view format, std::string_view type, const std::string& body,
                 int faces = 0) {
   std::string out = fmt::format(
-      "ply\nformat {} 1.0\ncomment made here\nCreated by hand\nelement box 1\nproperty list uchar short "
+      "ply\nformat {} 1.0\ncomment made here\nCreated by hand\nelement box 1\nproperty list uchar "
+      "short "
       "sides\nelement vertex 3\nproperty uchar red\n",
       format);
   for (const char axis : {'x', 'y', 'z'}) out += fmt::format("property {} {}\n", type, axis);
