@@ -34,7 +34,7 @@ void describe(Visitor& v, PlanHead& p) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, SectionPlan& p) {
+void describe(Visitor& v, DiscPlan& p) {
   const auto height = [](std::string_view meaning) {
     return required(within(kMaxCoordinate_mm, meaning));
   };
@@ -42,7 +42,24 @@ void describe(Visitor& v, SectionPlan& p) {
   v.number("to_mm", p.to_mm, height("Upper end of the section, part z."));
   v.number("diameter_mm", p.diameter_mm,
            required(above(0.0, 2000.0, "Outer diameter of the section.")));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SectionPlan& p) {
+  describe(v, static_cast<DiscPlan&>(p));
   v.number("bore_diameter_mm", p.bore_diameter_mm, range(0.0, 2000.0, "Of its hole; 0: solid."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, AlignmentPlan& p) {
+  v.text("axis", p.axis,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Id of the touched cylinder whose two sections show the part axis."});
+  v.text("face", p.face,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Id of the touched plane that shows the height of the part origin."});
 }
 
 template <class Visitor>
@@ -64,6 +81,23 @@ void describe(Visitor& v, PartPlan& p) {
          {.meaning = "The part beside the inspected surfaces: shoulders, necks, "
                      "neighbours. The path of the tip keeps clear of them, and of the "
                      "touched outside surfaces by itself."});
+  v.numbers("position_mm", p.position_mm,
+            within(kMaxCoordinate_mm,
+                   "Without a fixture: origin of the part, x, y, z in the machine frame."));
+  v.numbers("axis", p.axis,
+            within(1.0, "Without a fixture: direction of part z in the machine frame."));
+  v.text("system", p.system,
+         {.meaning = "Without a fixture: where the frame of the part comes from. plan: position_mm "
+                     "and axis. control: the part system that the operator has aligned in the "
+                     "control of the machine (PartCsy); position_mm and axis then only serve the "
+                     "check of the plan."});
+  v.object("alignment", p.alignment,
+           {.meaning = "Without a fixture: the run finds the frame of the part before it measures, "
+                       "by three touches of a face and six of a cylinder; position_mm and axis "
+                       "need to be right within location_uncertainty_mm."});
+  v.object("held", p.held,
+           {.meaning = "Without a fixture: where a chuck, a vice or a V-block holds the part. The "
+                       "tool keeps clear of it."});
 }
 
 /// Settings of the server for the driver "ippdme".
@@ -187,7 +221,8 @@ void describe(Visitor& v, FixturePlan& p) {
                      "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
                      "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
                      "friction holds, whose pose the machine then measures. Stages may also turn "
-                     "the part of a simulated machine."});
+                     "the part of a simulated machine. fixed: no axes, the part stands still "
+                     "(docs/cmm-without-fixture.md); the default where `fixture` is left out."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -375,7 +410,8 @@ void describe(Visitor& v, PoseSearchPlan& p) {
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
                      "halved steps. virtual: one cloud, turned in software. start-pose: no search; "
                      "several features share the clamping of one start pose, as a datum and what "
-                     "refers to it must, for which it is the default. A circle, plane, cone or "
+                     "refers to it must, for which it is the default, as it is without a fixture. "
+                     "A circle, plane, cone or "
                      "sphere is always measured in its "
                      "start pose. merged: no search; the "
                      "part is measured in each of `poses`, where it can be reached, and the "
