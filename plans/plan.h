@@ -43,15 +43,27 @@ struct PlanHead {
   std::string note;
 };
 
-/// A piece of the part beside the inspected surfaces, for the path planner.
-struct SectionPlan {
+/// A disc about the part axis, which the path planner avoids.
+struct DiscPlan {
   double from_mm = 0.0;  ///< Lower end, part z.
   double to_mm = 0.0;
   double diameter_mm = 0.0;
+};
+
+/// A piece of the part beside the inspected surfaces.
+struct SectionPlan : DiscPlan {
   double bore_diameter_mm = 0.0;  ///< 0: solid.
 };
 
+/// The two touched features from whose first touches the frame of a part without a fixture comes.
+struct AlignmentPlan {
+  std::string axis;  ///< A cylinder: two of its sections show part z.
+  std::string face;  ///< A plane: it shows the height of the origin.
+};
+
 struct PartPlan {
+  enum class System { kPlan, kControl };
+
   std::string id;
   std::string name;
   std::string drawing;
@@ -60,7 +72,15 @@ struct PartPlan {
   std::optional<double> expansion_per_K;  ///< None: no correction to 20 degC.
   double expansion_uncertainty_per_K = 1e-6;
   std::vector<SectionPlan> sections;
+  // The following members are for the fixture "fixed".
+  std::array<double, 3> position_mm = {0.0, 0.0, 0.0};  ///< Part origin, machine frame.
+  std::array<double, 3> axis = {0.0, 0.0, 1.0};         ///< Direction of part z; any length > 0.
+  System system = System::kPlan;                        ///< kControl: PartCsy of I++ DME.
+  std::optional<AlignmentPlan> alignment;
+  std::optional<DiscPlan> held;  ///< Contains what holds it: chuck, vice, V-block.
 };
+
+RONDURE_WORDS(PartPlan::System, {kPlan, "plan"}, {kControl, "control"});
 
 struct MachinePlan {
   enum class Driver { kSimulated, kIppdme };
@@ -118,13 +138,14 @@ struct DatumPlan {
 };
 
 struct FixturePlan {
-  enum class Driver { kSimulated, kIppdme, kZaber, kThorlabs, kManual };
+  enum class Driver { kSimulated, kIppdme, kZaber, kThorlabs, kManual, kFixed };
 
   std::string id;
   Driver driver = Driver::kSimulated;
   std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
   std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};    ///< d, hoop frame.
   std::array<double, 3> part_position_mm = {0.0, 0.0, 0.0};  ///< Part origin in the body frame.
+  std::array<double, 3> part_axis = {0.0, 0.0, 1.0};         ///< Direction of part z there; no key.
   double min_alpha_deg = -90.0;
   double max_alpha_deg = 90.0;
   double min_beta_deg = -90.0;
@@ -144,7 +165,7 @@ struct FixturePlan {
 };
 
 RONDURE_WORDS(FixturePlan::Driver, {kSimulated, "simulated"}, {kIppdme, "ippdme"},
-              {kZaber, "zaber"}, {kThorlabs, "thorlabs"}, {kManual, "manual"});
+              {kZaber, "zaber"}, {kThorlabs, "thorlabs"}, {kManual, "manual"}, {kFixed, "fixed"});
 
 struct QualificationPlan {
   double sphere_diameter_mm = 25.0;  ///< Certified.
@@ -351,7 +372,7 @@ struct Plan {
   PlanHead plan;
   PartPlan part;
   std::optional<MachinePlan> machine;  ///< Needed when a feature is touched, not read from a file.
-  std::optional<FixturePlan> fixture;
+  std::optional<FixturePlan> fixture;  ///< Left out: "fixed", when a feature is touched.
   std::optional<ProbePlan> probe;
   std::optional<EnvironmentPlan> environment;  ///< None: its defaults, for touched features.
   std::vector<FeaturePlan> features;

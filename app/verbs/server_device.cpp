@@ -124,8 +124,8 @@ std::vector<Lack> lacks_of(const Survey& survey) {
   add_lacks_of_commands(survey, out);
   if (!turns_the_part(survey)) {
     out.push_back({"rotary axes",
-                   "the fixture of the plan needs a driver of its own (fixture.driver, "
-                   "docs/fixtures.md), not \"ippdme\""});
+                   "the fixture of the plan needs a driver of its own, or is \"fixed\" "
+                   "(fixture.driver, docs/fixtures.md), not \"ippdme\""});
   }
   add_lacks_of_tool(survey, out);
   add_lacks_of_reports(survey, out);

@@ -313,6 +313,15 @@ core::Result<void> IppMachine::tell_simulation(std::string_view name, std::int64
   return {};
 }
 
+core::Result<Vector3d> IppMachine::tip_in_part_system_mm() {
+  const auto chosen = dialogue_->choose_system("PartCsy");
+  auto tip = chosen ? dialogue_->position_W_mm() : core::fail(chosen.error());
+  if (auto back = dialogue_->choose_system("MachineCsy"); !back) {
+    return core::fail(distrust(back.error()));
+  }
+  return tip;
+}
+
 core::Result<void> IppMachine::number_touch(std::int64_t id) {
   if (!identity_.simulated || id < 0 || id == next_touch_) return {};
   next_touch_ = id;

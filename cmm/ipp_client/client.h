@@ -101,6 +101,11 @@ class IppMachine final : public Machine {
   /// to a real machine.
   [[nodiscard]] core::Result<void> tell_simulation(std::string_view name, std::int64_t value);
 
+  /// Where the tip stands in the part system of the control, PartCsy. Everything else is said in
+  /// that of the machine, which is chosen again; a failure of that blocks every motion until
+  /// recover().
+  [[nodiscard]] core::Result<Eigen::Vector3d> tip_in_part_system_mm();
+
   /// Two directions of the part in the machine frame: target, or result.
   struct Alignment {
     Eigen::Vector3d first_W = Eigen::Vector3d::UnitZ();

@@ -262,8 +262,7 @@ core::Result<Identity> Dialogue::start() {
   TRY(out.version, version());
   TRY(const auto kind, ask_if_known("GetMachineClass", {}));
   if (kind) out.machine_class = word_of(*kind);
-  const auto frame = ask("SetCoordSystem", {name_item("MachineCsy")});
-  if (!frame) return core::fail(error_of(frame.error(), "choosing the frame of the machine"));
+  TRY_DO(choose_system("MachineCsy"));
   TRY(const auto tools, ask_if_known("EnumTools", {}));
   if (tools) {
     for (const Response& line : tools->data) {
@@ -303,6 +302,15 @@ core::Result<std::string> Dialogue::tool_list() {
 core::Result<bool> Dialogue::tool_may_have(std::string_view name) {
   TRY(const auto list, tool_list());
   return list.empty() || list.find(name) != std::string::npos;
+}
+
+core::Result<void> Dialogue::choose_system(std::string_view name) {
+  const auto reply = ask("SetCoordSystem", {name_item(name)});
+  if (!reply) {
+    return core::fail(
+        error_of(reply.error(), fmt::format("choosing the coordinate system {}", name)));
+  }
+  return {};
 }
 
 core::Result<Eigen::Vector3d> Dialogue::position_W_mm() {

@@ -81,6 +81,9 @@ class Dialogue {
   [[nodiscard]] core::Result<std::optional<Reply>> ask_if_known(std::string_view method,
                                                                 std::vector<Item> arguments);
 
+  /// Chooses the coordinate system of everything that is said from then on: MachineCsy, PartCsy.
+  [[nodiscard]] core::Result<void> choose_system(std::string_view name);
+  /// Where the tip stands, in the chosen system; start() chooses that of the machine.
   [[nodiscard]] core::Result<Eigen::Vector3d> position_W_mm();
   [[nodiscard]] core::Result<bool> is_homed();
   /// Name of the active tool; "" for none.

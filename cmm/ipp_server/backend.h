@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "cmm/machine.h"
 #include "core/result.h"
@@ -36,6 +36,11 @@ class Backend {
   ///          beyond the limits of the table, kMachine for a fault or without a table.
   [[nodiscard]] virtual core::Result<std::vector<Eigen::Vector3d>> align_part(
       std::span<const Alignment> alignments) = 0;
+
+  /// The part as the operator has aligned it in the control: its frame in that of the machine.
+  [[nodiscard]] virtual Eigen::Isometry3d part_system() const {
+    return Eigen::Isometry3d::Identity();
+  }
 
   // Restore the state of a simulation after an interrupted run. Not part of I++ DME.
 

@@ -37,6 +37,21 @@ Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation) {
   return out;
 }
 
+CsyTransformation transformation_to(const Eigen::Isometry3d& X_WC, bool adds_origin) {
+  const Eigen::Matrix3d R = X_WC.linear();
+  const double tilt = std::hypot(R(0, 2), R(1, 2));
+  const bool upright = tilt < 1e-12;  // then psi alone turns
+  const double psi = upright ? std::atan2(R(1, 0), R(0, 0)) : std::atan2(R(0, 2), -R(1, 2));
+  const double phi = upright ? 0.0 : std::atan2(R(2, 0), R(2, 1));
+  CsyTransformation out;
+  out.x0_mm = X_WC.translation();
+  if (adds_origin) out.x0_mm = X_WC.inverse().translation();
+  out.theta_deg = std::atan2(tilt, R(2, 2)) / core::kDegree;
+  out.psi_deg = psi / core::kDegree;
+  out.phi_deg = phi / core::kDegree;
+  return out;
+}
+
 Controller::Controller(Backend& backend, const ControllerOptions& options)
     : backend_(backend),
       options_(options),
@@ -44,6 +59,7 @@ Controller::Controller(Backend& backend, const ControllerOptions& options)
                   backend.machine().capabilities().greatest, options.profile.least_retract_mm) {
   if (options.profile.writes_five_decimals) options_.numbers = NumberForm::kFiveDecimals;
   if (auto status = machine().status()) tool_ = status->tool;
+  part_csy_ = transformation_to(backend.part_system(), options.profile.adds_origin);
   begin_session();
 }
 

@@ -33,6 +33,10 @@ struct CsyTransformation {
 /// or the other.
 [[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation);
 
+/// The transformation to a system whose frame is `X_WC` in that of the machine.
+/// @param adds_origin  x_csy = R x_machine + x0.
+[[nodiscard]] CsyTransformation transformation_to(const Eigen::Isometry3d& X_WC, bool adds_origin);
+
 /// Settings of a server that the machine does not report itself.
 struct ControllerOptions {
   ParameterDefaults defaults;

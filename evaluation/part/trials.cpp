@@ -754,7 +754,7 @@ class PartTrials::Part::Run {
     const std::size_t points = part_.surfaces[s].rows.size();
     FormFinding out = finding_of(tallies, points);
     std::vector<core::Phrase> said;
-    TRY_DO(guard_scatter(tallies, points, out, said));
+    TRY_DO(guard_scatter(tallies, part_.modelled[s].chart.cloud, out, said));
     for (core::Phrase& note : said) {
       if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     }

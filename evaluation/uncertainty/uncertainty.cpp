@@ -252,7 +252,7 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   UncertaintyResult& out = *found;
   const std::vector<DrawTally> tallies = tallies_of(chains);
   out.finding = finding_of(tallies, cloud.points.size());
-  TRY_DO(guard_scatter(tallies, cloud.points.size(), out.finding, out.notes));
+  TRY_DO(guard_scatter(tallies, cloud, out.finding, out.notes));
   // The bound holds where the value is a seminorm of the deviations.
   const bool two_sided = cloud.reference == record::Reference::kMinimumZone ||
                          cloud.reference == record::Reference::kLeastSquares;

@@ -16,6 +16,16 @@ bool needs_machine(const FeaturePlan& feature) {
   return is_touched(feature) || measures_by_touch(feature);
 }
 
+bool is_fixed(const Plan& plan) {
+  return plan.fixture && plan.fixture->driver == FixturePlan::Driver::kFixed;
+}
+
+std::size_t feature_index(const Plan& plan, std::string_view id) {
+  const auto same = [&](const FeaturePlan& feature) { return feature.id == id; };
+  return static_cast<std::size_t>(std::find_if(plan.features.begin(), plan.features.end(), same) -
+                                  plan.features.begin());
+}
+
 bool touches_anything(const Plan& plan) {
   return std::any_of(plan.features.begin(), plan.features.end(), needs_machine);
 }

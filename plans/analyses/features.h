@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "plans/plan.h"
@@ -17,6 +19,10 @@ namespace rondure::plans {
 [[nodiscard]] bool simulates_analysis(const Plan& plan);
 /// Whether a feature needs the machine: a touched surface, or balls.
 [[nodiscard]] bool needs_machine(const FeaturePlan& feature);
+/// Whether the part of a plan stands still on the table: there is no fixture with axes.
+[[nodiscard]] bool is_fixed(const Plan& plan);
+/// Index of the feature with this id; the number of features when there is none.
+[[nodiscard]] std::size_t feature_index(const Plan& plan, std::string_view id);
 /// Whether a plan needs a machine.
 [[nodiscard]] bool touches_anything(const Plan& plan);
 

@@ -121,6 +121,12 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
                      "fit rotary-axes\"; remove it");
   }
   if (!plan.fixture) return;  // check_equipment() reports this
+  if (is_fixed(plan)) {
+    findings.meaning(Code::kMeaning, where + "/type",
+                     "the fixture is \"fixed\": it has no axes to calibrate; remove the feature, "
+                     "or say which fixture turns the balls");
+    return;
+  }
   if (plan.fixture->id.empty() && findings.sound("/fixture/id")) {
     findings.meaning(Code::kMissingKey, "/fixture/id",
                      "this key is missing: what the fixture is called; its calibration belongs to "

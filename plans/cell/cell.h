@@ -44,6 +44,10 @@ class Cell {
   /// Nominal part frame in the body frame: X_BP.
   [[nodiscard]] const Eigen::Isometry3d& nominal_part() const { return X_BP_; }
 
+  /// Where the tip stands in the part system of the control; kMachine where there is none. The
+  /// control of a simulated machine has a part without a fixture aligned, as it truly stands.
+  [[nodiscard]] virtual core::Result<Eigen::Vector3d> tip_in_part_system_mm() = 0;
+
   /// Selects the feature of the clamped part that is measured from now on.
   virtual void mount(const FeaturePlan& feature) = 0;
   /// Turns the fixture; the part follows.

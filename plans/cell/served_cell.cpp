@@ -10,13 +10,14 @@
 namespace rondure::plans {
 
 ServedCell::ServedCell(const Plan& plan, std::uint64_t seed)
-    : features_(plan.features), cell_(plan, seed, false) {
+    : features_(plan.features), cell_(plan, seed, false), turns_(!is_fixed(plan)) {
   const auto first = std::find_if(features_.begin(), features_.end(),
                                   [](const FeaturePlan& feature) { return is_touched(feature); });
   if (first != features_.end()) cell_.mount(*first);
 }
 
 std::vector<double> ServedCell::table_angles_deg() const {
+  if (!turns_) return {};
   return {pose_.alpha_rad / core::kDegree, pose_.beta_rad / core::kDegree};
 }
 

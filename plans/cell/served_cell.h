@@ -13,7 +13,7 @@
 namespace rondure::plans {
 
 /// The simulated cell of a plan for an I++ DME server: machine, part and the two-axis fixture,
-/// which AlignPart turns.
+/// which AlignPart turns; without a fixture a machine that has no rotary table.
 class ServedCell final : public cmm::ipp::Backend {
  public:
   /// @param plan  Must have `machine`, `fixture`, `probe` and `simulation`, and a feature to touch;
@@ -25,12 +25,16 @@ class ServedCell final : public cmm::ipp::Backend {
   [[nodiscard]] core::Result<void> home_table() override;
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> align_part(
       std::span<const cmm::ipp::Alignment> alignments) override;
+  [[nodiscard]] Eigen::Isometry3d part_system() const override {
+    return turns_ ? Eigen::Isometry3d::Identity() : cell_.part_system();
+  }
   [[nodiscard]] core::Result<void> choose_feature(int index) override;
   void set_next_turn(std::uint64_t number) override { cell_.continue_at_turn(number); }
 
  private:
   std::vector<FeaturePlan> features_;
   SimulatedCell cell_;
+  bool turns_;       ///< There is a fixture.
   core::Pose pose_;  ///< Pose as read back from the fixture.
 };
 

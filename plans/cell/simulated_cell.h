@@ -33,6 +33,15 @@ class SimulatedCell final : public Cell {
 
   [[nodiscard]] bool is_simulated() const override { return true; }
 
+  /// The frame of the part as it truly stands in the zero pose, without the tilt and the offset of
+  /// its seat: what an operator would have aligned in the control.
+  [[nodiscard]] Eigen::Isometry3d part_system() const {
+    return true_X_WF_ * fixture_.true_body_to_machine() * nominal_part();
+  }
+  [[nodiscard]] core::Result<Eigen::Vector3d> tip_in_part_system_mm() override {
+    return Eigen::Vector3d(part_system().inverse() * machine_.position_W_mm());
+  }
+
   /// Clamps the part with this feature.
   void mount(const FeaturePlan& feature) override;
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;

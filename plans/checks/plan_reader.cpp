@@ -68,6 +68,7 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   complete_circles(plan, findings);
   complete_simulation(plan, *json);
   measure_datums_in_one_pose(plan, findings);
+  stand_without_fixture(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();
   // Reach can be judged only when every number is valid.

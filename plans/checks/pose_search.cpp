@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/schema/json_text.h"
 
@@ -84,6 +85,7 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings) 
   const FeaturePlan& feature = plan.features[index];
   const std::string where = feature_pointer(index) + "/pose_search";
   if (!plan.fixture || !findings.sound("/fixture") || !findings.sound(where)) return;
+  if (is_fixed(plan)) return;  // check_fixed_part()
   const FixturePlan& fixture = *plan.fixture;
   const PoseSearchPlan& search = feature.pose_search;
   check_start(search.start_alpha_deg, fixture.min_alpha_deg, fixture.max_alpha_deg,

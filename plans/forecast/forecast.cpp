@@ -110,14 +110,16 @@ core::Result<void> add_ring(const Plan& plan, int feature, const core::Pose& com
 /// A feature on the nominal part: the pose search receives ideal touches.
 class NominalSession final : public PoseSession {
  public:
-  NominalSession(const Plan& plan, int index, Tally& tally)
+  /// @param location_mm  Largest distance of the part from where it is expected.
+  NominalSession(const Plan& plan, std::size_t index, Tally& tally, double location_mm)
       : plan_(plan),
-        index_(index),
-        feature_(plan.features[static_cast<std::size_t>(index)]),
+        index_(static_cast<int>(index)),
+        location_mm_(location_mm),
+        feature_(plan.features[index]),
         tally_(tally),
         fixture_(ideal_fixture(plan)),
         planner_(plan, feature_),
-        geometry_(path_geometry(plan, feature_, plan.part.location_uncertainty_mm)) {}
+        geometry_(path_geometry(plan, feature_, location_mm)) {}
 
   core::Result<Cloud> measure_reachable(const core::Pose& commanded) override {
     TRY(const auto all, sampling_targets(feature_));
@@ -163,9 +165,14 @@ class NominalSession final : public PoseSession {
     return fit::Axis{part_at(reached_).translation(), expected_axis()};
   }
 
-  [[nodiscard]] bool must_locate() const override {
-    return plan_.part.location_uncertainty_mm > 0.0;
+  /// The touches of a face that show its height.
+  core::Result<void> locate_height() {
+    TRY(const auto targets, height_targets(feature_));
+    TRY_DO(turn({}, targets));
+    return touch(targets, ForecastStage::Kind::kLocation);
   }
+
+  [[nodiscard]] bool must_locate() const override { return location_mm_ > 0.0; }
   [[nodiscard]] Vector3d expected_axis() const override {
     return part_at(reached_).linear() * Vector3d::UnitZ();
   }
@@ -275,6 +282,7 @@ class NominalSession final : public PoseSession {
 
   const Plan& plan_;
   int index_;
+  double location_mm_;
   const FeaturePlan& feature_;
   Tally& tally_;
   fixture::SimulatedFixture fixture_;
@@ -324,12 +332,20 @@ core::Result<Forecast> forecast(const Plan& plan) {
     return core::fail(added.error().at("/probe/qualification"));
   }
   TRY_DO(add_spheres(datum_steps(plan), stage_of(Kind::kBase), tally));
+  double location_mm = plan.part.location_uncertainty_mm;
+  if (const auto& alignment = plan.part.alignment) {
+    const std::size_t face = feature_index(plan, alignment->face);
+    TRY_DO(NominalSession(plan, face, tally, location_mm).locate_height());
+    const std::size_t axis = feature_index(plan, alignment->axis);
+    TRY_DO(NominalSession(plan, axis, tally, location_mm).locate({}));
+    location_mm = 0.0;
+  }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (measures_by_touch(plan.features[i])) {
       TRY_DO(add_calibration(plan, i, tally));
     }
     if (!is_touched(plan.features[i])) continue;
-    NominalSession session(plan, static_cast<int>(i), tally);
+    NominalSession session(plan, i, tally, location_mm);
     if (auto searched = search_pose(session, plan.features[i]); !searched) {
       return core::fail(searched.error().at(fmt::format("/features/{}", i)));
     }

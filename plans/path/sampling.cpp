@@ -106,6 +106,15 @@ core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
   return sampling_targets(locating);
 }
 
+core::Result<std::vector<Target>> height_targets(const FeaturePlan& face) {
+  FeaturePlan locating = face;
+  locating.sampling.points_per_layer = 3;
+  TRY(auto targets, sampling_targets(locating));
+  const int middle = (face.sampling.layers - 1) / 2;
+  std::erase_if(targets, [&](const Target& target) { return target.layer != middle; });
+  return targets;
+}
+
 core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points) {
   if (points < 5 || points > 100) {
     return core::fail_with(core::Code::kSampling,

@@ -46,6 +46,8 @@ struct Target {
 /// @return  As for sampling_targets().
 [[nodiscard]] core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                                  double uncertainty_mm);
+/// Three targets on the middle circle of a plane, which show its height.
+[[nodiscard]] core::Result<std::vector<Target>> height_targets(const FeaturePlan& face);
 
 /// Directions for touching a reference sphere: unit vectors from its centre, all in the upper half
 /// space, the pole first, then rings from above down to the equator, spread evenly over the

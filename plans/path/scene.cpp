@@ -31,6 +31,8 @@ const char* name_of(Body body) {
       return "a shoulder of the part";
     case Body::kRing:
       return "the clamping ring";
+    case Body::kHeld:
+      return "what holds the part (part.held)";
     case Body::kRim:
       return "the rim of the bowl";
     case Body::kTable:
@@ -149,7 +151,7 @@ void Scene::add_cell(const Plan& plan, const FeaturePlan& feature) {
     // A bore stays open above and below its ring.
     const double hole_mm =
         feature.side == record::Side::kInside ? 0.5 * feature.nominal.diameter_mm : 0.0;
-    add(Body::kRing, Frame::kSeat, Vector3d::Zero(),
+    add(is_fixed(plan) ? Body::kHeld : Body::kRing, Frame::kSeat, Vector3d::Zero(),
         {hole_mm, 0.5 * fixture.ring_diameter_mm, fixture.clamp_from_mm, fixture.clamp_to_mm});
   }
   const Vector3d axis = vector3(fixture.axis_point_mm);

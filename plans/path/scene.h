@@ -19,6 +19,7 @@ enum class Body {
   kSection,
   kShoulder,
   kRing,
+  kHeld,  ///< What holds a part without a fixture.
   kRim,
   kTable,
   kSphere,

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/features.h"
 #include "plans/analyses/internal/rotary_placing.h"
 #include "plans/run/internal/reached_pose.h"
 
@@ -249,7 +250,7 @@ core::Result<void> RunContext::rise() {
 }
 
 core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
-  if (!replaying()) {
+  if (!replaying() && !is_fixed(plan)) {
     const std::string what = "turn the fixture to " + in_degrees(commanded);
     TRY_DO(ask({NextMove::Kind::kTurn, what, {}, {}}));
   }

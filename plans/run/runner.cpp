@@ -18,6 +18,7 @@
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/inspection.h"
+#include "plans/run/internal/part_place.h"
 #include "plans/run/internal/qualification.h"
 #include "plans/run/internal/run_head.h"
 #include "record/sha256.h"
@@ -165,7 +166,7 @@ core::Result<void> prepare(RunContext& context) {
   if (auto tip = qualify_probe(context); !tip)
     return core::fail(tip.error().at("/probe/qualification"));
   if (auto base = find_fixture_base(context); !base) return base;
-  return {};
+  return find_part_place(context);
 }
 
 /// The plan with the speeds of this run: slower while each move is confirmed.

@@ -21,6 +21,15 @@ void Findings::meaning(core::Code code, std::string where, std::string what) {
   meaning_.push_back({code, std::move(what), std::move(where)});
 }
 
+std::vector<std::string> Findings::given_in(const std::string& pointer) const {
+  std::vector<std::string> out;
+  for (const std::string& given : given_) {
+    const bool below = given.size() > pointer.size() && inside(given, pointer);
+    if (below && given.rfind('/') == pointer.size()) out.push_back(given);
+  }
+  return out;
+}
+
 bool Findings::sound(std::string_view pointer) const {
   return std::none_of(structure_.begin(), structure_.end(), [&](const Placed& placed) {
     const std::string& where = placed.problem.where;

@@ -22,6 +22,8 @@ class Findings {
   /// Notes that the plan gives the value at this pointer.
   void note_given(std::string pointer) { given_.insert(std::move(pointer)); }
   [[nodiscard]] bool is_given(const std::string& pointer) const { return given_.contains(pointer); }
+  /// The pointers of the members that the plan gives the object at this pointer.
+  [[nodiscard]] std::vector<std::string> given_in(const std::string& pointer) const;
 
   /// Whether there is no problem of structure at that pointer, inside it or around it, so that its
   /// values can be checked.

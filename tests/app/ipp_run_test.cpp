@@ -36,7 +36,7 @@ void write_wire_plan(const fs::path& file, std::uint16_t port, const char* drive
   leave_out_intervals(plan);
   plan["machine"]["port"] = port;
   plan["machine"]["driver"] = driver;
-  plan["fixture"]["driver"] = driver;
+  if (plan.contains("fixture")) plan["fixture"]["driver"] = driver;
   write(file, plan.dump(2));
 }
 
@@ -135,6 +135,76 @@ TEST(IppRun, TouchesOverTheWireAreThoseOfTheRunInOneProcess) {
   EXPECT_EQ(log.find(" ! Error("), std::string::npos) << "no error is provoked";
   std::printf("%zu touches over the wire, with reports and journal: %.3f ms a touch\n",
               run.touches.size(), 1e3 * took.count() / static_cast<double>(run.touches.size()));
+}
+
+constexpr const char* kFixed = "17_cmm_without_fixture.json";
+
+/// Writes the example without a fixture for a simulator and for its client.
+/// @param patch  Changes of both.
+void write_fixed_plans(const TemporaryFolder& folder, std::uint16_t port, const json& patch) {
+  json plan = json::parse(read(example(kFixed)));
+  leave_out_intervals(plan);
+  plan.merge_patch(patch);
+  write(folder / "served.json", plan.dump(2));
+  plan["machine"]["port"] = port;
+  plan["machine"]["driver"] = "ippdme";
+  write(folder / "wire.json", plan.dump(2));
+}
+
+std::ptrdiff_t count_of(const std::vector<std::string>& commands, std::string_view start) {
+  return std::count_if(commands.begin(), commands.end(),
+                       [&](const std::string& command) { return command.starts_with(start); });
+}
+
+TEST(IppRun, WithoutAFixtureNoPartIsTurned) {
+  const TemporaryFolder folder;
+  const Simulator simulator(free_port(), "inf", kFixed);
+  write_wire_plan(folder / "wire.json", simulator.port(), "ippdme", kFixed);
+  write_wire_plan(folder / "inside.json", simulator.port(), "simulated", kFixed);
+  const Outcome wire = rondure({"run", folder / "wire.json", "--out", folder / "wire", "--archive",
+                                "none", "--format", "json", "--wire-log", folder / "wire.log"});
+  ASSERT_EQ(wire.status, 0) << wire.err << wire.out;
+  const Outcome inside = rondure({"run", folder / "inside.json", "--out", folder / "inside",
+                                  "--archive", "none", "--format", "json"});
+  ASSERT_EQ(inside.status, 0) << inside.err << inside.out;
+  const auto run = journal_of(folder / "wire");
+  expect_same_touches(run, journal_of(folder / "inside"));
+  EXPECT_THAT(run.header.machine, HasSubstr("machine CartCMM at"));
+  const auto sent = commands_in(read(folder / "wire.log"));
+  EXPECT_EQ(count_of(sent, "AlignPart"), 0);
+  EXPECT_EQ(count_of(sent, "SetCoordSystem(PartCsy)"), 0);
+}
+
+TEST(IppRun, MeasuresInThePartSystemOfTheControl) {
+  const TemporaryFolder folder;
+  const std::uint16_t port = free_port();
+  const json elsewhere = {{"base_offset_mm", {-30, 20, 15}}, {"base_rotation_deg", {0, 0, 9}}};
+  write_fixed_plans(folder, port,
+                    {{"part", {{"system", "control"}}}, {"simulation", {{"fixture", elsewhere}}}});
+  const Simulator simulator(port, "inf", (folder / "served.json").c_str());
+  const Outcome ran = rondure({"run", folder / "wire.json", "--out", folder / "run", "--archive",
+                               "none", "--format", "json", "--wire-log", folder / "wire.log"});
+  ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+  const auto sent = commands_in(read(folder / "wire.log"));
+  EXPECT_EQ(count_of(sent, "AlignPart"), 0);
+  EXPECT_EQ(count_of(sent, "SetCoordSystem(PartCsy)"), 13);
+  EXPECT_EQ(count_of(sent, "SetCoordSystem(MachineCsy)"), 14);
+  EXPECT_EQ(journal_of(folder / "run").decisions.front().message.code,
+            core::MessageCode::kFixtureBaseFound);
+}
+
+TEST(IppRun, APartThatIsNotInItsPlaceEndsTheRunAtItsFirstTouch) {
+  const TemporaryFolder folder;
+  const std::uint16_t port = free_port();
+  write_fixed_plans(folder, port,
+                    {{"simulation", {{"fixture", {{"base_offset_mm", {50, 0, 0}}}}}}});
+  const Simulator simulator(port, "inf", (folder / "served.json").c_str());
+  const Outcome ran = rondure({"run", folder / "wire.json", "--out", folder / "run", "--archive",
+                               "none", "--format", "json", "--wire-log", folder / "wire.log"});
+  EXPECT_EQ(ran.status, 3) << ran.out;
+  EXPECT_THAT(ran.err, HasSubstr("the part is not within 3.5 mm of its place in the plan"));
+  EXPECT_EQ(count_of(commands_in(read(folder / "wire.log")), "PtMeas"), 14)
+      << "13 of the reference sphere, one of the part";
 }
 
 TEST(IppRun, JudgesTheTwentyCallOutsOfADrawingAsTheRunInOneProcess) {

@@ -95,7 +95,7 @@ for (const [plan, most] of [['01_spool_simulated', 3], ['15_shaft_points_file', 
       const texts = textsOf(file);
       assert.ok(texts.length <= most, `${texts.length} pages of ${paper}`);
       texts.forEach((text) => assert.equal(/SIMULATED/.test(text), plan.includes('simulated')));
-      for (const words of [/ of \d+ conforms?\./, /Measured/, /Rule/, /Uncertainty/, /Not seen/, /signature/, /rondure verify/])
+      for (const words of [/ of \d+ conforms?[.;]/, /Measured/, /Rule/, /Uncertainty/, /Not seen/, /signature/, /rondure verify/])
         assert.match(texts[0], words);
     }
     await page.close();

@@ -123,6 +123,46 @@ TEST(IppClientTraps, OpensAFreshSessionInTheFrameOfTheMachineAndMovesNothing) {
               HasSubstr("I++ DME 1.5 machine CartCMMWithRotaryTable at script, tool Probe1"));
 }
 
+TEST(IppClientTraps, ReadsThePartSystemAndSaysEverythingElseInThatOfTheMachine) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine);
+  server.stands = "X(1), Y(2), Z(3)";
+  const auto tip = machine->tip_in_part_system_mm();
+  ASSERT_TRUE(tip) << tip.error().what;
+  EXPECT_EQ(*tip, Vector3d(1.0, 2.0, 3.0));
+  EXPECT_THAT(server.heard, ElementsAre("SetCoordSystem(PartCsy)", "Get(X(),Y(),Z())",
+                                        "SetCoordSystem(MachineCsy)"));
+  EXPECT_EQ(machine->position_W_mm(), Vector3d(0.0, 0.0, 500.0)) << "it has not moved";
+}
+
+TEST(IppClientTraps, StaysInTheFrameOfTheMachineWhereTheControlHasNoPartSystem) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine);
+  server.override_with("SetCoordSystem(PartCsy)",
+                       {"! Error(2, 0506, \"SetCoordSystem\", \"Argument not supported\")"});
+  const auto tip = machine->tip_in_part_system_mm();
+  ASSERT_FALSE(tip);
+  EXPECT_THAT(tip.error().what, HasSubstr("choosing the coordinate system PartCsy"));
+  EXPECT_EQ(server.heard.back(), "SetCoordSystem(MachineCsy)");
+  EXPECT_TRUE(machine->move_to({0.0, 0.0, 400.0}));
+}
+
+TEST(IppClientTraps, MovesNoMoreWhereTheFrameOfTheMachineDoesNotComeBack) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine);
+  server.override_with("SetCoordSystem(MachineCsy)",
+                       {"! Error(2, 0506, \"SetCoordSystem\", \"Argument not supported\")"});
+  EXPECT_FALSE(machine->tip_in_part_system_mm());
+  server.heard.clear();
+  const auto moved = machine->move_to({0.0, 0.0, 400.0});
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().code, core::Code::kMachine);
+  EXPECT_THAT(server.heard, Not(Contains(StartsWith("GoTo"))));
+}
+
 TEST(IppClientTraps, ClearsErrorsWhereEndSessionIsRefusedInTheErrorState) {
   Controller server;
   server.override_with("EndSession",

@@ -336,6 +336,19 @@ TEST(IppServer, BothReadingsOfTheTranslationAreThoseOfTheProtocolPage) {
   EXPECT_NEAR((subtracted - Vector3d(2.97485, -9.02111, 0.87745)).norm(), 0.0, 1e-5);
 }
 
+TEST(IppServer, TheTransformationToAPartIsItsFrameUnderEitherReading) {
+  const CsyTransformation t = {{120.0, -80.0, 160.0}, 30.0, 40.0, -50.0};
+  for (const double theta_deg : {30.0, 0.0, 180.0}) {
+    SCOPED_TRACE(theta_deg);
+    const Eigen::Isometry3d part =
+        machine_to_csy({t.x0_mm, theta_deg, t.psi_deg, t.phi_deg}).inverse();
+    EXPECT_TRUE(machine_to_csy(transformation_to(part, false)).isApprox(part.inverse(), 1e-12));
+    Eigen::Isometry3d added = machine_to_csy(transformation_to(part, true));
+    added.translation() = transformation_to(part, true).x0_mm;
+    EXPECT_TRUE(added.isApprox(part.inverse(), 1e-12));
+  }
+}
+
 TEST(IppServer, MeasuresInThePartSystem) {
   Talk talk;
   talk.begin();

@@ -51,7 +51,8 @@ constexpr std::array<std::string_view, 13> kEnglish = {
     "pose search ended at (12.0000, 13.0000) deg after 14 poses with f = 15.000 um, a "
     "search value; that pose is measured anew",
     "pose (12.0000, 13.0000) deg: 14 of 15 targets can be reached",
-    "base of the fixture: shifted by (12.0000, 13.0000, 14.0000) mm, turned by "
+    "base of the fixture, or of a part without one: shifted by (12.0000, 13.0000, 14.0000) mm, "
+    "turned by "
     "(15.00000, 16.00000, 17.00000) deg, largest residual 18.000 um",
     "single-step mode: travel at 12 mm/s at most, moves confirmed by the operator",
     "resumed on not declared after 12 touches; the last 13 repeated, largest "

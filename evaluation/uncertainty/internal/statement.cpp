@@ -15,6 +15,7 @@ using core::Code;
 constexpr double kMostFlagged = 0.2;   // fraction of the points of a cloud
 constexpr double kReadLimit = 4.0;     // standard deviations of the readings of the model
 constexpr double kScatterLimit = 4.0;  // the same, of the residual scatter
+constexpr double kRoundOff_mm = 1e-6;  // a simulation without errors reads less
 // below this number, noise declared too large cannot be detected
 constexpr double kFewResiduals = 40.0;
 
@@ -193,7 +194,7 @@ core::Result<void> guard_outliers(const FormModel& model) {
                                  100.0 * model.flagged_share()));
 }
 
-core::Result<void> guard_scatter(std::span<const DrawTally> chains, std::size_t points,
+core::Result<void> guard_scatter(std::span<const DrawTally> chains, const FormCloud& cloud,
                                  const FormFinding& finding, std::vector<core::Phrase>& notes) {
   double scatter = 0.0;
   double draws = 0.0;
@@ -201,12 +202,15 @@ core::Result<void> guard_scatter(std::span<const DrawTally> chains, std::size_t 
     scatter += chain.scatter_1;
     draws += chain.resolved;
   }
-  const double count = static_cast<double>(points) - finding.spots;
+  const double count = static_cast<double>(cloud.points.size()) - finding.spots;
   if (count - 2.0 * finding.groups < kFewResiduals) {
     notes.push_back(core::phrase(
         "too few points to show whether the declared noise is larger than the real one"));
   }
-  if (draws == 0.0) return {};
+  const bool none = std::all_of(
+      cloud.points.begin(), cloud.points.end(),
+      [](const FormPoint& point) { return std::abs(point.deviation_mm) <= kRoundOff_mm; });
+  if (draws == 0.0 || none) return {};
   scatter /= draws;
   if (scatter >= 1.0 - kScatterLimit * std::sqrt(2.0 / count)) return {};
   return core::fail(
@@ -218,10 +222,10 @@ core::Result<void> guard_scatter(std::span<const DrawTally> chains, std::size_t 
 
 core::Result<void> guard_reading(std::vector<double> read_mm, double uncorrected_mm) {
   std::erase_if(read_mm, [](double value) { return !std::isfinite(value); });
-  if (read_mm.size() < 8) return {};
+  if (read_mm.size() < 8 || std::abs(uncorrected_mm) <= kRoundOff_mm) return {};
   const double mean = core::mean(read_mm);
   const double spread = core::standard_deviation(read_mm, mean);
-  if (std::abs(uncorrected_mm - mean) <= kReadLimit * spread + 1e-6) return {};
+  if (std::abs(uncorrected_mm - mean) <= kReadLimit * spread + kRoundOff_mm) return {};
   return core::fail(
       Code::kInconsistent,
       core::phrase("the form model does not explain the value as read: it would read {:.3f} +- "

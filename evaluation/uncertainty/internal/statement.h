@@ -67,11 +67,11 @@ void share_out(std::vector<BudgetLine>& budget);
 /// Checks that a smooth form stands behind the points.
 [[nodiscard]] core::Result<void> guard_outliers(const FormModel& model);
 /// Checks that the points do not scatter less than declared. Adds a note where that cannot be
-/// shown.
+/// shown. Points without any deviation pass: no form hides behind what was declared of them.
 [[nodiscard]] core::Result<void> guard_scatter(std::span<const DrawTally> chains,
-                                               std::size_t points, const FormFinding& finding,
+                                               const FormCloud& cloud, const FormFinding& finding,
                                                std::vector<core::Phrase>& notes);
-/// Checks that the model would read the measured value.
+/// Checks that the model would read the measured value. A value of zero passes likewise.
 /// @param read_mm  Values of simulated inspections of drawn forms.
 [[nodiscard]] core::Result<void> guard_reading(std::vector<double> read_mm, double uncorrected_mm);
 

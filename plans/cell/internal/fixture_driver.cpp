@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "fixture/fixed.h"
 #include "fixture/zaber.h"
 #include "fixture/zaber_link.h"
 #include "plans/cell/internal/thorlabs_driver.h"
@@ -67,6 +68,7 @@ bool drives_fixture(const Plan& plan) {
       return plan.machine->driver != MachinePlan::Driver::kSimulated;
     case FixturePlan::Driver::kZaber:
     case FixturePlan::Driver::kThorlabs:
+    case FixturePlan::Driver::kFixed:
       return true;
     case FixturePlan::Driver::kSimulated:
     case FixturePlan::Driver::kIppdme:
@@ -77,6 +79,7 @@ bool drives_fixture(const Plan& plan) {
 
 core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(const FixturePlan& plan,
                                                              const CellOptions& options) {
+  if (plan.driver == FixturePlan::Driver::kFixed) return std::make_unique<fixture::FixedFixture>();
   if (plan.driver == FixturePlan::Driver::kThorlabs) return open_thorlabs(plan);
   if (plan.driver == FixturePlan::Driver::kManual) return open_manual(plan, options);
   return open_zaber(plan, options);

@@ -9,8 +9,9 @@
 
 namespace rondure::plans {
 
-/// Whether this program, or a person on its request, drives the fixture of a plan: neither
-/// simulated nor part of an I++ DME machine. With a simulated machine the person is simulated, too.
+/// Whether this program, or a person on its request, drives the fixture of a plan, or there is none
+/// ("fixed"): neither simulated nor part of an I++ DME machine. With a simulated machine the person
+/// is simulated, too.
 [[nodiscard]] bool drives_fixture(const Plan& plan);
 
 /// Opens the driver of such a fixture; nothing turns.

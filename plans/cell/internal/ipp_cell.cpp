@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "fixture/kinematics.h"
+#include "plans/analyses/features.h"
 #include "plans/cell/served_cell.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "wire/tcp_line.h"
@@ -97,7 +98,7 @@ core::Result<std::unique_ptr<Cell>> IppCell::open(const Plan& plan, const CellOp
                                                   std::unique_ptr<fixture::Fixture> driven) {
   TRY(auto machine, cmm::IppMachine::open(connector(*plan.machine, options.wire_log),
                                           machine_options(plan, options)));
-  if (driven && machine->is_simulated()) {
+  if (driven && !is_fixed(plan) && machine->is_simulated()) {
     return core::fail(core::Code::kMachine,
                       "the machine is a simulation: a fixture that stands here does not turn its "
                       "part; give the fixture the driver \"ippdme\"",

@@ -48,6 +48,10 @@ class IppCell final : public Cell {
   [[nodiscard]] cmm::Machine& machine() override { return *machine_; }
   [[nodiscard]] bool is_simulated() const override { return machine_->is_simulated(); }
 
+  [[nodiscard]] core::Result<Eigen::Vector3d> tip_in_part_system_mm() override {
+    return machine_->tip_in_part_system_mm();
+  }
+
   void mount(const FeaturePlan& feature) override;
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;
   [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;

@@ -7,6 +7,7 @@
 
 #include "core/utc.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/features.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/laboratory.h"
 #include "plans/schema/json_text.h"
@@ -72,17 +73,21 @@ void check_stylus(const ProbePlan& probe, Findings& findings) {
   }
 }
 
+void check_ends(const DiscPlan& disc, const std::string& where, Findings& findings) {
+  if (disc.from_mm < disc.to_mm || !findings.sound(where)) return;
+  findings.meaning(Code::kMeaning, where + "/from_mm",
+                   fmt::format("the lower end {} mm is not below the upper end {} mm; exchange "
+                               "or correct them",
+                               plain(disc.from_mm), plain(disc.to_mm)));
+}
+
 void check_sections(const PartPlan& part, Findings& findings) {
+  if (part.held) check_ends(*part.held, "/part/held", findings);
   for (std::size_t i = 0; i < part.sections.size(); ++i) {
     const std::string where = item_pointer("/part/sections", i);
     if (!findings.sound(where)) continue;
     const SectionPlan& s = part.sections[i];
-    if (s.from_mm >= s.to_mm) {
-      findings.meaning(Code::kMeaning, where + "/from_mm",
-                       fmt::format("the lower end {} mm is not below the upper end {} mm; exchange "
-                                   "or correct them",
-                                   plain(s.from_mm), plain(s.to_mm)));
-    }
+    check_ends(s, where, findings);
     if (s.bore_diameter_mm >= s.diameter_mm) {
       findings.meaning(Code::kMeaning, where + "/bore_diameter_mm",
                        fmt::format("a hole of {} mm leaves nothing of a section of {} mm; correct "
@@ -118,7 +123,8 @@ void check_archive(const Plan& plan, Findings& findings) {
 void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
   constexpr std::array<std::string_view, 3> kNeeded = {"/machine", "/fixture", "/probe"};
   for (const std::string_view section : kNeeded) {
-    if (findings.is_given(std::string(section))) continue;
+    const bool stands = section == "/fixture" && plan.fixture;  // without one
+    if (stands || findings.is_given(std::string(section))) continue;
     findings.meaning(
         Code::kMissingKey, std::string(section),
         fmt::format("this key is missing: feature {} is touched by the machine; add it, or "
@@ -170,7 +176,7 @@ void check_drivers(const Plan& plan, Findings& findings) {
   }
   const std::string_view machine = name_of(plan.machine->driver);
   const std::string_view fixture = name_of(plan.fixture->driver);
-  check_zaber(*plan.fixture, findings);
+  if (!is_fixed(plan)) check_zaber(*plan.fixture, findings);
   const bool of_machine = plan.fixture->driver == FixturePlan::Driver::kSimulated ||
                           plan.fixture->driver == FixturePlan::Driver::kIppdme;
   if (!of_machine || machine == fixture) return;
@@ -287,7 +293,8 @@ bool is_touched(const Plan& plan, std::size_t index, const Findings& findings) {
 }
 
 void check_equipment(const Plan& plan, Findings& findings) {
-  if (plan.fixture) {
+  const bool turns = plan.fixture && !is_fixed(plan);
+  if (turns) {
     check_travel(plan.fixture->min_alpha_deg, plan.fixture->max_alpha_deg, "alpha", findings);
     check_travel(plan.fixture->min_beta_deg, plan.fixture->max_beta_deg, "beta", findings);
   }
@@ -295,9 +302,12 @@ void check_equipment(const Plan& plan, Findings& findings) {
   check_environment(plan, findings);
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);
-  if (plan.fixture) check_datum(*plan.fixture, findings);
-  if (plan.fixture) check_driver_sections(*plan.fixture, findings);
-  check_calibration_use(plan, findings);
+  if (turns) {
+    check_datum(*plan.fixture, findings);
+    check_driver_sections(*plan.fixture, findings);
+    check_calibration_use(plan, findings);
+  }
+  check_fixed_part(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (is_touched(plan, i, findings) || measures_by_touch(plan.features[i])) {
       return check_needs(plan, i, findings);

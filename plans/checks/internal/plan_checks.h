@@ -18,6 +18,15 @@ void check_plan(const Plan& plan, Findings& findings);
 /// Checks travel, resolution, temperature limits, and everything that touched features need.
 void check_equipment(const Plan& plan, Findings& findings);
 
+/// Makes "fixed" the fixture of a plan that leaves it out and touches surfaces. With it the part
+/// stands where `part` says, what holds it takes the place of the clamping ring, and start-pose is
+/// the default of the pose search.
+void stand_without_fixture(Plan& plan, const Findings& findings);
+
+/// Checks the place of a part without a fixture, and that no key needs axes; with a fixture, that
+/// the keys of such a part are not given.
+void check_fixed_part(const Plan& plan, Findings& findings);
+
 /// Checks ids, keys that have no effect, and check_drawing().
 void check_feature(const Plan& plan, std::size_t index, Findings& findings);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,19 @@ std::string others(const std::vector<Unreachable>& missed) {
   return out + " be reached";
 }
 
+/// Checks that the tip parks above everything.
+core::Result<void> check_park(const Plan& plan, double highest_mm) {
+  const double top_mm =
+      highest_mm + (0.5 * plan.probe->tip_diameter_mm + plan.machine->clearance_mm);
+  if (plan.machine->park_mm[2] >= top_mm) return {};
+  return core::fail(
+      core::Code::kUnreachable,
+      fmt::format("park height {:g} mm is below {:.3f} mm, where part or reference sphere, "
+                  "tip and clearance end; raise it",
+                  plan.machine->park_mm[2], top_mm),
+      "/machine/park_mm");
+}
+
 }  // namespace
 
 core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_t index) {
@@ -59,8 +73,43 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
                     where);
 }
 
+core::Result<void> check_room_at(const Plan& plan, const Eigen::Isometry3d& X_WP) {
+  const QualificationPlan& q = plan.probe->qualification;
+  const double radius_mm = 0.5 * q.sphere_diameter_mm;
+  const Eigen::Vector3d sphere = X_WP.inverse() * vector3(q.sphere_center_mm);
+  const double up = X_WP.linear()(2, 2);
+  double highest_mm = q.sphere_center_mm[2] + radius_mm;
+  double apart_mm = std::numeric_limits<double>::infinity();
+  const auto add = [&](double from_mm, double to_mm, double outer_mm) {
+    const double top_mm = std::max(up * from_mm, up * to_mm) +
+                          outer_mm * std::sqrt(std::max(0.0, 1.0 - up * up)) +
+                          plan.part.location_uncertainty_mm;
+    highest_mm = std::max(highest_mm, X_WP.translation().z() + top_mm);
+    const double along_mm = std::max({0.0, from_mm - sphere.z(), sphere.z() - to_mm});
+    const double beside_mm = std::max(0.0, sphere.head<2>().norm() - outer_mm);
+    apart_mm = std::min(apart_mm, std::hypot(along_mm, beside_mm));
+  };
+  for (const FeaturePlan& feature : plan.features) {
+    if (!is_touched(feature)) continue;
+    const PartPiece piece = piece_of(feature);
+    add(piece.from_mm(), piece.to_mm(), piece.radius_mm());
+  }
+  for (const SectionPlan& s : plan.part.sections) add(s.from_mm, s.to_mm, 0.5 * s.diameter_mm);
+  if (const auto& held = plan.part.held) add(held->from_mm, held->to_mm, 0.5 * held->diameter_mm);
+  TRY_DO(check_park(plan, highest_mm));
+  const double needed_mm = radius_mm + plan.probe->tip_diameter_mm + plan.machine->approach_mm +
+                           plan.machine->clearance_mm + plan.part.location_uncertainty_mm;
+  if (apart_mm >= needed_mm) return {};
+  return core::fail(core::Code::kUnreachable,
+                    fmt::format("the centre of the reference sphere is {:.3f} mm from the part or "
+                                "what holds it, {:.3f} mm are needed; move it away",
+                                apart_mm, needed_mm),
+                    "/probe/qualification/sphere_center_mm");
+}
+
 core::Result<void> check_room(const Plan& plan) {
   const FixturePlan& fixture = *plan.fixture;
+  if (is_fixed(plan)) return check_room_at(plan, standing_part(fixture));
   const QualificationPlan& sphere = plan.probe->qualification;
   // Ball about the base-fixed axis that contains the part in every pose of the fixture.
   double reach_mm = 0.0;
@@ -99,18 +148,9 @@ core::Result<void> check_room(const Plan& plan) {
   reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
               plan.part.location_uncertainty_mm;
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
-  const double room_mm = tip_mm + plan.machine->clearance_mm;
   const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
   const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
-  const double top_mm = std::max(axis.z() + reach_mm, top_of_spheres_mm) + room_mm;
-  if (plan.machine->park_mm[2] < top_mm) {
-    return core::fail(
-        core::Code::kUnreachable,
-        fmt::format("park height {:g} mm is below {:.3f} mm, where part or reference sphere, "
-                    "tip and clearance end; raise it",
-                    plan.machine->park_mm[2], top_mm),
-        "/machine/park_mm");
-  }
+  TRY_DO(check_park(plan, std::max(axis.z() + reach_mm, top_of_spheres_mm)));
   const double apart_mm = (center - axis).norm();
   const double needed_mm =
       reach_mm + 0.5 * sphere.sphere_diameter_mm + 2.0 * tip_mm + plan.machine->approach_mm;

@@ -20,5 +20,8 @@ namespace rondure::plans {
 /// reference sphere, and that the sphere is outside the space that the fixture sweeps.
 /// @return kUnreachable with the pointer of the key to change.
 [[nodiscard]] core::Result<void> check_room(const Plan& plan);
+/// The same for a part that stands still.
+/// @param X_WP  Where it stands.
+[[nodiscard]] core::Result<void> check_room_at(const Plan& plan, const Eigen::Isometry3d& X_WP);
 
 }  // namespace rondure::plans

@@ -23,7 +23,14 @@ fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
 Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {
   Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
   X_BP.translation() = vector3(fixture.part_position_mm);
+  X_BP.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), vector3(fixture.part_axis))
+          .toRotationMatrix();
   return X_BP;
+}
+
+Eigen::Isometry3d standing_part(const FixturePlan& fixture) {
+  return fixture::body_to_machine(nominal_kinematics(fixture), {}) * nominal_seat(fixture);
 }
 
 fixture::FixtureLimits limits_of(const FixturePlan& fixture) {

@@ -30,6 +30,9 @@ namespace rondure::plans {
 /// The position of the part in the clamping ring as stated in the plan: X_BP.
 [[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
 
+/// Where the plan has a part without a fixture: X_WP.
+[[nodiscard]] Eigen::Isometry3d standing_part(const FixturePlan& fixture);
+
 [[nodiscard]] fixture::FixtureLimits limits_of(const FixturePlan& fixture);
 
 /// The pose in which the measurement of a feature starts.

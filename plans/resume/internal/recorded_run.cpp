@@ -82,6 +82,13 @@ bool RecordedRun::has_decision(const core::Message& message) const {
   });
 }
 
+const core::Message* RecordedRun::decided(core::MessageCode code) const {
+  const auto found = std::find_if(
+      run_.decisions.begin(), run_.decisions.end(),
+      [&](const record::Decision& d) { return d.feature < 0 && d.message.code == code; });
+  return found == run_.decisions.end() ? nullptr : &found->message;
+}
+
 bool RecordedRun::knows_true_values() const {
   // Those of an analysis come with its series, maybe long before the run was interrupted.
   return std::any_of(run_.truth_values.begin(), run_.truth_values.end(),

@@ -39,6 +39,8 @@ class RecordedRun {
   [[nodiscard]] bool goes_on_untouched(int next_pose) const;
   /// Whether a decision about the whole run is in the journal.
   [[nodiscard]] bool has_decision(const core::Message& message) const;
+  /// The first decision about the whole run with this code, or nullptr.
+  [[nodiscard]] const core::Message* decided(core::MessageCode code) const;
   /// Whether the series of a feature are in the journal; either all of them are, or none.
   [[nodiscard]] bool knows_series(int feature) const;
   /// Whether the true values of the characteristics are in the journal; all of them are, or none.

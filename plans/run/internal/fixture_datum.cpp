@@ -16,16 +16,6 @@ using Eigen::Vector3d;
 
 constexpr const char* kDatumPointer = "/fixture/datum";
 
-/// Position of the base, for the journal.
-core::Message base_message(const fit::Registration& base) {
-  const Vector3d shift = base.motion.translation();
-  const Eigen::AngleAxisd turn(base.motion.rotation());
-  const Vector3d angles = turn.angle() * turn.axis() / core::kDegree;
-  return {core::MessageCode::kFixtureBaseFound,
-          {shift.x(), shift.y(), shift.z(), angles.x(), angles.y(), angles.z(),
-           base.largest_residual_mm / core::kMicrometre}};
-}
-
 core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
                                            const std::vector<Vector3d>& tips) {
   const DatumPlan& datum = *plan.fixture->datum;
@@ -43,6 +33,15 @@ core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
 }
 
 }  // namespace
+
+core::Message base_message(const fit::Registration& base) {
+  const Vector3d shift = base.motion.translation();
+  const Eigen::AngleAxisd turn(base.motion.rotation());
+  const Vector3d angles = turn.angle() * turn.axis() / core::kDegree;
+  return {core::MessageCode::kFixtureBaseFound,
+          {shift.x(), shift.y(), shift.z(), angles.x(), angles.y(), angles.z(),
+           base.largest_residual_mm / core::kMicrometre}};
+}
 
 core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
   std::vector<TouchStep> out;

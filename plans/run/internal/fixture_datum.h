@@ -23,6 +23,9 @@ namespace rondure::plans {
 [[nodiscard]] core::Result<fit::Registration> fixture_base(
     const Plan& plan, std::span<const std::vector<Eigen::Vector3d>> tips_W_mm);
 
+/// A base that was found, for the journal: shift [mm], turn as a rotation vector [deg], residual.
+[[nodiscard]] core::Message base_message(const fit::Registration& base);
+
 /// Touches the spheres of `fixture.datum`, journals touches and result, and sets the base of the
 /// cell; does nothing without that key. The kinematics are then on the located base.
 [[nodiscard]] core::Result<void> find_fixture_base(RunContext& context);

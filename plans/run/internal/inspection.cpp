@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "plans/analyses/features.h"
 #include "plans/checks/internal/merged_reach.h"
 
 namespace rondure::plans {
@@ -54,7 +55,7 @@ FeatureSession::FeatureSession(RunContext& context, int feature_index, std::vect
       feature_(context.plan.features[static_cast<std::size_t>(feature_index)]),
       targets_(std::move(targets)),
       X_BP_(context.cell->nominal_part()),
-      geometry_(path_geometry(context.plan, feature_, context.plan.part.location_uncertainty_mm)),
+      geometry_(path_geometry(context.plan, feature_, context.location_mm())),
       planner_(context.plan, feature_) {
   context_.progress.feature = feature_.id;
 }
@@ -74,8 +75,15 @@ tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
     return core::fail(error);
   }
   std::string advice;
+  const bool stands = is_fixed(context_.plan) && !context_.part_met;
+  if (stands && error.code == core::Code::kNoTouch) {
+    advice = fmt::format(
+        "; the part is not within {:g} mm of its place in the plan; nothing else has moved",
+        context_.plan.machine->search_mm + geometry_.approach_mm -
+            context_.plan.machine->approach_mm);
+  }
   if (error.code == core::Code::kNoTouch || error.code == core::Code::kCollision) {
-    advice =
+    advice +=
         "; check that the part of the plan is clamped where the plan says "
         "(location_uncertainty_mm)";
   }
@@ -93,9 +101,7 @@ core::Pose FeatureSession::commanded_for(const core::Pose& wanted) const {
   return out;
 }
 
-bool FeatureSession::must_locate() const {
-  return context_.plan.part.location_uncertainty_mm > 0.0;
-}
+bool FeatureSession::must_locate() const { return context_.location_mm() > 0.0; }
 
 core::Result<void> FeatureSession::turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets) {
@@ -112,6 +118,22 @@ core::Result<void> FeatureSession::turn(const core::Pose& commanded,
 
 Eigen::Vector3d FeatureSession::expected_axis() const {
   return part_at(reached_).linear() * Eigen::Vector3d::UnitZ();
+}
+
+core::Result<void> FeatureSession::check_first_touch(const Target& target,
+                                                     const cmm::TouchCommand& command,
+                                                     const Eigen::Vector3d& tip_W_mm) {
+  if (context_.part_met || !is_fixed(context_.plan)) return {};
+  const double late_mm = (tip_W_mm - command.expected_tip_W_mm).dot(command.direction_W);
+  context_.part_met = std::abs(late_mm) <= context_.plan.machine->search_mm;
+  if (context_.part_met) return {};
+  return core::fail_with(
+      core::Code::kLocation,
+      "feature {}, layer {}, point {}: the first touch met the part {:.3f} mm {} its place in the "
+      "plan, machine.search_mm allows {:g} mm; nothing else has moved; correct part.position_mm "
+      "and part.axis, or place the part anew",
+      feature_.id, target.layer + 1, target.point + 1, std::abs(late_mm),
+      late_mm < 0.0 ? "before" : "behind", context_.plan.machine->search_mm);
 }
 
 core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) const {
@@ -144,6 +166,18 @@ core::Result<fit::Axis> FeatureSession::locate_once(const core::Pose& commanded)
   TRY_DO(check_location(cylinder));
   follow_axis(cylinder.axis);
   return cylinder.axis;
+}
+
+core::Result<double> FeatureSession::locate_height() {
+  TRY(const auto targets, height_targets(feature_));
+  TRY_DO(turn({}, targets));
+  TRY(const auto tips, touch_cloud(targets, record::Touch::Purpose::kLocate));
+  const Eigen::Isometry3d X_PW = part_at(reached_).inverse();
+  double sum_mm = 0.0;
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    sum_mm += (X_PW * tips[i] - contact_tip(geometry_, targets[i])).z();
+  }
+  return sum_mm / static_cast<double>(tips.size());
 }
 
 core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
@@ -246,12 +280,13 @@ void FeatureSession::follow_axis(const fit::Axis& axis_W) {
   const Eigen::Isometry3d X_BW =
       fixture::body_to_machine(context_.cell->kinematics(), reached_).inverse();
   Eigen::Vector3d z = X_BW.linear() * axis_W.direction;
-  if (z.z() < 0.0) z = -z;  // a cylinder's axis has two directions; the part stands upright
-  // A cylinder shows neither the rotation about its axis nor the shift along it: both stay nominal.
   const Eigen::Isometry3d nominal = context_.cell->nominal_part();
+  const Eigen::Vector3d expected = nominal.linear().col(2);
+  if (z.dot(expected) < 0.0) z = -z;  // a cylinder's axis has two directions
+  // A cylinder shows neither the rotation about its axis nor the shift along it: both stay nominal.
   const Eigen::Vector3d on_axis = X_BW * axis_W.point_mm;
   X_BP_.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z).toRotationMatrix();
+      Eigen::Quaterniond::FromTwoVectors(expected, z).toRotationMatrix() * nominal.linear();
   X_BP_.translation() = on_axis + z * (nominal.translation() - on_axis).dot(z);
   geometry_ = path_geometry(context_.plan, feature_, 0.0);
 }
@@ -341,11 +376,13 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
   const bool shows_truth = purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
   std::vector<Eigen::Vector3d> tips(targets.size());
   const auto touch = [&](TouchStep step, std::size_t k) -> core::Result<void> {
+    const cmm::TouchCommand command = step.command;
     const auto touched = context_.touch(std::move(step));
     if (!touched) {
       return context_.lost_place ? core::fail(touched.error())
                                  : fault_at(path.target(k), touched.error());
     }
+    TRY_DO(check_first_touch(path.target(k), command, touched->tip_mm));
     if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
       truth_.push_back(*truth);
     }

@@ -27,6 +27,8 @@ class FeatureSession final : public PoseSession {
   [[nodiscard]] core::Result<void> repeat(int times) override;
   [[nodiscard]] core::Result<void> keep_as_final() override;
   [[nodiscard]] core::Result<fit::Axis> locate(const core::Pose& commanded) override;
+  /// How much higher than expected, along part z, three touches in the zero pose find a face [mm].
+  [[nodiscard]] core::Result<double> locate_height();
   [[nodiscard]] core::Pose commanded_for(const core::Pose& wanted) const override;
   [[nodiscard]] bool must_locate() const override;
   [[nodiscard]] Eigen::Vector3d expected_axis() const override;
@@ -81,6 +83,11 @@ class FeatureSession final : public PoseSession {
   /// The error with its point and the remedy.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
+  /// Checks that the first touch of a part without a fixture met it no farther than
+  /// machine.search_mm from its place in the plan; otherwise nothing more may move toward it.
+  [[nodiscard]] core::Result<void> check_first_touch(const Target& target,
+                                                     const cmm::TouchCommand& command,
+                                                     const Eigen::Vector3d& tip_W_mm);
   /// Checks that a located cylinder can be the part of the plan; otherwise nothing may move near
   /// it.
   [[nodiscard]] core::Result<void> check_location(const fit::LsCylinder& found) const;

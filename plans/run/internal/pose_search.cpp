@@ -194,6 +194,8 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
   // sphere shows no place of the part alone. Their approach is longer instead.
   if (session.must_locate() && strategy != Strategy::kMerged && is_round(feature.type)) {
     TRY(const auto axis, session.locate(pose));
+    const fixture::FixtureLimits& limits = session.limits();
+    if (limits.min_alpha_rad == limits.max_alpha_rad) return single(session, feature);  // it stands
     const core::Pose level = session.levelling(axis.direction);
     auto noted = session.note(message_at(pose, core::MessageCode::kPartLocated,
                                          {in_deg(level.alpha_rad), in_deg(level.beta_rad)}));

@@ -54,8 +54,14 @@ struct RunContext {
   bool retreating = false;      ///< The operator refused a motion: retreat without asking.
   std::string doing = {};       ///< Purpose of the next motions, in words.
   bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
+  bool aligned = false;         ///< The part was located as a whole, features need not be.
+  bool part_met = false;        ///< A touch has met the part where the plan has it.
   bool lost_place = false;  ///< An interruption was not resolved: only a person may move the tip.
 
+  /// Largest distance of the part from where it is expected.
+  [[nodiscard]] double location_mm() const {
+    return aligned ? 0.0 : plan.part.location_uncertainty_mm;
+  }
   /// Whether touches come from the journal and nothing moves.
   [[nodiscard]] bool replaying() const { return recorded.replaying(next_touch); }
   /// kStopped when the operator has requested a stop.

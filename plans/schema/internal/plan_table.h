@@ -34,7 +34,7 @@ void describe(Visitor& v, PlanHead& p) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, SectionPlan& p) {
+void describe(Visitor& v, DiscPlan& p) {
   const auto height = [](std::string_view meaning) {
     return required(within(kMaxCoordinate_mm, meaning));
   };
@@ -42,7 +42,24 @@ void describe(Visitor& v, SectionPlan& p) {
   v.number("to_mm", p.to_mm, height("Upper end of the section, part z."));
   v.number("diameter_mm", p.diameter_mm,
            required(above(0.0, 2000.0, "Outer diameter of the section.")));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SectionPlan& p) {
+  describe(v, static_cast<DiscPlan&>(p));
   v.number("bore_diameter_mm", p.bore_diameter_mm, range(0.0, 2000.0, "Of its hole; 0: solid."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, AlignmentPlan& p) {
+  v.text("axis", p.axis,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Id of the touched cylinder whose two sections show the part axis."});
+  v.text("face", p.face,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Id of the touched plane that shows the height of the part origin."});
 }
 
 template <class Visitor>
@@ -62,6 +79,23 @@ void describe(Visitor& v, PartPlan& p) {
   v.list("sections", p.sections,
          {.meaning = "Shoulders, necks and neighbours of the inspected surfaces, which the path "
                      "avoids. It avoids touched outside surfaces without an entry."});
+  v.numbers("position_mm", p.position_mm,
+            within(kMaxCoordinate_mm,
+                   "Without a fixture: origin of the part, x, y, z in the machine frame."));
+  v.numbers("axis", p.axis,
+            within(1.0, "Without a fixture: direction of part z in the machine frame."));
+  v.text("system", p.system,
+         {.meaning = "Without a fixture: where the frame of the part comes from. plan: position_mm "
+                     "and axis. control: the part system that the operator has aligned in the "
+                     "control of the machine (PartCsy); position_mm and axis then only serve the "
+                     "check of the plan."});
+  v.object("alignment", p.alignment,
+           {.meaning = "Without a fixture: the run finds the frame of the part before it measures, "
+                       "by three touches of a face and six of a cylinder; position_mm and axis "
+                       "need to be right within location_uncertainty_mm."});
+  v.object("held", p.held,
+           {.meaning = "Without a fixture: where a chuck, a vice or a V-block holds the part. The "
+                       "tool keeps clear of it."});
 }
 
 /// Settings of the server for the driver "ippdme".
@@ -177,7 +211,9 @@ void describe(Visitor& v, FixturePlan& p) {
   v.text("driver", p.driver,
          {.meaning =
               "What turns the part: a simulation, rotary axes of the machine (AlignPart), Zaber or "
-              "Thorlabs stages, or a hand. Stages may also turn the part of a simulated machine."});
+              "Thorlabs stages, or a hand. Stages may also turn the part of a simulated machine. "
+              "fixed: no axes, the part stands still (docs/cmm-without-fixture.md); the default "
+              "where `fixture` is left out."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha), machine frame."));
   v.numbers(
@@ -359,7 +395,8 @@ void describe(Visitor& v, PoseSearchPlan& p) {
               "How the levelling pose is found. guided: each cloud predicts the next pose. "
               "as-published: grid of steps_deg. refined: that grid, then halved steps. virtual: "
               "one cloud, turned in software. start-pose: no search, so that several features "
-              "share one clamping; the default for a datum and what refers to it, and always so "
+              "share one clamping; the default for a datum and what refers to it, and without a "
+              "fixture; always so "
               "for a circle, plane, cone or sphere. merged: no search; measured in each of `poses` "
               "where it can be reached, clouds joined (docs/several-poses.md)."});
   v.list("poses", p.poses,

@@ -64,8 +64,8 @@ std::optional<std::string> in_words(const Message& m) {
                  m.number(1), count_in(m, 2), count_in(m, 3));
     case MessageCode::kFixtureBaseFound:
       return trf(
-          "base of the fixture: shifted by ({:.4f}, {:.4f}, {:.4f}) mm, turned by ({:.5f}, {:.5f}, "
-          "{:.5f}) deg, largest residual {:.3f} um",
+          "base of the fixture, or of a part without one: shifted by ({:.4f}, {:.4f}, {:.4f}) mm, "
+          "turned by ({:.5f}, {:.5f}, {:.5f}) deg, largest residual {:.3f} um",
           m.number(0), m.number(1), m.number(2), m.number(3), m.number(4), m.number(5),
           m.number(6));
     case MessageCode::kSingleSteps:

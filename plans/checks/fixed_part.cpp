@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "plans/analyses/analysis.h"
+#include "plans/analyses/features.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/schema/json_text.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+using Names = std::initializer_list<std::string_view>;
+
+/// Reports the members of a section that have no effect: those named, or all others.
+void refuse(const std::string& section, bool named, Names names, std::string_view why,
+            Findings& findings) {
+  for (const std::string& key : findings.given_in(section)) {
+    const std::string name = key.substr(section.size() + 1);
+    if ((std::find(names.begin(), names.end(), name) != names.end()) != named) continue;
+    findings.meaning(Code::kMeaning, key, fmt::format("has no effect: {}; remove it", why));
+  }
+}
+
+/// Checks that the features of part.alignment are touched, a cylinder and a plane with a side.
+void check_alignment(const Plan& plan, Findings& findings) {
+  if (!plan.part.alignment) return;
+  const auto check = [&](std::string_view key, const std::string& id, record::Shape shape) {
+    const std::size_t index = feature_index(plan, id);
+    const bool plane = shape == record::Shape::kPlane;
+    if (index < plan.features.size()) {
+      const FeaturePlan& found = plan.features[index];
+      const bool sided = !plane || found.nominal.faces;
+      if (is_touched(found) && found.type == shape && sided) return;
+    }
+    findings.meaning(Code::kMeaning, fmt::format("/part/alignment/{}", key),
+                     fmt::format("{} is no touched {} of this plan{}; name one", in_quotes(id),
+                                 name_of(shape), plane ? " that says \"faces\"" : ""));
+  };
+  check("axis", plan.part.alignment->axis, record::Shape::kCylinder);
+  check("face", plan.part.alignment->face, record::Shape::kPlane);
+}
+
+void check_place(const Plan& plan, Findings& findings) {
+  if (!findings.sound("/part")) return;
+  const bool control = plan.part.system == PartPlan::System::kControl;
+  if (!control && !findings.is_given("/part/position_mm")) {
+    findings.meaning(Code::kMissingKey, "/part/position_mm",
+                     "this key is missing: without a fixture the plan says where the part stands; "
+                     "give its origin, x, y, z in the machine frame, or \"system\": "
+                     "\"control\"");
+  }
+  if (control && plan.part.alignment) {
+    findings.meaning(Code::kMeaning, "/part/alignment",
+                     "has no effect: the part system of the control says where the part stands; "
+                     "remove it, or take \"system\": \"plan\"");
+  }
+  check_alignment(plan, findings);
+  const auto& axis = plan.part.axis;
+  if (std::hypot(axis[0], axis[1], axis[2]) < 1e-3) {
+    findings.meaning(Code::kMeaning, "/part/axis",
+                     "three zeros are no direction; give that of part z, e.g. [0, 0, 1]");
+  }
+}
+
+/// Checks that no feature needs another pose than that in which the part stands.
+void check_poses(const Plan& plan, Findings& findings) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const FeaturePlan& feature = plan.features[i];
+    const std::string where = feature_pointer(i) + "/pose_search";
+    if (!is_touched(plan, i, findings) || !findings.sound(where)) continue;
+    const bool cylinder = feature.type == record::Shape::kCylinder;
+    if (cylinder && feature.pose_search.strategy != record::Strategy::kStartPose) {
+      findings.meaning(Code::kMeaning, where + "/strategy",
+                       fmt::format("\"{}\" turns the part, and without a fixture it stands still; "
+                                   "give \"start-pose\", or leave the key out",
+                                   name_of(feature.pose_search.strategy)));
+    }
+    constexpr std::string_view kStill = "without a fixture the part stands still";
+    if (cylinder) {
+      refuse(where, false, {"strategy", "repeats"}, kStill, findings);
+    } else {  // check_feature() refuses the others
+      refuse(where, true, {"start_alpha_deg", "start_beta_deg", "poses", "merge"}, kStill,
+             findings);
+    }
+  }
+}
+
+}  // namespace
+
+void stand_without_fixture(Plan& plan, const Findings& findings) {
+  if (!findings.is_given("/fixture")) {
+    const auto& features = plan.features;
+    bool touched = false;
+    for (std::size_t i = 0; i < features.size(); ++i)
+      touched = touched || is_touched(plan, i, findings);
+    // Balls need a fixture, which check_equipment() then misses.
+    touched = touched && std::none_of(features.begin(), features.end(), measures_by_touch);
+    if (touched) plan.fixture.emplace().driver = FixturePlan::Driver::kFixed;
+  }
+  if (!is_fixed(plan)) return;
+  FixturePlan& fixture = *plan.fixture;
+  fixture.axis_point_mm = plan.part.position_mm;
+  fixture.part_axis = plan.part.axis;
+  fixture.min_alpha_deg = fixture.max_alpha_deg = 0.0;
+  fixture.min_beta_deg = fixture.max_beta_deg = 0.0;
+  fixture.resolution_deg = 0.0;
+  if (plan.uncertainty) plan.uncertainty->fixture.emplace();  // axes that are not there add nothing
+  if (const auto& held = plan.part.held) {
+    fixture.clamp_from_mm = held->from_mm;
+    fixture.clamp_to_mm = held->to_mm;
+    fixture.ring_diameter_mm = held->diameter_mm;
+  }
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (findings.is_given(feature_pointer(i) + "/pose_search/strategy")) continue;
+    plan.features[i].pose_search.strategy = record::Strategy::kStartPose;
+  }
+}
+
+void check_fixed_part(const Plan& plan, Findings& findings) {
+  if (!plan.fixture || !findings.sound("/fixture/driver")) return;
+  if (!is_fixed(plan)) {
+    refuse("/part", true, {"position_mm", "axis", "system", "alignment", "held"},
+           "the fixture carries the part, `fixture` says where", findings);
+    return;
+  }
+  check_place(plan, findings);
+  constexpr std::string_view kNoAxes = "the fixture is \"fixed\", it has no axes";
+  refuse("/fixture", false, {"driver", "id", "table_height_mm"}, kNoAxes, findings);
+  refuse("/uncertainty/fixture", false, {}, kNoAxes, findings);
+  refuse("/simulation/fixture", false, {"base_offset_mm", "base_rotation_deg"}, kNoAxes, findings);
+  refuse("/simulation/faults", true, {"fixture_stalls_at_move", "fixture_off_deg"}, kNoAxes,
+         findings);
+  check_poses(plan, findings);
+}
+
+}  // namespace rondure::plans
