@@ -112,7 +112,8 @@ TEST(ArchiveOfRuns, ThatFailsChangesNothingOfTheRunAndIsCaughtUp) {
   EXPECT_EQ(pushed.status, 0) << pushed.err;
   EXPECT_THAT(pushed.out, AllOf(HasSubstr("2 runs sent"), HasSubstr("0 wait")));
   EXPECT_EQ(history_of(archive)["results"].size() % 2, 0U);
-  EXPECT_THAT(rondure({"history", archive}).out, AllOf(::testing::StartsWith("started (UTC)"), HasSubstr(" conforms\n")));
+  EXPECT_THAT(rondure({"history", archive}).out,
+              AllOf(::testing::StartsWith("started (UTC)"), HasSubstr(" conforms\n")));
   // What stands in the way may be anything.
   write(folder / "text", "not a database at all");
   const Outcome outcome = run_axle_into(folder / "three", {"--archive", folder / "text"});

@@ -132,7 +132,8 @@ TEST(HardPlan, AnArcFromAFileIsCalledAnArc) {
   write(folder / "plan.json",
         R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
             "features": [{"id": "f", "type": "circle", "source": {"file": "arc.csv"}}]})");
-  const Outcome outcome = rondure({"run", folder / "plan.json", "--out", folder / "run"});
+  const Outcome outcome =
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--verbose"});
   EXPECT_THAT(outcome.out, HasSubstr("not-full-section")) << outcome.err;
 }
 
