@@ -306,7 +306,7 @@ void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
   verb->add_flag("--inside", arguments.inside, "A bore: peaks point to the centre");
   verb->add_flag("--json", arguments.json, "JSON instead of text");
   verb->footer(
-      "\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 150\n"
+      "\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 100\n"
       "Filters, formulas and end effects: docs/filters.md");
 }
 

@@ -86,17 +86,6 @@ core::Result<void> read_pages(record::Archive& archive, const record::ArchiveFil
   return {};
 }
 
-core::Result<std::vector<ArchivedResult>> read_newest(record::Archive& archive,
-                                                      const record::ArchiveFilter& filter,
-                                                      std::size_t count) {
-  std::vector<ArchivedResult> all;
-  TRY_DO(read_pages(archive, filter, count, [&](std::vector<ArchivedResult> page) {
-    all.insert(all.end(), page.begin(), page.end());
-    return true;
-  }));
-  return all;
-}
-
 /// The newest `count` runs with their results.
 /// @return  Whether there are older ones.
 core::Result<bool> show_runs(record::Archive& archive, const record::ArchiveFilter& filter,
@@ -159,8 +148,11 @@ core::Result<void> show(record::Archive& archive, const std::string& place,
     return {};
   }
   const std::size_t count = arguments.last.value_or(kCharted);
-  // one more shows whether there are older ones
-  TRY(auto results, read_newest(archive, filter, count + 1));
+  std::vector<ArchivedResult> results;  // one more shows whether there are older ones
+  TRY_DO(read_pages(archive, filter, count + 1, [&](const std::vector<ArchivedResult>& page) {
+    results.insert(results.end(), page.begin(), page.end());
+    return true;
+  }));
   const bool more = results.size() > count;
   if (more) results.resize(count);
   const reports::RunChart chart = reports::run_chart_of(results);

@@ -335,25 +335,6 @@ void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   for (const core::Phrase& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
 }
 
-/// "limit 10.000 um", "no limit"; of a size "29.987 to 30 mm", of a value with a sign "-20 to 5
-/// um".
-std::string limits_text(const record::Characteristic& asked) {
-  if (!asked.toleranced()) return tr("no limit");
-  if (const auto unit = evaluation::unit_of(asked); unit != core::ValueUnit::kMm) {
-    if (!asked.lower_mm) {
-      return trf("limit {}", fmt::format("{} {}", um(*asked.tolerance_mm), name_of(unit)));
-    }
-    if (asked.tolerance_mm) {
-      return trf("{} to {} {}", um(*asked.lower_mm), um(*asked.tolerance_mm), name_of(unit));
-    }
-  }
-  constexpr double kSteps = 1e6;  // of a nanometre: limits are sums of a nominal and a deviation
-  const auto mm = [](double length_mm) { return core::decimal(core::on_grid(length_mm, kSteps)); };
-  if (!asked.lower_mm) return trf("at most {} mm", mm(*asked.tolerance_mm));
-  if (!asked.tolerance_mm) return trf("at least {} mm", mm(*asked.lower_mm));
-  return trf("{} to {} mm", mm(*asked.lower_mm), mm(*asked.tolerance_mm));
-}
-
 /// "layer 3 at 12.000 mm", "generatrix at 90.0 deg", "circle of radius 20.000 mm".
 std::string place_of(const evaluation::LocalValue& local) {
   using Place = evaluation::LocalValue::Place;
@@ -422,26 +403,14 @@ void add_finding(std::string& out, const evaluation::Finding& finding,
   }
 }
 
-/// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
+/// "  CYLt MZCY    id: does not conform", then what the line of the table does not say.
 void add_characteristic(std::string& out, const evaluation::CharacteristicResult& result,
                         std::set<std::string>& said) {
   const record::Characteristic& asked = result.characteristic;
-  const std::string value = result.value
-                                ? fmt::format("{}{} {}", bound_sign(*result.value, "≤ ", "≥ "),
-                                              result.value->in_digits(result.value->quoted_mm()),
-                                              name_of(result.value->unit()))
-                                : tr("no value");
-  std::string line = fmt::format(
-      "  {} {}{:>14}   {} {}  ", tr(evaluation::symbol_of(asked)), evaluation::reference_of(asked),
-      value, padded(limits_text(asked), 19), padded(tr(name_of(result.verdict)), 16));
-  constexpr std::size_t kLeastName = 3;
-  if (columns(line) + kLeastName <= kTerminalColumns) {
-    out += line + shortened(printable(asked.id), kTerminalColumns - columns(line)) + "\n";
-  } else {  // a long symbol leaves no room for the name
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
-    add_wrapped(out, "", printable(asked.id));
-  }
+  add_wrapped(
+      out,
+      fmt::format("  {} {}", tr(evaluation::symbol_of(asked)), evaluation::reference_of(asked)),
+      trf("{}: {}", printable(asked.id), tr(name_of(result.verdict))));
   const bool simple = result.value && !result.value->uncertainty().result();
   if (result.verdict == evaluation::Verdict::kVoid ||
       result.verdict == evaluation::Verdict::kUndecided || (!simple && result.outcome)) {

@@ -85,7 +85,7 @@ TEST(SimulatedFault, ATemperatureOutsideItsLimitsVoidsTheResult) {
   const ChangedRun run({{"/simulation/temperature_degC", 25}});
   EXPECT_EQ(run.outcome.status, 1);
   EXPECT_THAT(run.outcome.out, AllOf(::testing::StartsWith("0 of 2 conform; "),
-                                     HasSubstr("temperature 25.00 degC is outside 18..22 degC")));
+                                     HasSubstr("temperature 25.00 °C is outside 18..22 °C")));
   EXPECT_EQ(run.verify().status, 0);
 }
 
@@ -94,7 +94,7 @@ TEST(Verdict, AToleranceThatIsExceededDoesNotConform) {
   EXPECT_EQ(run.outcome.status, 1);
   EXPECT_THAT(run.outcome.out,
               AllOf(::testing::StartsWith("1 of 2 conforms; CYLt of running surface is "),
-                    HasSubstr("over its limit of 2 µm"), HasSubstr("does not conform  CYLt")));
+                    HasSubstr("over its limit of 2 µm"), HasSubstr("CYLt: does not conform")));
   EXPECT_EQ(run.verify().status, 0);
 }
 

@@ -134,10 +134,9 @@ TEST(Answer, EndsWithWhatIsInU) {
             "报告：runs/7/report.html");
 }
 
-TEST(Summary, SaysTheValueItsLimitAndItsVerdictInOneLine) {
-  EXPECT_THAT(
-      summary_of(failing_case()),
-      HasSubstr("  CYLt MZCY      8.300 µm   limit 6.000 µm      does not conform  cyl-A\n"));
+TEST(Summary, DetailsBeginWithTheCallOutAndItsVerdict) {
+  EXPECT_THAT(answer_of(failing_case()),
+              HasSubstr("\n  CYLt MZCY    cyl-A: does not conform\n    stated "));
 }
 
 TEST(Summary, SaysThatItIsSimulatedAndWhatIsHidden) {
