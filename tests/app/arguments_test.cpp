@@ -220,7 +220,8 @@ TEST(Arguments, ThePlanMayFollowTheFormats) {
 
 TEST(Arguments, ANameThatNoReportCanShowIsRefused) {
   const TemporaryFolder folder;
-  for (const std::string& option : {std::string("--serial"), std::string("--operator")}) {
+  for (const std::string& option : {std::string("--serial"), std::string("--operator"),
+                                   std::string("--order"), std::string("--customer")}) {
     for (const std::string name : {"S\uFFFE", "S\uFDD0", "S\x1b[2J", "S\u009b2J", "S\xff"}) {
       const Outcome outcome = rondure(
           {"run", example("09_axle_points_file.json"), "--out", folder / "run", option, name});
