@@ -131,7 +131,7 @@ TEST(IppClientTraps, ReadsThePartSystemAndSaysEverythingElseInThatOfTheMachine) 
   const auto tip = machine->tip_in_part_system_mm();
   ASSERT_TRUE(tip) << tip.error().what;
   EXPECT_EQ(*tip, Vector3d(1.0, 2.0, 3.0));
-  EXPECT_THAT(server.heard, ElementsAre("SetCoordSystem(PartCsy)", "Get(X(),Y(),Z())",
+  EXPECT_THAT(server.heard, ElementsAre("SetCoordSystem(PartCsy)", "Get(X(), Y(), Z())",
                                         "SetCoordSystem(MachineCsy)"));
   EXPECT_EQ(machine->position_W_mm(), Vector3d(0.0, 0.0, 500.0)) << "it has not moved";
 }
