@@ -11,6 +11,7 @@
 #include "evaluation/uncertainty/kept_draws.h"
 #include "record/checksums.h"
 #include "record/files.h"
+#include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
 
@@ -21,24 +22,27 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostTrialsBytes = std::uintmax_t{1} << 30;  // 1 GiB
 
-/// The program as its bytes: another build draws otherwise, whatever its version says.
-std::string head_of_file() {
+/// The program as its bytes, because another build draws otherwise, whatever its version says; the
+/// processor; the journal.
+std::string head_of_file(const fs::path& directory) {
   const auto program = record::read_file("/proc/self/exe");
-  return fmt::format("rondure trials\nprogram {}\nprocessor {}\n",
-                     program ? record::sha256_hex(*program) : "unknown", processor());
+  const auto journal = record::sha256_inside(directory, record::kJournalName);
+  return fmt::format("rondure trials\nprogram {}\nprocessor {}\njournal {}\n",
+                     program ? record::sha256_hex(*program) : "unknown", processor(),
+                     journal.value_or("unknown"));
 }
 
-/// The draws of the directory, behind their head. Whoever reads its journal has compared that with
-/// SHA256SUMS, so that draws of another run do not come with it.
+/// The draws of the directory, behind their head.
 core::Result<std::string> known_draws(const fs::path& directory, const std::string& sha256) {
   TRY(std::string bytes, record::read_inside(directory, kTrialsFile, kMostTrialsBytes));
   if (record::sha256_hex(bytes) != sha256) {
     return core::fail(core::Code::kFile, fmt::format("it was changed after it was written ({})",
                                                      record::kChecksumsName));
   }
-  const std::string head = head_of_file();
+  const std::string head = head_of_file(directory);
   if (!bytes.starts_with(head)) {
-    return core::fail(core::Code::kFile, "another build, or another processor, wrote it");
+    return core::fail(core::Code::kFile,
+                      "another build, another processor or another run wrote it");
   }
   return bytes.substr(head.size());
 }
@@ -71,7 +75,7 @@ void KeptTrials::keep() const {
   std::error_code unknown;
   if (!taken_.empty() || drawn_.empty()) return;
   if (fs::exists(directory_ / record::kSignatureName, unknown)) return;
-  const std::string bytes = head_of_file() + drawn_;
+  const std::string bytes = head_of_file(directory_) + drawn_;
   auto kept = record::write_inside(directory_, kTrialsFile, bytes);
   if (kept) {
     kept = record::update_checksums(directory_, {{kTrialsFile, record::sha256_hex(bytes)}});

@@ -14,9 +14,9 @@ inline constexpr const char* kTrialsFile = "trials.bin";
 
 /// Evaluates a run with the draws that its directory keeps, and keeps those that it has to make.
 ///
-/// Draws are taken only where SHA256SUMS names trials.bin with the digest that it has, as it names
-/// the journal, and the same program drew on the same kind of processor: then they are those of
-/// this run, bit for bit. `verify` and `sign` never take them.
+/// Draws are taken only where SHA256SUMS names trials.bin with the digest that it has, and the same
+/// program drew for the same journal on the same kind of processor: then they are those of this
+/// run, bit for bit. `verify` and `sign` never take them.
 class KeptTrials {
  public:
   /// Says on the terminal why draws that are there are not taken.

@@ -58,7 +58,7 @@ TEST_F(KeptTrials, AreTakenByReportAndCompareAndChangedByNeither) {
 // The verdict would be another with these draws: a report that took them would say so.
 TEST_F(KeptTrials, AreTakenWithoutDrawingAgain) {
   std::string bytes = trials();
-  const std::size_t body = bytes.find('\n', bytes.find("processor ")) + 1;
+  const std::size_t body = bytes.find('\n', bytes.find("journal ")) + 1;
   // behind the number of chains and that of the trials of the first one
   double first = 0.0;
   std::memcpy(&first, bytes.data() + body + 16, sizeof first);
@@ -87,7 +87,11 @@ TEST_F(KeptTrials, OfAnotherRunOrProgramOrWithOneChangedBitAreDrawnAgain) {
   bytes = good;
   bytes.replace(bytes.find("program ") + 8, 4, "0000");
   forge(bytes);
-  EXPECT_THAT(told_by_report(), HasSubstr("another build, or another processor, wrote it"));
+  constexpr const char* kForeign = "another build, another processor or another run wrote it";
+  EXPECT_THAT(told_by_report(), HasSubstr(kForeign));
+  EXPECT_EQ(trials(), good);
+  forge(read(example_runs() / "09_axle_points_file" / "trials.bin"));
+  EXPECT_THAT(told_by_report(), HasSubstr(kForeign));
   EXPECT_EQ(trials(), good);
 
   fs::remove(run_ / "trials.bin");
