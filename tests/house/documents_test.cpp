@@ -117,7 +117,7 @@ TEST(Documents, NameSourcesThatAreThere) {
       ++checked;
     }
   }
-  EXPECT_GT(checked, 30U);
+  EXPECT_GT(checked, 50U);
 }
 
 // A relative link of a page leads to a file that is there.
