@@ -40,10 +40,38 @@ core::Result<Eigen::Vector3d> place_of(std::string_view list, char separator) {
   return out;
 }
 
-/// Reads measured points of DMIS: FA(...)=FEAT/POINT,CART,x,y,z and RAWDAT/CART,x,y,z. Points
-/// after PTMEAS are targets.
+/// Parts of a file whose points belong together: points of several would be read as one cloud.
+class Parts {
+ public:
+  Parts(std::string_view parts, std::string_view name) : parts_(parts), name_(name) {}
+
+  void begin() { begun_ = true; }
+  core::Result<void> take(std::size_t line) {
+    if (!std::exchange(begun_, false)) return {};
+    if (first_ > 0) {
+      return core::fail(
+          Code::kMeaning,
+          fmt::format("the file holds the points of several {}: of one from line {} on, of another "
+                      "from here on; bring each in a file of its own",
+                      parts_, first_),
+          fmt::format("{}:{}", name_, line));
+    }
+    first_ = line;
+    return {};
+  }
+
+ private:
+  std::string_view parts_;
+  std::string_view name_;
+  bool begun_ = true;
+  std::size_t first_ = 0;
+};
+
+/// Reads measured points of DMIS: FA(...)=FEAT/POINT,CART,x,y,z and RAWDAT/CART,x,y,z of one
+/// feature. Points after PTMEAS are targets.
 core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
   Cloud out;
+  Parts features("features", name);
   out.read = "DMIS, x y z of points";
   std::string statement;
   std::size_t begin = 0;
@@ -69,6 +97,10 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
     }
     const std::size_t feature = whole.find("=FEAT/POINT,");
     const bool raw = whole.starts_with("RAWDAT/");
+    if (feature == std::string_view::npos && whole.find("=FEAT/") != std::string_view::npos) {
+      features.begin();
+    }
+    if (raw) TRY_DO(features.take(begin));
     if (raw || (whole.starts_with("FA(") && feature != std::string_view::npos)) {
       std::string_view list = whole.substr(raw ? 7 : feature + 12);
       if (list.starts_with("CART,")) list.remove_prefix(5);
@@ -102,10 +134,12 @@ std::optional<double> log_item(std::string_view line, std::string_view key) {
 core::Result<Cloud> read_log(std::string_view text, std::string_view name) {
   constexpr std::size_t kTag = 5;
   Cloud out;
+  Parts sessions("sessions", name);
   out.read = "I++ DME log, answers to PtMeas";
   std::string_view tag;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::string_view whole = take_line(text);
+    if (whole.find(" StartSession()") != std::string_view::npos) sessions.begin();
     const std::size_t command = whole.find(" PtMeas(");
     if (command != std::string_view::npos && command >= kTag) {
       tag = whole.substr(command - kTag, kTag);
@@ -123,13 +157,36 @@ core::Result<Cloud> read_log(std::string_view text, std::string_view name) {
                         fmt::format("the answer {} has no X, Y and Z", quoted_text(whole)),
                         fmt::format("{}:{}", name, line));
     }
+    TRY_DO(sessions.take(line));
     out.points.emplace_back(*x, *y, *z);
   }
   if (!out.points.empty()) return out;
   return core::fail(Code::kNoPoints, "the log holds no answer to PtMeas", std::string(name));
 }
 
-/// Reads the one point set of a QIF document.
+/// Local name of an element: its prefix differs from document to document.
+std::string_view local_name(const pugi::xml_node& node) {
+  const std::string_view own = node.name();
+  const std::size_t colon = own.find(':');
+  return own.substr(colon == std::string_view::npos ? 0 : colon + 1);
+}
+
+/// Elements of a name below another one, in the order of the document.
+std::vector<pugi::xml_node> elements_below(const pugi::xml_node& root, std::string_view wanted) {
+  struct Walker final : pugi::xml_tree_walker {
+    std::string_view wanted;
+    std::vector<pugi::xml_node> found;
+    bool for_each(pugi::xml_node& node) override {
+      if (local_name(node) == wanted) found.push_back(node);
+      return true;
+    }
+  } walker;
+  walker.wanted = wanted;
+  pugi::xml_node(root).traverse(walker);
+  return std::move(walker.found);
+}
+
+/// Reads the one point set of a QIF document, or the points of its one measured feature.
 core::Result<Cloud> read_qif(std::string_view text, std::string_view name) {
   const auto fail = [&](Code code, std::string what) {
     return core::fail(code, std::move(what), std::string(name));
@@ -137,34 +194,48 @@ core::Result<Cloud> read_qif(std::string_view text, std::string_view name) {
   pugi::xml_document document;
   const auto loaded = document.load_buffer(text.data(), text.size());
   if (!loaded) return fail(Code::kSyntax, fmt::format("no XML: {}", loaded.description()));
-  const auto named = [](const char* wanted) {
-    return [wanted](const pugi::xml_node& node) {
-      const std::string_view own = node.name();
-      const std::size_t colon = own.find(':');
-      return own.substr(colon == std::string_view::npos ? 0 : colon + 1) == wanted;
-    };
-  };
-  const auto is_set = named("MeasuredPointSet");
-  const pugi::xml_node set = document.find_node(is_set);
-  if (!set) {
+  const auto sets = elements_below(document, "MeasuredPointSet");
+  std::vector<pugi::xml_node> lists;  // of measured features; those of nominal ones hold targets
+  for (const pugi::xml_node& measured : elements_below(document, "MeasuredFeatures")) {
+    for (const pugi::xml_node& list : elements_below(measured, "PointList")) {
+      if (!elements_below(list, "MeasurePoint").empty()) lists.push_back(list);
+    }
+  }
+  if (sets.empty() && lists.empty()) {
     return fail(Code::kNoPoints,
                 fmt::format("the QIF document holds results and no points: {}", kExport));
   }
-  for (pugi::xml_node other = set.next_sibling(); other; other = other.next_sibling()) {
-    if (!is_set(other)) continue;
-    return fail(Code::kMeaning, "the QIF document has several point sets; export one of them");
+  if (sets.size() > 1 || (sets.empty() && lists.size() > 1)) {
+    return fail(Code::kMeaning, fmt::format("the QIF document has the points of several {}; export "
+                                            "one of them",
+                                            sets.empty() ? "features" : "point sets"));
   }
   Cloud out;
-  const pugi::xml_node unit =
-      document.find_node(named("PrimaryUnits")).find_node(named("LinearUnit"));
-  const std::string_view word = unit.find_node(named("UnitName")).child_value();
+  const auto text_of = [](const pugi::xml_node& root, std::string_view wanted) {
+    const auto found = elements_below(root, wanted);
+    return std::string_view(found.empty() ? "" : found.front().child_value());
+  };
+  const auto units = elements_below(document, "PrimaryUnits");
+  const auto lengths = elements_below(units.empty() ? document : units.front(), "LinearUnit");
+  const std::string_view word =
+      units.empty() || lengths.empty() ? "" : text_of(lengths.front(), "UnitName");
   if (!word.empty()) {
     out.unit = unit_in_text(fmt::format("unit {}", word));
     if (!out.unit) {
       return fail(Code::kUnits, fmt::format("the unit {} is unknown", quoted_text(word)));
     }
   }
-  std::string points = set.find_node(named("Points")).child_value();
+  if (sets.empty()) {
+    out.read = "QIF, points of a measured feature";
+    for (const pugi::xml_node& point : elements_below(lists.front(), "MeasurePoint")) {
+      const auto place = place_of(text_of(point, "Point"), ' ');
+      if (!place) return core::fail(place.error().at(std::string(name)));
+      out.points.push_back(*place);
+    }
+    return out;
+  }
+  const pugi::xml_node& set = sets.front();
+  std::string points(text_of(set, "Points"));
   std::ranges::replace_if(
       points, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   std::string_view rest = points;
@@ -181,7 +252,7 @@ core::Result<Cloud> read_qif(std::string_view text, std::string_view name) {
   if (out.points.empty()) {
     return fail(Code::kNoPoints, "the point set has no Points; BinaryPoints are not read");
   }
-  const std::string_view compensated = set.find_node(named("Compensated")).child_value();
+  const std::string_view compensated = text_of(set, "Compensated");
   out.read = fmt::format("QIF, {}", compensated == "true" ? "compensated points" : "points");
   return out;
 }

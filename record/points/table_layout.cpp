@@ -373,7 +373,7 @@ class Finder {
     const auto is = [&](std::string_view ending) { return name_.ends_with(ending); };
     const bool xyz =
         is(".xyz") || is(".XYZ") || is(".asc") || is(".ASC") || is(".pts") || is(".PTS");
-    if (found.numbers.size() > 3 && !xyz && !has_directions(found)) {
+    if (found.numbers.size() > 3 && (xyz ? has_corners(found) : !has_directions(found))) {
       const bool commas = found.notation.separator == ',' && found.numbers.size() % 2 == 0;
       return core::fail(error_at(
           first.number, fmt::format("{} has {} columns of numbers and no head line; {}{}",
@@ -385,25 +385,44 @@ class Finder {
     return out;
   }
 
-  /// Whether each row is x y z i j k, as machines write them: the last three are a direction.
-  [[nodiscard]] bool has_directions(const Found& found) const {
-    constexpr double kRounding = 2e-3;  // of three decimals, in the square
-    // without a decimal point, commas may be decimal signs
-    if (found.numbers.size() != 6 || std::get<2>(found.score) == 0) return false;
-    for (std::size_t k = found.first; k < lines_.size(); k = next(k + 1)) {
+  /// Whether three columns of numbers, from the one at `from` on, are all of a kind.
+  [[nodiscard]] bool are(const Found& found, std::size_t from,
+                         const std::function<bool(const Eigen::Vector3d&)>& kind) const {
+    for (std::size_t k = next(found.first); k < lines_.size(); k = next(k + 1)) {
       const Cells fields = fields_of(lines_[k].text, found.notation.separator);
       if (!agrees(fields, found.columns)) return false;
-      double square = 0.0;
-      for (std::size_t i = 3; i < 6; ++i) {
-        const std::string_view field = fields[found.numbers[i]];
+      Eigen::Vector3d values;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::string_view field = fields[found.numbers[from + i]];
         const char* const end = field.data() + field.size();
-        double value = 0.0;
+        double& value = values[static_cast<Eigen::Index>(i)];
         if (read_number(field.data(), end, found.notation.decimal, value).ptr != end) return false;
-        square += value * value;
       }
-      if (std::abs(square - 1.0) > kRounding) return false;
+      if (!kind(values)) return false;
     }
     return true;
+  }
+
+  static bool is_direction(const Eigen::Vector3d& values) {
+    constexpr double kRounding = 2e-3;  // of three decimals, in the square
+    return std::abs(values.squaredNorm() - 1.0) <= kRounding;
+  }
+
+  static bool is_colour(const Eigen::Vector3d& values) {
+    return values.minCoeff() >= 0.0 && values.maxCoeff() <= 255.0 &&
+           values == values.array().round().matrix();
+  }
+
+  /// Whether each row is x y z i j k, as machines write them: the last three are a direction.
+  [[nodiscard]] bool has_directions(const Found& found) const {
+    // without a decimal point, commas may be decimal signs
+    return found.numbers.size() == 6 && std::get<2>(found.score) > 0 && are(found, 3, is_direction);
+  }
+
+  /// Whether a row of nine is three corners of a facet: neither direction nor colour follows.
+  [[nodiscard]] bool has_corners(const Found& found) const {
+    return found.numbers.size() == 9 && !are(found, 3, is_direction) &&
+           !are(found, 6, is_direction) && !are(found, 3, is_colour) && !are(found, 6, is_colour);
   }
 
   /// Whether the first column of numbers is 0, 1, 2, ... or 1, 2, 3, ...

@@ -411,6 +411,9 @@ TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
       {"All dimensions in inches", kInch},
       {"Einheit (unit): mm", kMm},
       {"units are m", kM},
+      {"Unidades: pulgadas", kInch},
+      {"Unité : pouce", kInch},
+      {"单位: 毫米", kMm},
       {"Unit under test: block 7, clamped in the vice", std::nullopt},
       {"# Unit 3, M. Weber", std::nullopt},
       {"Units:\nmeasured in Jena", std::nullopt},
@@ -421,6 +424,58 @@ TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
     const std::string_view word = unit ? name_of(*unit) : "mm (not stated)";
     EXPECT_THAT(table.read, HasSubstr(fmt::format(" in {};", word)));
   }
+}
+
+TEST(PointsText, RefusesThreeCornersARow) {
+  const std::string corners =
+      "0 0 0 10.5 0 0 0 10.5 0\n10.5 0 0 10.5 10.5 0 0 10.5 0\n0 0 5 9 0 5 0 9 5.5\n";
+  const auto refused = read_points(corners, "facets.xyz");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("has 9 columns of numbers and no head line"));
+  const auto coloured = read_points("0 0 0.5 255 0 17 0 0 1\n1 0 0.5 3 4 5 0 1 0\n", "scan.xyz");
+  ASSERT_TRUE(coloured) << coloured.error().what;
+  EXPECT_EQ(coloured->points_mm.size(), 2);
+}
+
+TEST(PointsText, RefusesPointsOfSeveralFeatures) {
+  const std::string one = "FA(A)=FEAT/CYLNDR,OUTER\nRAWDAT/CART,1,0,0\nRAWDAT/CART,0,1,0\n";
+  const std::string other = "FA(B)=FEAT/CYLNDR,OUTER\nRAWDAT/CART,0,0,9\n";
+  EXPECT_TRUE(read_points("FILNAM/'a'\nUNITS/MM\n" + one, "a.dmo"));
+  const auto both = read_points("FILNAM/'a'\nUNITS/MM\n" + one + other, "a.dmo");
+  ASSERT_FALSE(both);
+  EXPECT_EQ(both.error().where, "a.dmo:7");
+  EXPECT_THAT(both.error().what, HasSubstr("of one from line 4 on"));
+  const std::string hit =
+      "00001 StartSession()\n00002 PtMeas(X(1),Y(2),Z(3))\n00002 # X(1.0), Y(2.0), Z(3.0)\n";
+  EXPECT_TRUE(read_points(hit + hit.substr(21), "a.log"));
+  const auto sessions = read_points(hit + hit, "a.log");
+  ASSERT_FALSE(sessions);
+  EXPECT_THAT(sessions.error().what, HasSubstr("the points of several sessions"));
+}
+
+TEST(PointsText, ReadsThePointsOfOneMeasuredFeatureOfQif) {
+  const auto feature = [](std::string_view points) {
+    return fmt::format("<CylinderMeasurement><PointList>{}</PointList></CylinderMeasurement>",
+                       points);
+  };
+  const auto qif = [](const std::string& measured) {
+    return fmt::format(
+        "<QIFDocument><FileUnits><PrimaryUnits><LinearUnit><UnitName>inch</UnitName></LinearUnit>"
+        "</PrimaryUnits></FileUnits><FeatureNominals><PointList><MeasurePoint><Point>9 9 9</Point>"
+        "</MeasurePoint></PointList></FeatureNominals><MeasuredFeatures>{}</MeasuredFeatures>"
+        "</QIFDocument>",
+        measured);
+  };
+  const std::string two =
+      "<MeasurePoint id=\"1\"><Point>1 2 3</Point></MeasurePoint>"
+      "<MeasurePoint id=\"2\"><Point decimalPlaces=\"1\">4 5 6</Point></MeasurePoint>";
+  const PointTable table = points(qif(feature(two)));
+  ASSERT_EQ(table.points_mm.size(), 2);
+  EXPECT_EQ(table.points_mm[1], Eigen::Vector3d(4 * 25.4, 5 * 25.4, 6 * 25.4));
+  const auto several = read_points(qif(feature(two) + feature(two)), "a.qif");
+  ASSERT_FALSE(several);
+  EXPECT_THAT(several.error().what, HasSubstr("the points of several features"));
+  EXPECT_FALSE(read_points(qif(""), "a.qif"));
 }
 
 TEST(PointsText, CountsLayersFromNoughtOrOne) {

@@ -27,22 +27,35 @@ constexpr auto kUnitWords = std::to_array<std::pair<std::string_view, LengthUnit
      {"meter", LengthUnit::kM},        {"metre", LengthUnit::kM},
      {"meters", LengthUnit::kM},       {"inch", LengthUnit::kInch},
      {"inches", LengthUnit::kInch},    {"zoll", LengthUnit::kInch},
-     {"in", LengthUnit::kInch}});
+     {"in", LengthUnit::kInch},        {"pulgada", LengthUnit::kInch},
+     {"pulgadas", LengthUnit::kInch},  {"polegada", LengthUnit::kInch},
+     {"polegadas", LengthUnit::kInch}, {"pouce", LengthUnit::kInch},
+     {"pouces", LengthUnit::kInch},    {"pollice", LengthUnit::kInch},
+     {"pollici", LengthUnit::kInch},   {"cal", LengthUnit::kInch},
+     {"cale", LengthUnit::kInch},      {"tum", LengthUnit::kInch},
+     {"英寸", LengthUnit::kInch},      {"毫米", LengthUnit::kMm},
+     {"微米", LengthUnit::kUm},        {"厘米", LengthUnit::kCm},
+     {"milímetro", LengthUnit::kMm},   {"milímetros", LengthUnit::kMm},
+     {"millimètre", LengthUnit::kMm},  {"millimètres", LengthUnit::kMm},
+     {"millimetro", LengthUnit::kMm},  {"millimetri", LengthUnit::kMm},
+     {"milimetr", LengthUnit::kMm},    {"milimetry", LengthUnit::kMm}});
 /// NameWords beside x, y and z that say: as measured. One that says nominal or deviation is another
 /// column.
 constexpr auto kMeasuredWords = std::to_array<std::string_view>(
-    {"ist",      "istwert",     "actual",       "act",        "measured", "meas",  "mess",
-     "messwert", "gemessen",    "koordinate",   "coordinate", "coord",    "koord", "wert",
-     "value",    "val",         "position",     "pos",        "achse",    "axis",  "real",
-     "mesure",   "mesur\u00e9", "mesur\u00e9e", "medido",     "misurato", "实测",  "实测值",
-     "坐标",     "座標",        "測定値"});
+    {"ist",      "istwert",  "actual",      "act",          "measured",   "meas",     "mess",
+     "messwert", "gemessen", "mmt",         "koordinate",   "coordinate", "coord",    "koord",
+     "wert",     "value",    "val",         "position",     "pos",        "achse",    "axis",
+     "real",     "mesure",   "mesur\u00e9", "mesur\u00e9e", "medido",     "misurato", "实测",
+     "实测值",   "坐标",     "座標",        "測定値"});
 constexpr auto kLayerWords =
     std::to_array<std::string_view>({"layer", "layers", "schicht", "ebene", "schnitt", "section",
                                      "couche", "strato", "capa", "层"});
 /// NameWords that announce a unit in the text above a table, those that may stand between, and
 /// those that show that "in" was the unit: "Units: in, deg".
 constexpr auto kUnitHeadings = std::to_array<std::string_view>(
-    {"unit", "units", "einheit", "einheiten", "单位", "dimensions", "coordinates", "values"});
+    {"unit", "units", "einheit", "einheiten", "maßeinheit", "单位", "unidad", "unidades", "unidade",
+     "unité", "unités", "unità", "jednostka", "jednostki", "enhet", "eenheid", "dimensions",
+     "coordinates", "values"});
 constexpr auto kBetween = std::to_array<std::string_view>(
     {"in", "is", "are", "of", "ist", "sind", "length", "linear", "used", "system"});
 constexpr auto kAngles =
