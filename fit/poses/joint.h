@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,9 +76,11 @@ struct PoseJoint {
   double chi2_limit = 0.0;  ///< Its 0.999 quantile; a fixture worse than stated exceeds it.
   double naive_mm = 0.0;    ///< CYLt (minimum zone) of naive_B_mm.
   double joint_mm = 0.0;    ///< CYLt of joint_B_mm.
-  double u_joint_mm = 0.0;  ///< Contribution of the fixture that remains in it: rms change of CYLt
-                            ///< by the remaining uncertainty of the poses.
-  double u_naive_mm = 0.0;  ///< The same for the priors, as for the kinematics alone.
+  /// Contribution of the fixture that remains in it: rms change of CYLt by the remaining
+  /// uncertainty of the poses. Not known where less than a fifth of the targets was touched in
+  /// several.
+  std::optional<double> u_joint_mm;
+  double u_naive_mm = 0.0;               ///< The same for the priors, as for the kinematics alone.
   std::vector<core::Phrase> statements;  ///< Errors left to the kinematics, and warnings, in words.
 
   /// Contribution of the fixture to CYLt if its errors are not solved for [mm].
@@ -101,7 +104,7 @@ struct PoseJoint {
 ///
 /// Accuracy (docs/several-poses.md): half shells that overlap by 30 deg on each side give CYLt to
 /// 1.1 % (median) and 4 % (95 %). With nothing shared, a shift of two half shells looks like two
-/// lobes: 13 % and 35 %, and `u_joint_mm` is too small (only two thirds within twice its value).
+/// lobes: 13 % and 35 %, and there is no `u_joint_mm`: it would be half of what it should be.
 ///
 /// @param poses  m >= 2.
 /// @return  kTooFewPoints (fewer than 2 poses, 4 touches in a pose, or 8 in all), kNotFinite,

@@ -274,7 +274,7 @@ Json merged_json(const evaluation::MergedPoses& merged) {
     json["kinematics_cylt_um"] = in_um(solved.naive_mm);
     json["joint_cylt_um"] = in_um(solved.joint_mm);
     json["fixture_share_um"] = in_um(solved.share_mm());
-    json["u_joint_um"] = in_um(solved.u_joint_mm);
+    json["u_joint_um"] = solved.u_joint_mm ? Json(in_um(*solved.u_joint_mm)) : Json();
     json["u_kinematics_um"] = in_um(solved.u_naive_mm);
     json["shared_targets"] = solved.shared;
     json["condition"] = solved.condition;

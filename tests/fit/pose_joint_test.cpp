@@ -168,7 +168,8 @@ Errors study_errors(const Study& study, int seeds, int draws) {
     condition = found->condition;
     naive.push_back(std::abs(found->naive_mm / perfect - 1.0));
     joint.push_back(std::abs(found->joint_mm / perfect - 1.0));
-    covered += std::abs(found->joint_mm - perfect) <= 2.0 * found->u_joint_mm ? 1 : 0;
+    if (!found->u_joint_mm) continue;
+    covered += std::abs(found->joint_mm - perfect) <= 2.0 * *found->u_joint_mm ? 1 : 0;
   }
   return {quantile(naive, 0.5), quantile(joint, 0.5), quantile(joint, 0.95), condition,
           static_cast<double>(covered) / seeds};
@@ -212,9 +213,9 @@ TEST(PoseJoint, WhatOverlapTouchesAndNoiseDoToIt) {
                100.0 * errors.joint_95, 100.0 * errors.covered, errors.condition);
     EXPECT_LT(errors.joint_median, 0.25);
     EXPECT_LT(5.0 * errors.joint_median, errors.naive_median);
-    if (test::full()) {
-      // Half shells that only meet do not keep this: a shift of one looks like form (67 %,
-      // docs/several-poses.md).
+    if (study.overlap_deg == 0.0) {  // seams alone are shared: none is stated
+      EXPECT_EQ(errors.covered, 0.0);
+    } else if (test::full()) {
       EXPECT_GT(errors.covered, 0.80);
     }
   }
@@ -401,7 +402,8 @@ TEST(PoseJoint, ResultDoesNotChangeWhenTheMachineFrameIsMoved) {
   const auto b = pose_joint(moved);
   ASSERT_TRUE(a && b);
   EXPECT_NEAR(a->joint_mm, b->joint_mm, 1e-9);
-  EXPECT_NEAR(a->u_joint_mm, b->u_joint_mm, 0.2 * a->u_joint_mm);  // other draws of one covariance
+  EXPECT_NEAR(a->u_joint_mm.value(), b->u_joint_mm.value(),
+              0.2 * *a->u_joint_mm);  // other draws of one covariance
   EXPECT_LT((a->errors[1].u - b->errors[1].u).norm(), 1e-9);
   EXPECT_LT((a->errors[1].error - b->errors[1].error).norm(), 1e-8);
 }
@@ -430,7 +432,7 @@ TEST(PoseJoint, EverythingTwiceAsLargeGivesTwiceTheResult) {
   const auto b = pose_joint(larger, options);
   ASSERT_TRUE(a && b);
   EXPECT_NEAR(2.0 * a->joint_mm, b->joint_mm, 2e-9);
-  EXPECT_NEAR(2.0 * a->u_joint_mm, b->u_joint_mm, 1e-8);
+  EXPECT_NEAR(2.0 * a->u_joint_mm.value(), b->u_joint_mm.value(), 1e-8);
   EXPECT_NEAR(a->condition, b->condition, 1e-6 * a->condition);
 }
 
@@ -441,7 +443,7 @@ TEST(PoseJoint, KinematicsWithoutErrorAreLeftAlone) {
   const auto found = pose_joint(made.poses);
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_DOUBLE_EQ(found->naive_mm, found->joint_mm);
-  EXPECT_DOUBLE_EQ(found->u_joint_mm, 0.0);
+  EXPECT_DOUBLE_EQ(found->u_joint_mm.value(), 0.0);
   EXPECT_EQ(found->chi2_freedom, 0);
 }
 

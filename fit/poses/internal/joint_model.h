@@ -33,6 +33,7 @@ class JointModel {
   [[nodiscard]] int pose_count() const { return static_cast<int>(poses_.size()); }
   [[nodiscard]] int pose_of(int touch) const { return pose_of_[static_cast<std::size_t>(touch)]; }
   [[nodiscard]] std::size_t shared() const;
+  [[nodiscard]] std::size_t targets() const { return groups_.size(); }
   [[nodiscard]] const Eigen::Isometry3d& X_BP() const { return X_BP_; }
   [[nodiscard]] double half_length_mm() const { return half_length_mm_; }
   [[nodiscard]] double form_mm() const { return form_mm_; }

@@ -92,13 +92,21 @@ core::Phrase share_in_words(const evaluation::MergedPoses& merged) {
                                     merged.refusal ? merged.refusal->what : std::string()));
   }
   const fit::PoseJoint& solved = *merged.solved;
+  if (merged.joint && !solved.u_joint_mm) {
+    return core::phrase(
+        "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
+        "have added {:.3f} um; they were solved for, but too few targets were touched in several "
+        "poses "
+        "to know how uncertain what is left of them is",
+        core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()));
+  }
   if (merged.joint) {
     return core::phrase(
         "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
         "have added {:.3f} um; they were solved for, and what is left of them is uncertain by "
         "{:.3f} um (standard uncertainty)",
         core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
-        core::micrometres(solved.u_joint_mm));
+        core::micrometres(*solved.u_joint_mm));
   }
   return core::phrase(
       "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
