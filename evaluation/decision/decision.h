@@ -138,8 +138,10 @@ struct RuleOutcome {
                                                    const KnownValue& value, const Limits& limits);
 
 /// Global risks (JCGM 106, clause 9) of the outcome of apply_rule(), over the prior of the rule,
-/// where the errors of the compared value are distributed as in the statement for every part. None
-/// without a prior or a distribution, or under a rule that takes no uncertainty into account.
+/// where the errors of the compared value are distributed as in the statement for every part, and
+/// the value as read exceeds the compared one by as much as here: a part counts as accepted only
+/// where every condition of apply_rule() lets it conform, a part left undecided or void as neither.
+/// None without a prior or a distribution, or under a rule that takes no uncertainty into account.
 [[nodiscard]] std::optional<GlobalRisks> global_risks(const DecisionRule& rule,
                                                       const KnownValue& value,
                                                       const RuleOutcome& outcome,

@@ -1,6 +1,7 @@
 // Decision rules: what each makes of a value, and the risks it says it has.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -489,8 +490,10 @@ struct Lot {
   double stated_false_rejected = 0.0;
 };
 
+/// @param measured  What a measurement says whose estimate it is given.
 Lot simulate(const evaluation::DecisionRule& rule, const Limits& limits,
-             const evaluation::Prior& prior, const std::vector<double>& errors, int parts) {
+             const evaluation::Prior& prior, const std::vector<double>& errors,
+             const std::function<KnownValue(double)>& measured, int parts) {
   Lot lot;
   lot.parts = parts;
   for (int i = 0; i < parts; ++i) {
@@ -498,7 +501,7 @@ Lot simulate(const evaluation::DecisionRule& rule, const Limits& limits,
     const double y = drawn_from(prior, noise);
     const double error =
         errors[static_cast<std::size_t>(noise.uniform() * static_cast<double>(errors.size()))];
-    const auto outcome = apply_rule(rule, known(y + error, errors), limits);
+    const auto outcome = apply_rule(rule, measured(y + error), limits);
     if (!outcome) continue;  // n:1 that does not apply, prior without weight: counted by the caller
     const bool good = limits.hold(y);
     if (outcome->verdict == evaluation::Verdict::kConforms) {
@@ -528,21 +531,35 @@ void expect_rate(const char* what, std::string_view rule, int count, double stat
 
 int lot_size() { return test::cases(1'000, 50'000); }
 
+/// How far a value as read exceeds the compared one, and what else its rule is told.
+struct Reading {
+  double inflation_mm = 0.3e-3;
+  bool at_most = false;
+  bool judge_corrected = false;
+};
+
 /// That lots are judged with the global risks that are stated of one part.
-void expect_stated_risks(const Limits& limits, double ratio) {
+void expect_stated_risks(const Limits& limits, double ratio, const Reading& reading = {}) {
   const auto errors = error_sample(200);
+  const auto measured = [&](double estimate_mm) {
+    KnownValue value = known(estimate_mm, errors);
+    value.measured_mm = estimate_mm + reading.inflation_mm;
+    value.statement->at_most = reading.at_most;
+    return value;
+  };
   const evaluation::Prior prior{evaluation::Prior::Kind::kGamma, 8e-3, 2.5e-3};
   for (const Kind kind : kAllRules) {
     evaluation::DecisionRule rule = rule_named(kind);
     rule.prior = prior;
     rule.ratio = ratio;
+    rule.judge_corrected = reading.judge_corrected;
     rule.rejection_guard_1 = -1.0;  // of guard-band: stringent acceptance, relaxed rejection
-    const auto stated = apply_rule(rule, known(8e-3, errors), limits);
+    const auto stated = apply_rule(rule, measured(8e-3), limits);
     ASSERT_TRUE(stated) << stated.error().what;
-    const auto global = global_risks(rule, known(8e-3, errors), *stated, limits);
+    const auto global = global_risks(rule, measured(8e-3), *stated, limits);
     ASSERT_EQ(global.has_value(), rule.needs_interval());
     if (!global) continue;
-    const Lot lot = simulate(rule, limits, prior, errors, lot_size());
+    const Lot lot = simulate(rule, limits, prior, errors, measured, lot_size());
     SCOPED_TRACE(std::string(name_of(kind)));
     expect_rate("false acceptance", name_of(kind), lot.false_accepted, global->false_acceptance_1,
                 lot.parts);
@@ -561,6 +578,19 @@ TEST(DecisionRisks, RatesBetweenTwoLimitsMatchTheStatedGlobalRisks) {
   expect_stated_risks({.lower_mm = 5e-3, .upper_mm = 11e-3}, 2.0);
 }
 
+// Conditions beside the rule leave parts undecided or void, which are then neither accepted nor
+// rejected falsely.
+TEST(DecisionRisks, RatesMatchWhereTheReadingOrABoundDecides) {
+  expect_stated_risks(kTolerance, 4.0, {.inflation_mm = 1.5e-3});
+  expect_stated_risks({.lower_mm = 5e-3, .upper_mm = 11e-3}, 2.0, {.inflation_mm = -1.2e-3});
+  expect_stated_risks(kTolerance, 4.0, {.judge_corrected = true});
+  expect_stated_risks(kTolerance, 4.0, {.at_most = true});
+}
+
+TEST(DecisionRisks, RatesMatchWhereTheLimitsAreNearerThanTheInterval) {
+  expect_stated_risks({.lower_mm = 7.5e-3, .upper_mm = 8.5e-3}, 0.1);
+}
+
 // With the true prior the specific risk of a part is right for the parts of which it is said.
 TEST(DecisionRisks, StatedSpecificRisksAreMetOnAverage) {
   const auto errors = error_sample(200);
@@ -569,7 +599,8 @@ TEST(DecisionRisks, StatedSpecificRisksAreMetOnAverage) {
         evaluation::Prior{evaluation::Prior::Kind::kNormal, 9.5e-3, 0.8e-3}}) {
     evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
     rule.prior = prior;
-    const Lot lot = simulate(rule, kTolerance, prior, errors, lot_size());
+    const auto measured = [&](double estimate_mm) { return known(estimate_mm, errors); };
+    const Lot lot = simulate(rule, kTolerance, prior, errors, measured, lot_size());
     EXPECT_GT(lot.accepted, lot.parts / 10);
     EXPECT_GT(lot.rejected, lot.parts / 50);
     expect_rate("of accepted", name_of(prior.kind), lot.false_accepted,

@@ -2,8 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rondure::evaluation {
+namespace {
+
+Limits moved(Limits limits, double by_mm) {
+  if (limits.lower_mm) *limits.lower_mm += by_mm;
+  if (limits.upper_mm) *limits.upper_mm += by_mm;
+  return limits;
+}
+
+/// The compared values that apply_rule() accepts, and those that it does not reject, where reading
+/// and interval move along with the compared value: the limits of the rule, and what a reading
+/// beyond a limit, a bound that proves nothing and a lack of capability take away from them.
+struct Decided {
+  Limits accepted;
+  Limits not_rejected;
+};
+
+Decided decided(const DecisionRule& rule, const KnownValue& value, const RuleOutcome& outcome,
+                const Limits& limits) {
+  const UncertaintyStatement& known = *value.statement;
+  const double compared_mm = outcome.compared_mm;
+  Decided out{outcome.acceptance, outcome.rejection};
+  auto& [accepted, not_rejected] = out;
+  const auto accept_only = [&](const Limits& zone) {
+    if (zone.lower_mm) accepted.lower_mm = std::max(*accepted.lower_mm, *zone.lower_mm);
+    if (zone.upper_mm) accepted.upper_mm = std::min(*accepted.upper_mm, *zone.upper_mm);
+  };
+  const auto accept_none = [&] { accepted.upper_mm = -std::numeric_limits<double>::infinity(); };
+  if (!rule.judge_corrected) accept_only(moved(limits, compared_mm - value.measured_mm));
+  const bool incapable = limits.lower_mm && limits.upper_mm &&
+                         known.high_mm - known.low_mm > *limits.upper_mm - *limits.lower_mm;
+  if (known.at_most) accept_only({{}, moved(limits, compared_mm - known.high_mm).upper_mm});
+  if (incapable || (known.at_most && limits.lower_mm.value_or(0.0) > 0.0)) accept_none();
+  if (incapable || known.at_most) {  // rejected is only what lies beyond a limit as a whole
+    const auto lower_mm = moved(limits, compared_mm - known.high_mm).lower_mm;
+    const auto upper_mm = moved(limits, compared_mm - known.low_mm).upper_mm;
+    if (lower_mm) not_rejected.lower_mm = std::min(*not_rejected.lower_mm, *lower_mm);
+    if (upper_mm) not_rejected.upper_mm = std::max(*not_rejected.upper_mm, *upper_mm);
+  }
+  return out;
+}
+
+}  // namespace
 
 double Prior::density(double value_mm) const {
   if (!(value_mm >= 0.0)) return 0.0;
@@ -54,6 +97,7 @@ std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownVal
   }
   const Prior& prior = *rule.prior;
   const auto& values = value.statement->values_mm;
+  const auto [accepted, not_rejected] = decided(rule, value, outcome, limits);
   const double count = static_cast<double>(values.size());
   // The compared value of a part with true value y is y + e, where e = compared - value of a trial.
   const auto share_within = [&](const Limits& zone, double y_mm) {
@@ -74,9 +118,9 @@ std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownVal
     const double weight = prior.density(y_mm);
     sum += weight;
     if (!limits.hold(y_mm)) {
-      out.false_acceptance_1 += weight * share_within(outcome.acceptance, y_mm);
+      out.false_acceptance_1 += weight * share_within(accepted, y_mm);
     } else {
-      out.false_rejection_1 += weight * (1.0 - share_within(outcome.rejection, y_mm));
+      out.false_rejection_1 += weight * (1.0 - share_within(not_rejected, y_mm));
     }
   }
   out.false_acceptance_1 /= sum;
