@@ -39,7 +39,7 @@ bool read_line(std::string_view line, Checksum& out) {
 }  // namespace
 
 core::Result<std::vector<Checksum>> read_checksums(const fs::path& directory) {
-  TRY(const auto bytes, read_file(directory / kChecksumsName));
+  TRY(const auto bytes, read_inside(directory, kChecksumsName));
   std::vector<Checksum> list;
   std::string_view rest = bytes;
   for (std::size_t number = 1; !rest.empty(); ++number) {

@@ -140,6 +140,18 @@ core::Result<std::string> read_open(const OpenFile& file, const fs::path& path,
 // Opened without waiting: a pipe without a writer would block the program forever.
 constexpr int kReadFlags = O_RDONLY | O_NONBLOCK | O_NOCTTY;
 
+/// Opens a file below a directory, no link followed on the way.
+core::Result<OpenFile> open_inside(const fs::path& directory, const fs::path& name) {
+  TRY(const auto folder, open_folder("read", directory, name.parent_path()));
+  OpenFile file(name.filename(), kReadFlags | O_NOFOLLOW, folder.fd());
+  if (file.ok()) return file;
+  if (errno == ELOOP) {
+    return cannot("read", directory / name,
+                  "it is a link, not a file of this run; put the file itself there");
+  }
+  return cannot("read", directory / name, errno);
+}
+
 /// Writes a file whole into an open folder.
 /// @param path  Of the file, for messages.
 core::Result<void> write_at(const OpenFile& folder, const fs::path& path, std::string_view bytes) {
@@ -200,16 +212,15 @@ core::Result<std::string> read_file(const fs::path& path, std::uintmax_t most_by
 
 core::Result<std::string> read_inside(const fs::path& directory, const fs::path& name,
                                       std::uintmax_t most_bytes) {
-  TRY(const auto folder, open_folder("read", directory, name.parent_path()));
-  return read_open(OpenFile(name.filename(), kReadFlags, folder.fd()), directory / name,
-                   most_bytes);
+  TRY(const auto file, open_inside(directory, name));
+  return read_open(file, directory / name, most_bytes);
 }
 
 core::Result<std::string> sha256_inside(const fs::path& directory, const fs::path& name) {
-  TRY(const auto folder, open_folder("read", directory, name.parent_path()));
+  TRY(const auto file, open_inside(directory, name));
   Sha256 hash;
-  TRY_DO(read_pieces(OpenFile(name.filename(), kReadFlags, folder.fd()), directory / name,
-                     kMostJournalBytes, [&](std::string_view piece, auto) { hash.add(piece); }));
+  TRY_DO(read_pieces(file, directory / name, kMostJournalBytes,
+                     [&](std::string_view piece, auto) { hash.add(piece); }));
   return hash.hex();
 }
 

@@ -27,7 +27,8 @@ inline constexpr std::uintmax_t kMostJournalBytes = std::uintmax_t{16} << 30;   
 
 // Files of a run directory, which may come from elsewhere. `name` is that of a file in it or in a
 // folder of it, "corrections/pin-x-of-c.csv". The directory itself may be reached through links,
-// but no folder below it is: a link there could lead the program to files of somebody else.
+// but no file and no folder below it is: a link there could lead the program to files of somebody
+// else. kFile says which name is a link.
 
 /// read_file() below a directory.
 [[nodiscard]] core::Result<std::string> read_inside(const std::filesystem::path& directory,

@@ -9,6 +9,7 @@
 #include "app/text/terminal.h"
 #include "evaluation/defect.h"
 #include "evaluation/uncertainty/kept_draws.h"
+#include "plans/checks/record.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
@@ -19,6 +20,7 @@ namespace rondure::app {
 namespace {
 
 namespace fs = std::filesystem;
+using evaluation::kTrialsFile;
 
 constexpr std::uintmax_t kMostTrialsBytes = std::uintmax_t{1} << 30;  // 1 GiB
 
@@ -58,17 +60,34 @@ KeptTrials::KeptTrials(fs::path directory) : directory_(std::move(directory)) {
   if (known) {
     taken_ = *std::move(known);
   } else {
-    tell(fmt::format("rondure: {}: {}; the intervals are computed again\n",
-                     (directory_ / kTrialsFile).string(), known.error().what));
+    tell_drawn_again(known.error().what);
   }
 }
 
 core::Result<evaluation::Evaluation> KeptTrials::evaluate(const record::RunRecord& record) {
-  evaluation::KeptDraws draws(taken_);
-  const evaluation::UseOfDraws use(draws);
-  auto found = evaluation::evaluate_run(record, directory_, processor());
-  drawn_ = draws.bytes();
-  return found;
+  const auto checked_with = [&record](evaluation::KeptDraws& draws) {
+    const evaluation::UseOfDraws use(draws);
+    return evaluation::evaluate_checked(record);
+  };
+  evaluation::KeptDraws known(taken_);
+  evaluation::CheckedEvaluation checked = checked_with(known);
+  drawn_ = known.bytes();
+  // Some were drawn: those that were kept are of another shape.
+  if (!taken_.empty() && (!drawn_.empty() || !reports::gives_stored_results(
+                                                 record, checked.evaluation, processor()))) {
+    tell_drawn_again("its draws do not give the results under the seal of the journal");
+    taken_.clear();
+    evaluation::KeptDraws made;
+    checked = checked_with(made);
+    drawn_ = made.bytes();
+  }
+  TRY_DO(evaluation::keep_defects(checked.defects, record.header, directory_, processor()));
+  return std::move(checked.evaluation);
+}
+
+void KeptTrials::tell_drawn_again(const std::string& why) const {
+  tell(fmt::format("rondure: {}: {}; the intervals are computed again\n",
+                   (directory_ / kTrialsFile).string(), why));
 }
 
 void KeptTrials::keep() const {
@@ -84,6 +103,14 @@ void KeptTrials::keep() const {
     tell(fmt::format("rondure: {} is not kept: {}; the reports stand, the next one takes longer\n",
                      kTrialsFile, kept.error().what));
   }
+}
+
+reports::VerifyOptions verify_options(const fs::path& directory) {
+  reports::VerifyOptions options;
+  options.processor = processor();
+  options.trials_head = head_of_file(directory);
+  options.check = plans::check_record;
+  return options;
 }
 
 }  // namespace rondure::app

@@ -6,23 +6,22 @@
 #include "core/result.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
+#include "reports/verify/verify.h"
 
 namespace rondure::app {
 
-/// The file of a run directory that holds the draws behind its intervals.
-inline constexpr const char* kTrialsFile = "trials.bin";
-
 /// Evaluates a run with the draws that its directory keeps, and keeps those that it has to make.
 ///
-/// Draws are taken only where SHA256SUMS names trials.bin with the digest that it has, and the same
-/// program drew for the same journal on the same kind of processor: then they are those of this
-/// run, bit for bit. `verify` and `sign` never take them.
+/// Draws are taken only where SHA256SUMS names trials.bin with the digest that it has, the same
+/// program drew for the same journal on the same kind of processor, and they give the results that
+/// stand under the seal of the journal. `verify` and `sign` never take them.
 class KeptTrials {
  public:
   /// Says on the terminal why draws that are there are not taken.
   explicit KeptTrials(std::filesystem::path directory);
 
-  /// evaluation::evaluate_run() of the record in the directory.
+  /// evaluation::evaluate_run() of the record in the directory. Draws again, and says so, where
+  /// those that were kept do not give the sealed results.
   [[nodiscard]] core::Result<evaluation::Evaluation> evaluate(const record::RunRecord& record);
 
   /// Writes new draws and their line in SHA256SUMS, after the reports of a finished run. A signed
@@ -30,9 +29,14 @@ class KeptTrials {
   void keep() const;
 
  private:
+  void tell_drawn_again(const std::string& why) const;
+
   std::filesystem::path directory_;
   std::string taken_;  ///< Empty: there were none.
   std::string drawn_;
 };
+
+/// How `verify` and `sign` compare a run directory.
+[[nodiscard]] reports::VerifyOptions verify_options(const std::filesystem::path& directory);
 
 }  // namespace rondure::app

@@ -22,8 +22,8 @@ namespace {
 
 /// The list of digests, when it is signed.
 std::string signed_checksums(const std::filesystem::path& directory) {
-  if (!record::read_file(directory / record::kSignatureName)) return {};
-  return record::read_file(directory / record::kChecksumsName).value_or("");
+  if (!record::read_inside(directory, record::kSignatureName)) return {};
+  return record::read_inside(directory, record::kChecksumsName).value_or("");
 }
 
 /// The requested formats, otherwise all that can be written here; corrections for machines only

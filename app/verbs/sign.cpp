@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "app/run/processor.h"
+#include "app/run/kept_trials.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "plans/checks/record.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/signature.h"
@@ -18,10 +17,7 @@ namespace fs = std::filesystem;
 
 /// Whether the run verifies: no other run should be signed.
 bool verifies(const fs::path& directory) {
-  reports::VerifyOptions options;
-  options.processor = processor();
-  options.check = plans::check_record;
-  const auto outcome = reports::verify_run(directory, options);
+  const auto outcome = reports::verify_run(directory, verify_options(directory));
   if (!outcome) {
     print_error(outcome.error());
     return false;
@@ -47,7 +43,7 @@ void tell_readable_key(const fs::path& key) {
 core::Result<fs::path> write_signature(const SignArguments& arguments) {
   const fs::path directory = arguments.directory;
   TRY(const auto key, record::read_file(arguments.key));
-  TRY(const auto sums, record::read_file(directory / record::kChecksumsName));
+  TRY(const auto sums, record::read_inside(directory, record::kChecksumsName));
   const auto signature = record::sign(sums, key);
   if (!signature) return core::fail(signature.error().at(arguments.key));
   const fs::path file = directory / record::kSignatureName;

@@ -1,18 +1,15 @@
 #include <fmt/format.h>
 
-#include "app/run/processor.h"
+#include "app/run/kept_trials.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "plans/checks/record.h"
 #include "record/files.h"
 #include "reports/verify/verify.h"
 
 namespace rondure::app {
 
 int verify(const VerifyArguments& arguments) {
-  reports::VerifyOptions options;
-  options.processor = processor();
-  options.check = plans::check_record;
+  reports::VerifyOptions options = verify_options(arguments.directory);
   if (!arguments.key.empty()) {
     const auto key = record::read_file(arguments.key);
     if (!key) return refuse(key.error());

@@ -633,7 +633,10 @@ class PartTrials::Part::Run {
   /// Draws until the numbers are stable. Source: JCGM 101 section 7.9.
   void draw() {
     if (part_.most_trials(questions_, 0.0) == 0) return;
-    draw_or_take(values_, [this] { draw_all(); });
+    draw_or_take(
+        values_,
+        [this](const Values& found, const Values& first) { return is_whole(found, first); },
+        [this] { draw_all(); });
     reached_ = part_.options.tolerance_mm > 0.0 && is_stable();
   }
 
@@ -667,6 +670,26 @@ class PartTrials::Part::Run {
   }
 
  private:
+  /// Whether kept draws have all rows that are read.
+  [[nodiscard]] bool is_whole(const Values& found, const Values& first) const {
+    const Values& empty = values_.front();
+    bool whole =
+        found.done > 0 && found.done == first.done && found.tallies.size() == empty.tallies.size();
+    for (std::size_t s = 0; whole && s < found.tallies.size(); ++s) {
+      whole = found.tallies[s].spot_counts.size() == empty.tallies[s].spot_counts.size();
+    }
+    for (const auto* all : {&found.rows_mm, &found.read_mm, &found.bias_mm}) {
+      whole = whole && all->size() == questions_.size();
+      for (std::size_t q = 0; whole && q < all->size(); ++q) {
+        const bool counted = all != &found.rows_mm || part_.fault_of(questions_[q]);
+        whole = (counted || (*all)[q].size() == found.done) &&
+                std::ranges::all_of((*all)[q], [&](const std::vector<double>& row) {
+                  return row.size() == questions_[q].read_mm.size();
+                });
+      }
+    }
+    return whole;
+  }
   void draw_all() {
     const UncertaintyOptions& options = part_.options;
     const auto each = [&](int trials) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -9,10 +10,14 @@
 
 namespace rondure::evaluation {
 
+/// The file of a run directory that holds the draws behind its intervals.
+inline constexpr const char* kTrialsFile = "trials.bin";
+
 /// The draws of one evaluation, in the order in which its trials need them. Draws take nearly all
 /// of its time and follow from the run alone, so that a later evaluation of the same run by the
 /// same program on the same kind of processor can take them in place of drawing: bit for bit the
-/// same. Whether bytes are those of the same run is for the caller to know.
+/// same. Whether bytes are those of the same run is for the caller to know; those of another shape
+/// are not taken, whoever wrote them.
 class KeptDraws {
  public:
   /// @param known  bytes() of an earlier evaluation; must outlive this. Empty: draws are kept.
@@ -20,11 +25,15 @@ class KeptDraws {
 
   /// Fills the chains with the next draws that are known. Where these are not of this shape, the
   /// chains keep their state, and nothing is taken from then on.
+  /// @param is_whole  Whether a chain has all that its evaluation reads, given the first one found.
   /// @return  false: they have to be drawn.
-  template <class Chain>
-  [[nodiscard]] bool take(std::vector<Chain>& chains) {
+  template <class Chain, class IsWhole>
+  [[nodiscard]] bool take(std::vector<Chain>& chains, const IsWhole& is_whole) {
     std::vector<Chain> found;
-    const bool fits = knows_ && read(found) && found.size() == chains.size();
+    const bool fits = knows_ && read(found) && found.size() == chains.size() &&
+                      std::all_of(found.begin(), found.end(), [&](const Chain& chain) {
+                        return is_whole(chain, found.front());
+                      });
     if (fits) chains = std::move(found);
     knows_ = fits;
     return fits;
@@ -95,11 +104,12 @@ class UseOfDraws {
 };
 
 /// Draws the chains, or takes them as they are known.
-/// @param draw  Fills the chains.
-template <class Chain, class Draw>
-void draw_or_take(std::vector<Chain>& chains, const Draw& draw) {
+/// @param is_whole  As of KeptDraws::take().
+/// @param draw      Fills the chains.
+template <class Chain, class IsWhole, class Draw>
+void draw_or_take(std::vector<Chain>& chains, const IsWhole& is_whole, const Draw& draw) {
   KeptDraws* const kept = UseOfDraws::current();
-  if (kept != nullptr && kept->take(chains)) return;
+  if (kept != nullptr && kept->take(chains, is_whole)) return;
   draw();
   if (kept != nullptr) kept->keep(chains);
 }

@@ -80,7 +80,15 @@ void draw_chains(FormChains& chains, const UncertaintyOptions& options, std::siz
 
 core::Result<UncertaintyResult> run_chains(FormChains& chains, const UncertaintyOptions& options,
                                            std::size_t points) {
-  draw_or_take(chains.values(), [&] { draw_chains(chains, options, points); });
+  const ChainValues empty = chains.values().front();
+  const auto is_whole = [&](const ChainValues& chain, const ChainValues& first) {
+    return !chain.sampled_mm.empty() && chain.sampled_mm.size() == first.sampled_mm.size() &&
+           chain.whole_mm.size() == first.whole_mm.size() &&
+           (chain.whole_mm.empty() || chain.whole_mm.size() == chain.sampled_mm.size()) &&
+           chain.changes_mm.size() == empty.changes_mm.size() &&
+           chain.tally.spot_counts.size() == points;
+  };
+  draw_or_take(chains.values(), is_whole, [&] { draw_chains(chains, options, points); });
   TRY_DO(check_all_values(chains));
   UncertaintyResult out;
   out.tolerance_reached = options.tolerance_mm > 0.0 && is_stable(chains, options);

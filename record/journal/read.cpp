@@ -153,10 +153,13 @@ bool holds_nothing(const fs::path& file) {
 
 core::Result<void> require_file(const fs::path& directory, const fs::path& file) {
   std::error_code problem;
-  const fs::file_status status = fs::status(file, problem);
   const auto refuse = [&](std::string what) {
     return core::fail(core::Code::kFile, std::move(what), file.string());
   };
+  if (fs::is_symlink(file, problem)) {
+    return refuse("the journal is a link, not a file of this run; put the file itself there");
+  }
+  const fs::file_status status = fs::status(file, problem);
   if (fs::is_regular_file(status) && holds_nothing(file)) {
     return core::fail(
         core::Code::kJournal,

@@ -116,9 +116,10 @@ core::Result<EarlierResults> parse_earlier(const std::string& text) {
 }
 
 core::Result<EarlierResults> read_earlier(const std::filesystem::path& directory) {
-  std::error_code unknown;
-  if (!std::filesystem::exists(directory / kEarlierName, unknown)) return EarlierResults();
-  TRY(const auto text, record::read_file(directory / kEarlierName));
+  std::error_code unknown;  // a link that leads nowhere is not absent
+  const auto there = std::filesystem::symlink_status(directory / kEarlierName, unknown);
+  if (there.type() == std::filesystem::file_type::not_found) return EarlierResults();
+  TRY(const auto text, record::read_inside(directory, kEarlierName));
   return parse_earlier(text);
 }
 

@@ -11,6 +11,7 @@
 #include "core/utf8.h"
 #include "core/version.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/uncertainty/kept_draws.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
@@ -19,6 +20,7 @@
 #include "reports/formats/exports.h"
 #include "reports/history/earlier_results.h"
 #include "reports/verify/internal/compare_text.h"
+#include "reports/verify/internal/derived.h"
 #include "reports/verify/internal/files.h"
 #include "reports/verify/stored_results.h"
 
@@ -39,6 +41,10 @@ struct Exactness {
   /// Tolerance for numbers from another kind of processor or another version: mm, um, deg alike.
   [[nodiscard]] double tolerance() const { return same_processor && same_version ? 0.0 : 1e-9; }
 };
+
+Exactness exactness_of(const record::Header& header, const std::string& processor) {
+  return {header.processor == processor, header.version == core::kVersion};
+}
 
 /// One result by its name: as stored, and as computed from the touches now.
 struct Pair {
@@ -173,6 +179,9 @@ core::Result<std::string> compare_exports(const fs::path& directory,
     out.differences.push_back(earlier.error().what);
     return std::string("none, because of it");
   }
+  if (auto fault = fault_of_earlier(*earlier, record)) {
+    out.differences.push_back(*std::move(fault));
+  }
   std::string names;
   std::string absent;
   std::set<std::string> tables = correction_tables(directory, listed);
@@ -238,7 +247,7 @@ void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Ver
         std::any_of(all.begin(), all.end(), [&](const Export& e) { return e.file == file; })) {
       continue;
     }
-    if (state == State::kAbsent) {
+    if (state == State::kAbsent && file != evaluation::kTrialsFile) {
       out.differences.push_back(
           fmt::format("{}: it is not there, and {} names it", file, record::kChecksumsName));
     }
@@ -332,6 +341,15 @@ core::Result<std::string> about_signature(const fs::path& directory, const Verif
 
 }  // namespace
 
+bool gives_stored_results(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                          const std::string& processor) {
+  const Exactness exactness = exactness_of(record.header, processor);
+  if (!record.sealed) return false;
+  Verification out;
+  compare_results(record.results, stored_results(evaluation), exactness, out);
+  return out.differences.empty();
+}
+
 core::Result<Verification> verify_run(const fs::path& directory, const VerifyOptions& options) {
   TRY(const auto read, record::read_journal(directory));
   const record::RunRecord& record = read.record;
@@ -349,15 +367,22 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
     out.differences.push_back(checked.error().what);
     return out;
   }
-  const auto evaluation = evaluation::evaluate(record);
+  evaluation::KeptDraws draws;
+  const auto evaluation = [&] {
+    const evaluation::UseOfDraws use(draws);
+    return evaluation::evaluate(record);
+  }();
   if (!evaluation) {
     if (out.differences.empty()) return core::fail(evaluation.error());
     out.differences.push_back(
         fmt::format("the touches cannot be evaluated: {}", core::to_line(evaluation.error())));
     return out;
   }
-  const Exactness exactness{record.header.processor == options.processor,
-                            record.header.version == core::kVersion};
+  const Exactness exactness = exactness_of(record.header, options.processor);
+  if (record.sealed && listed.state_of(evaluation::kTrialsFile) != State::kChanged) {
+    TRY_DO(
+        compare_trials(directory, options.trials_head, draws.bytes(), out.differences, out.notes));
+  }
   const std::size_t results =
       record.sealed ? compare_results(record.results, stored_results(*evaluation), exactness, out)
                     : 0;

@@ -7,7 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/checksums.h"
 #include "record/journal/journal.h"
+#include "record/sha256.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 #include "tests/record/meddle.h"
@@ -144,6 +146,30 @@ TEST_F(ForgedRun, ASignedFileThatIsAbsentIsADifference) {
   }
   write(run / "earlier.json", "{}");
   EXPECT_THAT(verify_signed(run).out, HasSubstr("earlier.json: it is not signed"));
+}
+
+// A report takes them into its run charts; the digest was made again.
+TEST_F(ForgedRun, EarlierResultsThatCannotBeAreADifference) {
+  (void)run_axle("one", 100);
+  const fs::path run = run_axle("two", 100);
+  const std::string good = read(run / "earlier.json");
+  const auto part = good.find("EMU-AXLE-3");
+  ASSERT_NE(part, std::string::npos);
+  const auto verify_with = [&](const std::string& text) {
+    write(run / "earlier.json", text);
+    EXPECT_TRUE(record::update_checksums(run, {{"earlier.json", record::sha256_hex(text)}}));
+    (void)rondure({"report", run, "--format", "html"});
+    return rondure({"verify", run});
+  };
+  EXPECT_EQ(verify_with(good).status, 0);
+  const Outcome other = verify_with(std::string(good).replace(part, 3, "ICE"));
+  EXPECT_EQ(other.status, 1);
+  EXPECT_THAT(other.out, HasSubstr("not equal: earlier.json: result 1 is of part ICE-AXLE-3 in "
+                                   "place of EMU-AXLE-3"));
+  const std::string key = "\"started_utc\": \"";
+  std::string later = good;
+  later.replace(later.find(key) + key.size(), 4, "2999");
+  EXPECT_THAT(verify_with(later).out, HasSubstr("earlier.json: result 1 is of no earlier run"));
 }
 
 TEST_F(ForgedRun, ATriggerInAnInterruptedJournalIsRefusedByName) {

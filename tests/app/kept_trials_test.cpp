@@ -23,6 +23,11 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+constexpr const char* kUnsealed =
+    "trials.bin: its draws do not give the results under the seal of the journal; the intervals "
+    "are "
+    "computed again";
+
 class KeptTrials : public ::testing::Test {
  protected:
   void SetUp() override { fs::copy(example_runs() / "01_spool_simulated", run_); }
@@ -55,23 +60,76 @@ TEST_F(KeptTrials, AreTakenByReportAndCompareAndChangedByNeither) {
   EXPECT_EQ(rondure({"verify", run_}).status, 0);
 }
 
-// The verdict would be another with these draws: a report that took them would say so.
-TEST_F(KeptTrials, AreTakenWithoutDrawingAgain) {
-  std::string bytes = trials();
-  const std::size_t body = bytes.find('\n', bytes.find("journal ")) + 1;
+// A form value of 1 m would change the verdict.
+TEST_F(KeptTrials, ThatSomebodyForgedAreFoundByEveryVerb) {
+  const std::string good = trials();
+  std::string bytes = good;
   // behind the number of chains and that of the trials of the first one
-  double first = 0.0;
-  std::memcpy(&first, bytes.data() + body + 16, sizeof first);
-  ASSERT_GT(first, 1e-6);
-  ASSERT_LT(first, 1.0) << "a form value in mm";
-  first = 1.0;
-  std::memcpy(bytes.data() + body + 16, &first, sizeof first);
+  const std::size_t first = bytes.find('\n', bytes.find("journal ")) + 1 + 16;
+  double value = 0.0;
+  std::memcpy(&value, bytes.data() + first, sizeof value);
+  ASSERT_GT(value, 1e-6);
+  ASSERT_LT(value, 1.0) << "a form value in mm";
+  value = 1.0;
+  std::memcpy(bytes.data() + first, &value, sizeof value);
   forge(bytes);
-  const std::string before = read(run_ / "report.json");
-  EXPECT_LE(rondure({"report", run_, "--format", "json"}).status, 1);
-  EXPECT_NE(read(run_ / "report.json"), before);
+  const std::string told = "trials.bin: its draws are not those that the touches give; remove it";
   const Outcome verified = rondure({"verify", run_});
-  EXPECT_EQ(verified.status, 1) << "verify draws for itself";
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_THAT(verified.out, HasSubstr("not equal: " + told));
+  EXPECT_THAT(rondure({"sign", run_, "--key", "KEY.pem"}).err, HasSubstr(told));
+  EXPECT_THAT(rondure({"compare", run_}).err, HasSubstr("the intervals are computed again"));
+  EXPECT_THAT(told_by_report(), HasSubstr(kUnsealed));
+  EXPECT_EQ(trials(), good) << "they are kept again";
+  EXPECT_EQ(rondure({"verify", run_}).status, 0);
+}
+
+// Rows that an evaluation would read beyond their end.
+TEST_F(KeptTrials, OfAnotherShapeAreDrawnAgain) {
+  const std::string good = trials();
+  const std::size_t body = good.find('\n', good.find("journal ")) + 1;
+  std::size_t chains = 0;
+  std::memcpy(&chains, good.data() + body, sizeof chains);
+  forge(good.substr(0, body + sizeof chains) + std::string(400 * chains, '\0'));
+  EXPECT_EQ(rondure({"verify", run_}).status, 1);
+  EXPECT_THAT(told_by_report(), HasSubstr(kUnsealed));
+  EXPECT_EQ(trials(), good) << "they are kept again";
+}
+
+TEST_F(KeptTrials, AreMissedByVerifyInALine) {
+  fs::remove(run_ / "trials.bin");
+  const Outcome verified = rondure({"verify", run_});
+  EXPECT_EQ(verified.status, 0);
+  EXPECT_THAT(verified.out, AllOf(Not(HasSubstr("not equal")),
+                                  HasSubstr("note: trials.bin is not there: report and compare "
+                                            "compute the intervals again")));
+}
+
+TEST_F(KeptTrials, WithAFlippedBitAreADifferenceWhereverItIs) {
+  const std::string good = trials();
+  for (const std::size_t at : {std::size_t{3}, good.find("program ") + 9, good.size() - 1}) {
+    std::string bytes = good;
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    write(run_ / "trials.bin", bytes);
+    const Outcome verified = rondure({"verify", run_});
+    EXPECT_EQ(verified.status, 1) << at;
+    EXPECT_THAT(verified.out,
+                HasSubstr("not equal: trials.bin: its bytes were changed after it was written"));
+  }
+}
+
+TEST_F(KeptTrials, OfAnotherBuildAreNotedAndOfAnotherRunRefused) {
+  std::string bytes = trials();
+  bytes.replace(bytes.find("program ") + 8, 4, "0000");
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  forge(bytes);
+  const Outcome noted = rondure({"verify", run_});
+  EXPECT_EQ(noted.status, 0);
+  EXPECT_THAT(noted.out, HasSubstr("note: trials.bin: another build or another kind of processor"));
+  forge(read(example_runs() / "09_axle_points_file" / "trials.bin"));
+  const Outcome refused = rondure({"verify", run_});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.out, HasSubstr("not equal: trials.bin: it is not of this journal; remove"));
 }
 
 TEST_F(KeptTrials, OfAnotherRunOrProgramOrWithOneChangedBitAreDrawnAgain) {

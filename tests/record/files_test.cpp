@@ -96,6 +96,10 @@ TEST(Files, BelowADirectoryAreReachedThroughNoLink) {
               HasSubstr("it is a link or a file, not a folder of this run; move it away"));
   EXPECT_EQ(*read_file(elsewhere / "a.csv"), "other");
   EXPECT_THAT(elsewhere.names(), ElementsAre("a.csv"));
+  std::filesystem::create_symlink(elsewhere / "a.csv", scratch / "b.csv");
+  EXPECT_THAT(read_inside(scratch.path(), "b.csv").error().what,
+              HasSubstr("b.csv: it is a link, not a file of this run; put the file itself there"));
+  EXPECT_FALSE(sha256_inside(scratch.path(), "b.csv"));
   // The directory itself may be a link: a user names it.
   EXPECT_EQ(*read_inside(scratch / "link", "a.csv"), "other");
 }

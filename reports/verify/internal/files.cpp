@@ -56,8 +56,8 @@ core::Result<void> check_signature(const fs::path& directory, const std::string&
                     listed.list_found ? record::kSignatureName : record::kChecksumsName));
     return {};
   }
-  TRY(const auto sums, record::read_file(directory / record::kChecksumsName));
-  TRY(const auto signature, record::read_file(directory / record::kSignatureName));
+  TRY(const auto sums, record::read_inside(directory, record::kChecksumsName));
+  TRY(const auto signature, record::read_inside(directory, record::kSignatureName));
   TRY(const auto holds, record::signature_holds(sums, signature, public_key_pem));
   if (!holds) {
     differences.push_back(
