@@ -22,6 +22,9 @@ struct Utf8Character {
 /// Codes that are no characters: XML and HTML refuse them.
 [[nodiscard]] bool is_noncharacter(std::uint32_t code);
 
+/// Marks that reorder what follows or break its line (U+202E, U+2028), and marks without width.
+[[nodiscard]] bool is_layout_mark(std::uint32_t code);
+
 /// The text as well-formed UTF-8 without NUL; what is neither becomes U+FFFD.
 [[nodiscard]] std::string well_formed(std::string_view text);
 

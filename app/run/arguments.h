@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,9 @@ namespace rondure::app {
 struct RunArguments {
   std::string plan;       ///< With `resume` also a run directory.
   std::string plan_text;  ///< The plan itself, where `plan` names no file; empty: it does.
-  std::string out;        ///< Empty: runs/<plan>-<UTC>.
+  /// What the person calls a place of plan_text, given as JSON pointer; none: the pointer.
+  std::function<std::string(const std::string&)> place_name = {};
+  std::string out;  ///< Empty: runs/<plan>-<UTC>.
   bool resume = false;
   bool relocate = false;  ///< With `resume`: a part that has moved is located again.
   std::string serial;

@@ -556,23 +556,6 @@ core::Result<std::string> standard_input() {
   return out;
 }
 
-core::Result<record::PointTable> load_points(const FitArguments& arguments) {
-  const bool piped = arguments.file == "-";
-  TRY(const auto bytes,
-      piped ? standard_input() : record::read_file(arguments.file, record::kMostPointsBytes));
-  const std::string name =
-      piped ? "standard input" : std::filesystem::path(arguments.file).filename().string();
-  auto table = record::read_points(bytes, name, arguments.points);
-  if (!table) return table;
-  if (table->dimensions != 3 && arguments.shape != "circle") {
-    return core::fail(
-        core::Code::kSyntax,
-        fmt::format("a {} needs the columns x,y,z, the file has x,y", arguments.shape),
-        name + ":1");
-  }
-  return table;
-}
-
 /// The plane of the points of a circle, as a frame with z along the normal.
 Eigen::Isometry3d plane_of(const record::PointTable& table) {
   const std::vector<int> one(table.points_mm.size(), 0);
@@ -590,6 +573,23 @@ Eigen::Isometry3d plane_of(const record::PointTable& table) {
 }
 
 }  // namespace
+
+core::Result<record::PointTable> load_points(const FitArguments& arguments) {
+  const bool piped = arguments.file == "-";
+  TRY(const auto bytes,
+      piped ? standard_input() : record::read_file(arguments.file, record::kMostPointsBytes));
+  const std::string name =
+      piped ? "standard input" : std::filesystem::path(arguments.file).filename().string();
+  auto table = record::read_points(bytes, name, arguments.points);
+  if (!table) return table;
+  if (table->dimensions != 3 && arguments.shape != "circle") {
+    return core::fail(
+        core::Code::kSyntax,
+        fmt::format("a {} needs the columns x,y,z, the file has x,y", arguments.shape),
+        name + ":1");
+  }
+  return table;
+}
 
 int fit(const FitArguments& arguments) {
   auto table = load_points(arguments);

@@ -4,12 +4,17 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/answer.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "plans/schema/json_text.h"
+#include "plans/schema/utf8.h"
 #include "record/files.h"
 #include "record/tasks/form_facts.h"
 
@@ -66,12 +71,46 @@ std::string plan_text(const FitArguments& arguments, const fs::path& folder) {
   return plan.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// The part of the command line that a place of the plan came from, which the person has not seen.
+std::string place_name(const std::string& pointer) {
+  for (const auto& [end, name] :
+       {std::pair("/source/file", "FILE"), std::pair("/source/feature", "--feature"),
+        std::pair("/source/unit", "--unit"), std::pair("/source/layers", "--layers"),
+        std::pair("/source/tip_diameter_mm", "--tip-diameter-mm"), std::pair("/side", "--inside"),
+        std::pair("/reference", "--reference"), std::pair("/tolerance_um", "--tolerance-um")}) {
+    if (pointer.ends_with(end)) return name;
+  }
+  return pointer.find("/source/columns") != std::string::npos ? "--columns" : pointer;
+}
+
+/// Checks that a plan can spell what names the points: JSON is UTF-8.
+core::Result<void> check_spelling(const FitArguments& arguments, const fs::path& folder) {
+  std::vector<std::pair<const char*, std::string>> names = {
+      {"FILE", file_from(arguments.file, folder)}, {"--feature", arguments.points.feature}};
+  for (const std::string& column : arguments.points.columns)
+    names.emplace_back("--columns", column);
+  for (const auto& [place, name] : names) {
+    const std::size_t at = plans::first_not_utf8(name);
+    if (at == name.size()) continue;
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("{} contains {}, which is not UTF-8, so that no plan can name it; rename it",
+                    plans::in_quotes(name), plans::unshowable_in_words(name, at)),
+        place);
+  }
+  return {};
+}
+
 }  // namespace
 
 int fit_or_run(const FitArguments& arguments) {
   if (arguments.out.empty() && arguments.save_plan.empty()) return fit(arguments);
+  const fs::path folder =
+      arguments.save_plan.empty() ? fs::path() : fs::absolute(arguments.save_plan).parent_path();
+  if (auto good = check_spelling(arguments, folder); !good) return refuse(good.error());
+  // Before anything is written.
+  if (auto points = load_points(arguments); !points) return refuse(points.error());
   if (!arguments.save_plan.empty()) {
-    const fs::path folder = fs::absolute(arguments.save_plan).parent_path();
     std::error_code unknown;
     if (fs::exists(arguments.save_plan, unknown)) {
       return refuse({core::Code::kFile, "the file exists; name another one, or remove it",
@@ -87,6 +126,7 @@ int fit_or_run(const FitArguments& arguments) {
   if (arguments.save_plan.empty()) {
     run_arguments.plan = "fit " + arguments.shape;
     run_arguments.plan_text = plan_text(arguments, {});
+    run_arguments.place_name = place_name;
   }
   run_arguments.out = arguments.out;
   run_arguments.serial = arguments.serial;

@@ -18,6 +18,7 @@
 #include "app/verbs/verbs.h"
 #include "core/numbers.h"
 #include "core/result.h"
+#include "plans/checks/doubts.h"
 #include "plans/forecast/forecast.h"
 #include "plans/forecast/picture.h"
 #include "record/files.h"
@@ -152,7 +153,7 @@ int plan(const PlanArguments& arguments) {
     say(document.dump(2) + "\n");
   } else {
     print(*read, *forecast, *outlook);
-    tell_doubts(*read);
+    tell_doubts(plans::doubts_of(*read));
   }
   return target_met(*outlook) ? kAllWell : kBadInput;
 }

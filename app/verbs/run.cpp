@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@
 #include "app/verbs/verbs.h"
 #include "core/numbers.h"
 #include "core/result.h"
+#include "plans/checks/doubts.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
@@ -222,17 +224,30 @@ core::Result<void> check_printing(const RunArguments& arguments, const plans::Pl
 
 /// Checks names of the command line as those of the plan, because every report contains them.
 core::Result<void> check_names(const RunArguments& arguments) {
-  for (const auto& [option, name] :
-       {std::pair("--serial", &arguments.serial), std::pair("--operator", &arguments.operator_name),
-        std::pair("--order", &arguments.order), std::pair("--customer", &arguments.customer)}) {
+  const auto refuse_name = [](const char* option, const std::string& name, std::string_view fault) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} {} {}", option, plans::in_quotes(name), fault), option);
+  };
+  for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
+                                     std::pair("--operator", &arguments.operator_name)}) {
     const std::size_t at = plans::first_unshowable(*name);
     if (at == name->size()) continue;
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{} {} contains {}, which no report can show; remove it", option,
-                                  plans::in_quotes(*name), plans::unshowable_in_words(*name, at)),
-                      option);
+    return refuse_name(option, *name,
+                       fmt::format("contains {}, which no report can show; remove it",
+                                   plans::unshowable_in_words(*name, at)));
+  }
+  for (const auto& [option, name] :
+       {std::pair("--order", &arguments.order), std::pair("--customer", &arguments.customer)}) {
+    if (const auto fault = plans::fault_of_name(*name)) return refuse_name(option, *name, *fault);
   }
   return {};
+}
+
+std::vector<core::Error> named_places(const RunArguments& arguments,
+                                      std::vector<core::Error> errors) {
+  if (!arguments.place_name) return errors;
+  for (core::Error& error : errors) error.where = arguments.place_name(error.where);
+  return errors;
 }
 
 /// Measures, evaluates and writes the reports.
@@ -278,7 +293,7 @@ int run(const RunArguments& arguments) {
   auto resumption = arguments.resume ? find_resumption(arguments) : Resumption{};
   if (!resumption) return refuse(resumption.error());
   const auto plan = plan_of(arguments, *resumption);
-  if (!plan) return refuse(plan.error());
+  if (!plan) return refuse(named_places(arguments, plan.error()));
   for (const auto& allowed : {check_hand(*plan), check_machine_speed(arguments, *plan)}) {
     if (!allowed) return refuse(allowed.error());
   }
@@ -302,7 +317,7 @@ int run(const RunArguments& arguments) {
   // As `plan` checks it: all poses, their spheres among them, before anything moves.
   const auto forecast = plans::forecast(*plan);
   if (!forecast) return refuse(forecast.error());
-  tell_doubts(*plan);
+  tell_doubts(named_places(arguments, plans::doubts_of(*plan)));
   const auto live = open_live(arguments, *forecast, options);
   if (!live) return refuse(live.error());
   ending.live = live->get();

@@ -87,8 +87,8 @@ void say_what_was_read(const plans::Plan& plan) {
 
 }  // namespace
 
-void tell_doubts(const plans::Plan& plan) {
-  for (const core::Error& doubt : plans::doubts_of(plan)) {
+void tell_doubts(const std::vector<core::Error>& doubts) {
+  for (const core::Error& doubt : doubts) {
     tell(fmt::format("rondure: please check {}: {}\n", doubt.where, doubt.what));
   }
 }
@@ -112,7 +112,7 @@ int validate(const ValidateArguments& arguments) {
                        plan->features.size() == 1 ? "" : "s"));
   say_what_was_read(*plan);
   say_undeclared(*plan);
-  tell_doubts(*plan);
+  tell_doubts(plans::doubts_of(*plan));
   return kAllWell;
 }
 

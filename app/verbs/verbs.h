@@ -31,7 +31,7 @@ struct ValidateArguments {
 };
 [[nodiscard]] int validate(const ValidateArguments& arguments);
 /// Says on the terminal what a valid plan hardly means: plans::doubts_of().
-void tell_doubts(const plans::Plan& plan);
+void tell_doubts(const std::vector<core::Error>& doubts);
 
 struct PlanArguments {
   std::string plan;
@@ -126,6 +126,8 @@ struct FitArguments {
   std::string operator_name;
 };
 [[nodiscard]] int fit(const FitArguments& arguments);
+/// The points that a fit takes; errors name the file, or its line.
+[[nodiscard]] core::Result<record::PointTable> load_points(const FitArguments& arguments);
 /// fit(), or with `out` or `save_plan` the plan of which `arguments` are the settings: it is
 /// written or run, to a page and a journal that `verify` and `sign` take like any other.
 /// @return  Exit status of the program.

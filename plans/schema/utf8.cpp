@@ -37,6 +37,23 @@ std::string unshowable_in_words(std::string_view text, std::size_t index) {
   return fmt::format("the character U+{:04X}", c.code);
 }
 
+std::optional<std::string> fault_of_name(std::string_view text) {
+  constexpr std::size_t kMostCharacters = 200;
+  constexpr std::uint32_t kNonJoiner = 0x200C;  // letters of Persian and of Indic scripts need both
+  constexpr std::uint32_t kJoiner = 0x200D;
+  const std::size_t at = first_where(text, [](const core::Utf8Character& c) {
+    return is_unshowable(c) || c.code == '\n' || c.code == '\t' ||
+           (core::is_layout_mark(c.code) && c.code != kNonJoiner && c.code != kJoiner);
+  });
+  if (at < text.size()) {
+    return fmt::format("contains {}, which no report can show in a line; remove it",
+                       unshowable_in_words(text, at));
+  }
+  const std::size_t count = characters(text);
+  if (count <= kMostCharacters) return std::nullopt;
+  return fmt::format("has {} characters, the limit is {}; shorten it", count, kMostCharacters);
+}
+
 std::string escaped_line(std::string_view text) {
   std::string out;
   while (!text.empty()) {

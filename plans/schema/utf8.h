@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,10 @@ namespace rondure::plans {
 
 /// The character or byte at first_unshowable(), in words: "the character U+FFFE", "the byte 0xFF".
 [[nodiscard]] std::string unshowable_in_words(std::string_view text, std::size_t index);
+
+/// What forbids a name on page one, as a clause after it: it must fit its line, at most 200
+/// characters, and not reorder what stands beside it. Nothing where it may stand there.
+[[nodiscard]] std::optional<std::string> fault_of_name(std::string_view text);
 
 /// The text on one line: a line feed becomes \n, other unshowable characters \u001b or \xff.
 [[nodiscard]] std::string escaped_line(std::string_view text);

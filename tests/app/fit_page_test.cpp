@@ -129,5 +129,33 @@ TEST_F(FitToAPage, WhatNoPageShowsIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THAT(refusal({"--out", run_}), HasSubstr("journal A.csv:2"));
 }
 
+TEST_F(FitToAPage, APlanIsSavedOnlyOfAFileThatCanBeRead) {
+  const fs::path plan = folder_ / "plan.json";
+  const auto told = [&](const std::string& file, std::vector<std::string> more) {
+    std::vector<std::string> words = {"fit", "cylinder", file};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = rondure(words);
+    EXPECT_EQ(outcome.status, 2) << outcome.out;
+    EXPECT_FALSE(fs::exists(plan));
+    EXPECT_FALSE(fs::exists(run_));
+    EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("/features/")));
+    return outcome.err;
+  };
+  EXPECT_THAT(told(folder_ / "absent.csv", {"--save-plan", plan}), HasSubstr("absent.csv"));
+  EXPECT_THAT(told(folder_ / "absent.csv", {"--out", run_}), HasSubstr("absent.csv"));
+  EXPECT_THAT(told(points_, {"--columns", "2,3,9", "--save-plan", plan}), HasSubstr("journal A"));
+  EXPECT_THAT(told(points_, {"--save-plan", ""}), HasSubstr("--save-plan: is empty; name a place"));
+  EXPECT_THAT(told(points_, {"--out", ""}), HasSubstr("--out: is empty; name a place"));
+  EXPECT_THAT(told(points_, {"--tip-diameter-mm", "4000", "--out", run_}),
+              HasSubstr("--tip-diameter-mm: 4000 mm is outside the limits"));
+  const fs::path latin = folder_ / "M\xfcnchen.csv";
+  fs::copy(points_, latin);
+  EXPECT_EQ(rondure({"fit", "cylinder", latin}).status, 0);
+  for (const char* option : {"--save-plan", "--out"}) {
+    EXPECT_THAT(told(latin, {option, option == std::string("--out") ? run_ : plan}),
+                HasSubstr("contains the byte 0xFC, which is not UTF-8, so that no plan can name"));
+  }
+}
+
 }  // namespace
 }  // namespace rondure::app::testing

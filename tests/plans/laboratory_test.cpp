@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <boost/crc.hpp>
 
 #include "core/base64.h"
 #include "plans/checks/laboratory.h"
@@ -20,7 +21,33 @@ using ::testing::HasSubstr;
 using testing::lines_of;
 using ::testing::StartsWith;
 
-const std::string kPng = "\x89PNG\r\n\x1a\n and so on";
+/// Bytes as a whole number, the highest first.
+std::string number(std::size_t value, int count) {
+  std::string out;
+  for (int i = count - 1; i >= 0; --i) out += static_cast<char>(value >> (8 * i));
+  return out;
+}
+
+std::string chunk(const std::string& name, const std::string& data) {
+  boost::crc_32_type check;
+  check.process_bytes((name + data).data(), name.size() + data.size());
+  return number(data.size(), 4) + name + data + number(check.checksum(), 4);
+}
+
+/// A grey PNG; its picture is that of one pixel, whatever its head says.
+std::string png(std::size_t width, std::size_t height) {
+  const std::string pixel("\x78\x9c\x63\x60\x00\x00\x00\x02\x00\x01", 10);
+  return "\x89PNG\r\n\x1a\n" +
+         chunk("IHDR", number(width, 4) + number(height, 4) + std::string("\x08\0\0\0\0", 5)) +
+         chunk("IDAT", pixel) + chunk("IEND", "");
+}
+
+/// A grey JPEG: frame, scan, end.
+std::string jpeg(std::size_t width, std::size_t height) {
+  return "\xFF\xD8\xFF\xC0" + number(11, 2) + "\x08" + number(height, 2) + number(width, 2) +
+         "\x01\x01\x11" + number(0, 1) + "\xFF\xDA" + number(8, 2) +
+         std::string("\x01\x01\0\0\x3F\0\x2A", 7) + "\xFF\xD9";
+}
 
 class LaboratoryOfAPlan : public ::testing::Test {
  protected:
@@ -53,7 +80,7 @@ class LaboratoryOfAPlan : public ::testing::Test {
 };
 
 TEST_F(LaboratoryOfAPlan, IsTakenWithItsLogo) {
-  write("logo.png", kPng);
+  write("logo.png", png(1, 1));
   write("lab.json", R"({"name": "Form room", "address": "Hall 4", "country": "DE",
                         "contact": "form@example.org", "logo": "logo.png"})");
   const PlanOrProblems read = plan();
@@ -64,7 +91,7 @@ TEST_F(LaboratoryOfAPlan, IsTakenWithItsLogo) {
   EXPECT_EQ(found->address, "Hall 4");
   EXPECT_EQ(found->country, "DE");
   EXPECT_EQ(found->contact, "form@example.org");
-  EXPECT_EQ(found->logo, "data:image/png;base64,iVBORw0KGgogYW5kIHNvIG9u");
+  EXPECT_EQ(found->logo, "data:image/png;base64," + core::base64(png(1, 1)));
   EXPECT_EQ(found->order, std::nullopt);
 }
 
@@ -82,10 +109,42 @@ TEST_F(LaboratoryOfAPlan, ItsLogoIsAPictureOfLimitedSize) {
   EXPECT_THAT(refusal_of(laboratory), HasSubstr("\"logo\" does not exist"));
   write("logo", "<svg onload='alert(1)'/>");
   EXPECT_THAT(refusal_of(laboratory), HasSubstr("neither a PNG nor a JPEG"));
-  write("logo", kPng + std::string(256 * 1024, ' '));
+  write("logo", png(1, 1) + std::string(256 * 1024, ' '));
   EXPECT_THAT(refusal_of(laboratory), HasSubstr("262144"));
-  write("logo", "\xFF\xD8\xFF\xE0 JFIF");
-  EXPECT_EQ(refusal_of(laboratory), "");
+  for (const auto& picture : {png, jpeg}) {
+    const std::string good = picture(4000, 1);
+    write("logo", good);
+    EXPECT_EQ(refusal_of(laboratory), "");
+    write("logo", picture(1, 4001));
+    EXPECT_THAT(refusal_of(laboratory),
+                HasSubstr("has 1 x 4001 pixels, a side may have 1 to 4000"));
+    write("logo", picture(0, 1));
+    EXPECT_THAT(refusal_of(laboratory), HasSubstr("has 0 x 1 pixels"));
+    for (const std::string& damaged :
+         {good.substr(0, good.size() - 1), good.substr(0, 12), good + "<svg/>"}) {
+      write("logo", damaged);
+      EXPECT_THAT(refusal_of(laboratory), HasSubstr("is a damaged "));
+    }
+  }
+  std::string flipped = png(1, 1);
+  flipped[20] = static_cast<char>(flipped[20] ^ 1);
+  write("logo", flipped);
+  EXPECT_THAT(refusal_of(laboratory), HasSubstr("\"logo\" is a damaged PNG file"));
+}
+
+// Page one shows its words in lines beside others.
+TEST_F(LaboratoryOfAPlan, ItsWordsFitALineAndReorderNothing) {
+  for (const std::string key : {"name", "address", "country", "contact"}) {
+    const auto told = [&](const std::string& value) {
+      const std::string name = key == "name" ? "" : R"("name": "a", )";
+      return refusal_of("{" + name + "\"" + key + "\": \"" + value + "\"}");
+    };
+    EXPECT_THAT(told("A\u202EB"), AllOf(HasSubstr("\"lab.json\": /" + key + ": "),
+                                        HasSubstr("contains the character U+202E")));
+    EXPECT_THAT(told("A\\nB"), HasSubstr("U+000A"));
+    EXPECT_THAT(told(std::string(201, 'x')), HasSubstr("has 201 characters, the limit is 200"));
+    EXPECT_EQ(told("\u0645\u06CC\u200C\u0634\u0648\u062F"), "") << "a joiner of Persian";
+  }
 }
 
 // RFC 4648, section 10.
