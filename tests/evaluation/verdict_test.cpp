@@ -196,6 +196,17 @@ TEST(Verdict, OfARunThatDidNotFinishStandsForTheFeaturesThatAreComplete) {
   EXPECT_EQ(evaluation->verdict, Verdict::kDoesNotConform);
   EXPECT_THAT(write_summary(run, *evaluation),
               ::testing::StartsWith("INCOMPLETE: 1 of 2 judged, does not conform\n"));
+  // A stop before anything could be judged is no defect of what was measured.
+  RunRecord stopped = touched_run("iso-14253-1");
+  stopped.ending = "stopped";
+  stopped.poses.pop_back();
+  evaluation = evaluate(stopped);
+  EXPECT_EQ(evaluation->verdict, Verdict::kVoid);
+  EXPECT_THAT(write_summary(stopped, *evaluation),
+              ::testing::StartsWith("INCOMPLETE: 0 of 1 judged\n"));
+  EXPECT_THAT(write_html(stopped, *evaluation), HasSubstr(">INCOMPLETE: 0 of 1 judged<"));
+  stopped.features[0].characteristics[0].tolerance_mm.reset();
+  EXPECT_THAT(write_summary(stopped, *evaluate(stopped)), ::testing::StartsWith("INCOMPLETE\n"));
   // The repeats of its final cloud were not complete.
   run.poses.pop_back();
   EXPECT_EQ(evaluate(run)->features[0].characteristics[0].reason.english(),

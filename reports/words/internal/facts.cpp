@@ -141,7 +141,8 @@ std::optional<std::string> incomplete_headline(const record::RunRecord& record,
       if (result.verdict != Verdict::kVoid) ++judged;
     }
   }
-  if (record.ending == "finished" || judged == 0) return std::nullopt;
+  if (record.ending == "finished") return std::nullopt;
+  if (asked == 0) return tr("INCOMPLETE");
   std::string out = trf("INCOMPLETE: {} of {} judged", judged, asked);
   if (evaluation.verdict == Verdict::kDoesNotConform)
     out += tr(", ") + tr(name_of(evaluation.verdict));

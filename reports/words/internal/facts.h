@@ -28,8 +28,7 @@ namespace rondure::reports {
 [[nodiscard]] core::Phrase sentence_of(const fit::Certificate& certificate);
 
 /// The headline of a run that did not finish, in place of its verdict: "INCOMPLETE: 9 of 10
-/// judged", and that it does not conform where that is proven. None of a finished run, and where
-/// nothing could be judged.
+/// judged", and that it does not conform where that is proven. None of a finished run.
 [[nodiscard]] std::optional<std::string> incomplete_headline(
     const record::RunRecord& record, const evaluation::Evaluation& evaluation);
 
