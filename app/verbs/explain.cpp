@@ -16,7 +16,8 @@
 namespace rondure::app {
 namespace {
 
-/// A line for each code of errors, warnings and decisions, and for each influence: "name: text".
+/// A line for each code of errors, warnings and decisions, and for the influences: "name: text", or
+/// "name name: text".
 constexpr std::string_view kCodes =
 #include "app/text/codes.inc"
     ;
@@ -28,7 +29,11 @@ std::vector<std::pair<std::string_view, std::string_view>> entries() {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(line.size() + 1);
     const std::size_t colon = line.find(": ");
-    out.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+    for (std::string_view names = line.substr(0, colon); !names.empty();) {
+      const std::string_view name = names.substr(0, names.find(' '));
+      out.emplace_back(name, line.substr(colon + 2));
+      names.remove_prefix(std::min(name.size() + 1, names.size()));
+    }
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/message.h"
@@ -159,6 +161,33 @@ TEST(Explain, KnowsTheInfluences) {
   EXPECT_GT(known, 10) << told;
 }
 
+/// Collects the names of influences and the codes that a report prints.
+void collect_names(const nlohmann::json& node, std::set<std::string>& out) {
+  for (const char* list : {"budget", "influences", "warnings", "decisions"}) {
+    if (!node.is_object() || !node.contains(list)) continue;
+    for (const auto& item : node.at(list)) {
+      for (const char* name : {"name", "influence", "code"}) {
+        if (item.contains(name)) out.insert(item.at(name));
+      }
+    }
+  }
+  for (const auto& item : node) {
+    if (item.is_structured()) collect_names(item, out);
+  }
+}
+
+TEST(Explain, KnowsEveryNameOnThePagesOfTheExamples) {
+  std::set<std::string> names;
+  for (const auto& run : std::filesystem::directory_iterator(example_runs())) {
+    if (!std::filesystem::exists(run.path() / "report.json")) continue;
+    collect_names(nlohmann::json::parse(read(run.path() / "report.json")), names);
+  }
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"probe-2-gain", "wheel-wear", "gauge-noise"}));
+  for (const std::string& name : names) {
+    EXPECT_EQ(rondure({"explain", name}).status, 0) << name;
+  }
+}
+
 TEST(Arguments, WhatIsNotUnderstoodIsNamed) {
   const std::string plan = example("01_spool_simulated.json").string();
   struct Case {
@@ -221,7 +250,7 @@ TEST(Arguments, ThePlanMayFollowTheFormats) {
 TEST(Arguments, ANameThatNoReportCanShowIsRefused) {
   const TemporaryFolder folder;
   for (const std::string& option : {std::string("--serial"), std::string("--operator"),
-                                   std::string("--order"), std::string("--customer")}) {
+                                    std::string("--order"), std::string("--customer")}) {
     for (const std::string name : {"S\uFFFE", "S\uFDD0", "S\x1b[2J", "S\u009b2J", "S\xff"}) {
       const Outcome outcome = rondure(
           {"run", example("09_axle_points_file.json"), "--out", folder / "run", option, name});
@@ -229,6 +258,28 @@ TEST(Arguments, ANameThatNoReportCanShowIsRefused) {
       EXPECT_THAT(outcome.err, AllOf(HasSubstr(option), HasSubstr("which no report can show")));
       EXPECT_FALSE(std::filesystem::exists(folder / "run"));
     }
+  }
+}
+
+// Page one shows both in a line: what breaks or reorders it is refused, with its code point.
+TEST(Arguments, AnOrderOrCustomerOfManyOrReorderedWordsIsRefused) {
+  const TemporaryFolder folder;
+  const std::string run = folder / "run";
+  const auto told = [&](const std::string& option, const std::string& name) {
+    const Outcome outcome =
+        rondure({"run", example("09_axle_points_file.json"), "--out", run, option, name});
+    EXPECT_EQ(outcome.status, 2) << name;
+    EXPECT_FALSE(std::filesystem::exists(run));
+    return outcome.err;
+  };
+  for (const std::string option : {"--order", "--customer"}) {
+    EXPECT_THAT(told(option, "A\u202EB"),
+                AllOf(HasSubstr(option), HasSubstr("contains the character U+202E")));
+    EXPECT_THAT(told(option, "A\u2066B"), HasSubstr("U+2066"));
+    EXPECT_THAT(told(option, "A\nB"), HasSubstr("U+000A"));
+    EXPECT_THAT(told(option, "A\tB"), HasSubstr("U+0009"));
+    EXPECT_THAT(told(option, std::string(201, 'x')),
+                HasSubstr("has 201 characters, the limit is 200; shorten it"));
   }
 }
 

@@ -518,23 +518,23 @@ std::optional<double> ContourTrials::main_differs_mm() const {
 
 void ContourTrials::say(CurveModel& out, std::initializer_list<std::string_view> keys) const {
   struct Key {
-    std::string_view name;
+    std::string_view key;
     const record::Influence* said;
     std::string_view unit;
+    const char* name;  ///< As in the budget.
   };
-  for (const Key& key :
-       {Key{"gauge_um", &said_.gauge_um, "um"}, Key{"gauge_form_um", &said_.gauge_form_um, "um"},
-        Key{"gauge_gain_1", &said_.gauge_gain_1, "1"},
-        Key{"gauge_phase_deg", &said_.gauge_phase_deg, "deg"},
-        Key{"c_trace_mdeg", &said_.c_trace_mdeg, "mdeg"},
-        Key{"x_trace_um", &said_.x_trace_um, "um"}, Key{"skew_ms", &said_.skew_ms, "ms"},
-        Key{"c_encoder_urad", &said_.c_encoder_urad, "urad"},
-        Key{"x_encoder_um", &said_.x_encoder_um, "um"},
-        Key{"main_differs_um", &said_.main_differs_um, "um"}}) {
-    if (std::ranges::find(keys, key.name) == keys.end()) continue;
-    InfluenceStatement line{std::string(key.name), key.said->has_value(),
-                            core::phrase("not declared")};
-    std::ranges::replace(line.name, '_', '-');
+  for (const Key& key : {Key{"gauge_um", &said_.gauge_um, "um", "gauge-noise"},
+                         Key{"gauge_form_um", &said_.gauge_form_um, "um", "gauge-form"},
+                         Key{"gauge_gain_1", &said_.gauge_gain_1, "1", "gauge-gain"},
+                         Key{"gauge_phase_deg", &said_.gauge_phase_deg, "deg", "gauge-phase"},
+                         Key{"c_trace_mdeg", &said_.c_trace_mdeg, "mdeg", "trace-noise"},
+                         Key{"x_trace_um", &said_.x_trace_um, "um", "trace-noise"},
+                         Key{"skew_ms", &said_.skew_ms, "ms", "trace-skew"},
+                         Key{"c_encoder_urad", &said_.c_encoder_urad, "urad", "c-encoder"},
+                         Key{"x_encoder_um", &said_.x_encoder_um, "um", "x-encoder"},
+                         Key{"main_differs_um", &said_.main_differs_um, "um", "main-differs"}}) {
+    if (std::ranges::find(keys, key.key) == keys.end()) continue;
+    InfluenceStatement line{key.name, key.said->has_value(), core::phrase("not declared")};
     if (line.covered) {
       line.text = core::phrase("standard uncertainty {:.4g} {}", record::u_of(*key.said),
                                std::string(key.unit));
