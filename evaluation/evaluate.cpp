@@ -82,13 +82,13 @@ void search_virtual_poses(const record::PoseVisit& visit, FeatureResult& result)
 
 /// Sets angle, height and deviation of every point about an axis.
 void place_points(const fit::Axis& axis, double middle_radius_mm, const Eigen::Vector3d& mean,
-                  std::vector<CloudPoint>& cloud) {
-  const Eigen::Vector3d z =
-      axis.direction.z() < 0.0 ? Eigen::Vector3d(-axis.direction) : axis.direction;
-  const auto frame = frame_of_angles(axis.direction);
+                  FeatureResult& result) {
+  const bool down = axis.direction.dot(result.part_turn.col(2)) < 0.0;
+  const Eigen::Vector3d z = down ? Eigen::Vector3d(-axis.direction) : axis.direction;
+  const auto frame = frame_of_angles(result, axis.direction);
   const Eigen::Vector3d x = frame.col(0);
   const Eigen::Vector3d y = frame.col(1);
-  for (CloudPoint& point : cloud) {
+  for (CloudPoint& point : result.cloud) {
     const Eigen::Vector3d v = point.tip_mm - axis.point_mm;
     const double u = v.dot(x);
     const double w = v.dot(y);
@@ -171,7 +171,7 @@ Eigen::Vector3d normal_of_circle(const std::vector<CloudPoint>& cloud) {
 }
 
 /// Expected direction of the axis of a feature, or of the outward normal of a plane, machine frame.
-/// A touched part stands along the ring's z or as it was located; points of a file may have any
+/// A touched part stands as planned (part_turn) or as it was located; points of a file may have any
 /// orientation, which their layers show; a circle of a file lies in the plane of its points, unless
 /// the plan says z, and a plane as its feature says.
 std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record, const FeatureResult& result,
@@ -193,7 +193,7 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record, const Feat
     if (std::ranges::adjacent_find(layers, std::not_equal_to()) == layers.end()) return {};
     return fit::layer_normal(tips_of(result.cloud), layers);
   }
-  const Eigen::Matrix3d turn = rotation(visit.reached);
+  const Eigen::Matrix3d& turn = result.part_turn;
   const Eigen::Vector3d nominal = turn * faces.value_or(Eigen::Vector3d::UnitZ());
   if (!circle) return nominal;
   // One section shows no tilt; the touches that located the part do. Use the last ones before the
@@ -207,7 +207,7 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record, const Feat
         tips.push_back(touch.tip_mm);
     }
     if (tips.empty()) continue;
-    const Eigen::Matrix3d back = rotation(other.reached);
+    const Eigen::Matrix3d back = part_turn(record, other);
     const auto located = fit::ls_cylinder(tips, back * Eigen::Vector3d::UnitZ());
     if (located) return turn * back.transpose() * located->axis.direction;
   }
@@ -290,7 +290,7 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
     if (*fit) kept.name_rows((*fit)->contacts);
   }
   place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
-               result.cloud);
+               result);
   const bool has_layers = result.feature.layers > 1;
   if (has_layers) result.layers = sections(mz->axis, result.cloud);
 }
@@ -307,8 +307,7 @@ void evaluate_section(const Eigen::Vector3d& direction, FeatureResult& result) {
   const fit::MinZoneCircle& zone = *section.mz;
   const auto frame = fit::across(up.direction);
   const fit::Axis axis{up.point_mm + frame * zone.center_mm, up.direction};
-  place_points(axis, 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm), up.point_mm,
-               result.cloud);
+  place_points(axis, 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm), up.point_mm, result);
   for (const fit::Contact& c : zone.outer) result.cloud[section.rows[c.index]].outer_contact = true;
   for (const fit::Contact& c : zone.inner) result.cloud[section.rows[c.index]].inner_contact = true;
 }
@@ -360,7 +359,7 @@ void evaluate_plane(const std::optional<Eigen::Vector3d>& outward, FeatureResult
 /// Sets angle and height of every point about an axis, and its deviation from a surface.
 template <class Deviation>
 void place_points(const fit::Axis& axis, const Deviation& deviation_mm, FeatureResult& result) {
-  place_points(axis, 0.0, mean_of(result.cloud), result.cloud);
+  place_points(axis, 0.0, mean_of(result.cloud), result);
   for (CloudPoint& point : result.cloud) point.deviation_mm = deviation_mm(point.tip_mm);
 }
 
@@ -517,6 +516,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     return result;
   }
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  if (touched) result.part_turn = part_turn(record, *last);
   result.temperatures = temperatures_of(record, touched ? touches : decltype(touches){});
   result.thermal = thermal_correction(record, index, last->id);
   if (result.thermal && result.tip_radius_mm) {
@@ -545,7 +545,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   }
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
-  if (result.mz_cylinder && touched) {
+  if (result.mz_cylinder && touched && !stands_still(result.feature)) {
     result.levelling_pose =
         levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
   }

@@ -167,7 +167,7 @@ double stated_angle_rad(const PreparedSurface& surface, double angle_rad) {
   const Eigen::Vector3d& up = surface.axis.direction;
   const Eigen::Vector3d towards =
       fit::across(up) * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-  const Eigen::Vector2d q = frame_of_angles(up).transpose() * towards;
+  const Eigen::Vector2d q = frame_of_angles(*surface.of, up).transpose() * towards;
   const double stated = std::atan2(q.y(), q.x());
   return stated < -core::kSameAngle ? stated + core::kTwoPi : std::max(stated, 0.0);
 }

@@ -125,6 +125,8 @@ struct FixtureUse {
 struct FeatureResult {
   record::Feature feature;
   std::vector<CloudPoint> cloud;
+  /// Turns the frame of the part, as planned and as its place was found, to that of the cloud.
+  Eigen::Matrix3d part_turn = Eigen::Matrix3d::Identity();
   std::optional<Clamping> clamping;  ///< None: no points that datums can be held against.
   std::optional<fit::LsCylinder> ls_cylinder;
   std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Only for cylinder features.

@@ -12,6 +12,9 @@
 
 #include "core/units.h"
 #include "fit/zone/center_search.h"
+#include "fixture/kinematics.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 
 namespace rondure::evaluation {
 
@@ -175,10 +178,13 @@ std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& point
   return out;
 }
 
-Eigen::Matrix<double, 3, 2> frame_of_angles(const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d z = direction.z() < 0.0 ? Eigen::Vector3d(-direction) : direction;
-  Eigen::Vector3d x = Eigen::Vector3d::UnitX() - z * z.x();
-  if (x.norm() < 0.1) x = Eigen::Vector3d::UnitY() - z * z.y();
+Eigen::Matrix<double, 3, 2> frame_of_angles(const FeatureResult& feature,
+                                            const Eigen::Vector3d& direction) {
+  const Eigen::Matrix3d& part = feature.part_turn;
+  const bool down = direction.dot(part.col(2)) < 0.0;
+  const Eigen::Vector3d z = down ? Eigen::Vector3d(-direction) : direction;
+  Eigen::Vector3d x = part.col(0) - z * z.dot(part.col(0));
+  if (x.norm() < 0.1) x = part.col(1) - z * z.dot(part.col(1));
   x.normalize();
   Eigen::Matrix<double, 3, 2> frame;
   frame.col(0) = x;
@@ -190,6 +196,24 @@ Eigen::Matrix3d rotation(const core::Pose& pose) {
   return (Eigen::AngleAxisd(pose.alpha_rad, Eigen::Vector3d::UnitX()) *
           Eigen::AngleAxisd(pose.beta_rad, Eigen::Vector3d::UnitY()))
       .toRotationMatrix();
+}
+
+bool stands_still(const record::Feature& feature) {
+  const auto settings = record::task_of<record::SurfaceSettings>(feature.settings);
+  return settings && !settings->part_axis.empty();
+}
+
+Eigen::Matrix3d part_turn(const record::RunRecord& record, const record::PoseVisit& visit) {
+  Eigen::Matrix3d out = rotation(visit.reached);
+  const auto base = std::find_if(
+      record.decisions.rbegin(), record.decisions.rend(), [](const record::Decision& decision) {
+        return decision.message.code == core::MessageCode::kFixtureBaseFound;
+      });
+  if (base != record.decisions.rend()) out = fixture::base_found(base->message).linear() * out;
+  const auto& feature = record.features[static_cast<std::size_t>(visit.feature)];
+  const auto settings = record::task_of<record::SurfaceSettings>(feature.settings);
+  if (!settings || settings->part_axis.size() != 3) return out;
+  return out * fixture::turn_of_part(Eigen::Vector3d::Map(settings->part_axis.data()));
 }
 
 PoseValue pose_value(const std::vector<Eigen::Vector2d>& section, record::Strategy strategy) {
@@ -225,6 +249,8 @@ bool is_complete(const record::RunRecord& record, std::size_t feature) {
 
 std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                        const record::PoseVisit& visit, record::Strategy strategy) {
+  // f is of machine z, to which a pose turns the part.
+  if (stands_still(record.features[static_cast<std::size_t>(visit.feature)])) return std::nullopt;
   const auto cloud = measured_cloud(touches_of(record, visit.id));
   if (cloud.empty()) return std::nullopt;
   PoseValue value = pose_value(projected(tips_of(cloud), Eigen::Matrix3d::Identity()), strategy);

@@ -45,9 +45,19 @@ struct RepeatNoise {
 [[nodiscard]] std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
                                                      const Eigen::Matrix3d& turn);
 
-/// Directions of angle 0 and of a quarter turn about an axis, as the angles of a cloud have them:
-/// from machine x as far as the axis allows (y for an axis near x), counter-clockwise from above.
-[[nodiscard]] Eigen::Matrix<double, 3, 2> frame_of_angles(const Eigen::Vector3d& direction);
+/// Directions of angle 0 and of a quarter turn about an axis of a feature, as the angles of its
+/// cloud have them: from part x as far as the axis allows (y for an axis near x), counter-clockwise
+/// seen against part z.
+[[nodiscard]] Eigen::Matrix<double, 3, 2> frame_of_angles(const FeatureResult& feature,
+                                                          const Eigen::Vector3d& direction);
+
+/// Whether the plan of a run says that the part stands still, without a fixture.
+[[nodiscard]] bool stands_still(const record::Feature& feature);
+
+/// Turns the frame of the part to that of the machine for what was touched in a pose: as the plan
+/// states the axis of the part, as the pose turns it, and as the run found the base or the part.
+[[nodiscard]] Eigen::Matrix3d part_turn(const record::RunRecord& record,
+                                        const record::PoseVisit& visit);
 
 /// Rotation of the body by a pose: Rx(alpha) Ry(beta).
 [[nodiscard]] Eigen::Matrix3d rotation(const core::Pose& pose);
@@ -64,7 +74,7 @@ struct RepeatNoise {
 /// unfinished run those are complete after which another one was begun.
 [[nodiscard]] bool is_complete(const record::RunRecord& record, std::size_t feature);
 
-/// f of a pose from its own touches; none without touches.
+/// f of a pose from its own touches; none without touches, or without a fixture.
 [[nodiscard]] std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                                      const record::PoseVisit& visit,
                                                      record::Strategy strategy);

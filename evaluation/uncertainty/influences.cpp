@@ -291,7 +291,7 @@ std::vector<InfluenceStatement> influence_statements(const Influences& influence
   say_probe(influences, out);
   say_machine(influences.machine, out);
   say_thermal(influences.thermal, out);
-  say_fixture(influences.fixture, out);
+  if (!influences.no_fixture) say_fixture(influences.fixture, out);
   say_calibration(influences.calibration, out);
   out.never(
       "clamping",

@@ -98,6 +98,7 @@ struct Influences {
   std::optional<MachineInfluences> machine;
   std::optional<ThermalInfluences> thermal;
   std::optional<FixtureInfluences> fixture;
+  bool no_fixture = false;  ///< The part stood still, without a fixture: nothing is said of one.
   std::optional<CalibrationInfluences> calibration;  ///< None: the run used none.
   /// Probing form that the qualification of this run showed: a fact, which the declaration quotes
   /// where no probing form is declared. None: nothing was touched.

@@ -42,6 +42,7 @@ struct SurfaceSettings {
   std::optional<Faces> faces;            ///< Of a plane.
   std::optional<double> half_angle_deg;  ///< Of a cone, nominal; > 0: it opens along part z.
   std::optional<double> first_layer_mm;  ///< Nominal height of the lowest layer, part z.
+  std::vector<double> part_axis;         ///< Without a fixture: part z, machine frame; else empty.
   std::vector<WindowTask> exclude;
 };
 
@@ -97,6 +98,7 @@ void describe(Visitor& v, SurfaceSettings& p) {
   v.text("faces", p.faces, {.meaning = "Side to which a plane faces, along part z."});
   v.number("half_angle_deg", p.half_angle_deg, within(89.0, "Of a cone, nominal."));
   v.number("first_layer_mm", p.first_layer_mm, within(1e6, "Nominal, part z."));
+  v.numbers("part_axis", p.part_axis, within(1e6, "Without a fixture: direction of part z."));
   v.list("exclude", p.exclude, {.meaning = "Windows that are left out."});
 }
 

@@ -1,7 +1,10 @@
 // A part on a CMM without a fixture: where it is, what holds it, and what its first touch decides.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -97,6 +100,93 @@ TEST(FixedPart, MayLeanAsItsAxisSays) {
   const Eigen::Vector3d first = result.record.touches.back().tip_mm;
   const Eigen::Vector3d upright = fixed_run().record.touches.back().tip_mm;
   EXPECT_GT((first - upright).norm(), 1.0);
+}
+
+/// Every kind of surface and characteristic whose evaluation starts at the axis of the part,
+/// without noise, leaning from machine z towards an azimuth.
+Json leaning(double lean_deg, double azimuth_deg) {
+  const double lean = lean_deg * core::kDegree;
+  const double azimuth = azimuth_deg * core::kDegree;
+  Json out = fixed_json();
+  out["part"]["position_mm"] = {120, 80, 250};
+  out["part"]["axis"] = {std::sin(lean) * std::cos(azimuth), std::sin(lean) * std::sin(azimuth),
+                         std::cos(lean)};
+  out["simulation"]["probe"].erase("repeatability_um");
+  Json& a = out["features"][0];
+  a["exclude"] = {{{"name", "keyway"}, {"from_deg", 40}, {"to_deg", 80}}};
+  a["characteristics"].push_back(
+      {{"id", "GG"}, {"form", "diameter"}, {"size", "GG"}, {"lower_um", -20}, {"upper_um", 20}});
+  Json& b = out["features"][1];
+  b["characteristics"].push_back(
+      {{"id", "total"}, {"form", "total-run-out"}, {"datum", {"A"}}, {"tolerance_um", 20}});
+  b["characteristics"].push_back({{"id", "line"}, {"form", "straightness"}, {"tolerance_um", 20}});
+  out["features"].push_back(Json::parse(R"({"id": "end", "type": "plane", "nominal": {"z_mm": 50,
+      "faces": "up", "from_diameter_mm": 6, "to_diameter_mm": 28}, "sampling": {"layers": 2,
+      "points_per_layer": 6, "margin_mm": 4}, "characteristics": [
+      {"id": "flat", "form": "flatness", "tolerance_um": 5},
+      {"id": "square", "form": "perpendicularity", "datum": ["A"], "tolerance_um": 200}]})"));
+  out["features"].push_back(Json::parse(R"({"id": "ring", "type": "circle", "nominal": {
+      "diameter_mm": 30, "from_mm": 12, "to_mm": 48}, "sampling": {"points_per_layer": 12},
+      "characteristics": [{"id": "RONt", "form": "roundness", "tolerance_um": 6}]})"));
+  return out;
+}
+
+evaluation::Evaluation evaluated(const Json& json) {
+  const record::Scratch scratch;
+  const auto plan = parse_plan(json.dump(), "", "plan.json");
+  EXPECT_TRUE(plan) << lines_of(plan);
+  if (!plan) return {};
+  const auto done = run_plan(*plan, testing::options_for(scratch / "run"));
+  EXPECT_TRUE(done && !done->failure) << (done ? done->failure->what : done.error().what);
+  const auto out = evaluation::evaluate(testing::journal_of(scratch / "run"));
+  return out ? *out : evaluation::Evaluation();
+}
+
+TEST(FixedPart, HasTheSameResultsHoweverItLeans) {
+  constexpr double kSame_mm = 1e-6;
+  constexpr double kSame_rad = 1e-6;
+  const evaluation::Evaluation upright = evaluated(leaning(0.0, 0.0));
+  ASSERT_EQ(upright.features.size(), 4U);
+  for (const double lean_deg : {30.0, 52.0, 55.0, 60.0, 80.0, 90.0}) {
+    for (const double azimuth_deg : {0.0, 70.0, 180.0, 235.0, 270.0}) {
+      SCOPED_TRACE(fmt::format("leans {} deg towards {} deg", lean_deg, azimuth_deg));
+      const Json plan = leaning(lean_deg, azimuth_deg);
+      const evaluation::Evaluation leans = evaluated(plan);
+      ASSERT_EQ(leans.features.size(), upright.features.size());
+      const auto axis = plan["part"]["axis"].get<std::array<double, 3>>();
+      const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(
+                                       Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Map(axis.data()))
+                                       .toRotationMatrix();
+      for (std::size_t f = 0; f < leans.features.size(); ++f) {
+        const evaluation::FeatureResult& here = leans.features[f];
+        const evaluation::FeatureResult& there = upright.features[f];
+        SCOPED_TRACE(here.feature.id);
+        ASSERT_FALSE(here.failure) << here.failure->what;
+        ASSERT_EQ(here.characteristics.size(), there.characteristics.size());
+        for (std::size_t c = 0; c < here.characteristics.size(); ++c) {
+          const auto& value = here.characteristics[c];
+          SCOPED_TRACE(value.characteristic.id);
+          ASSERT_TRUE(value.value_mm()) << value.reason.english();
+          EXPECT_NEAR(*value.value_mm(), *there.characteristics[c].value_mm(), kSame_mm);
+          EXPECT_EQ(value.verdict, there.characteristics[c].verdict);
+        }
+        ASSERT_EQ(here.cloud.size(), there.cloud.size());
+        for (std::size_t row = 0; row < here.cloud.size(); ++row) {
+          const bool plane = here.feature.shape == record::Shape::kPlane;  // its zero is any
+          const double turned_rad = here.cloud[row].angle_rad - there.cloud[row].angle_rad;
+          if (!plane) EXPECT_NEAR(std::remainder(turned_rad, core::kTwoPi), 0.0, kSame_rad);
+          EXPECT_NEAR(here.cloud[row].height_mm, there.cloud[row].height_mm, 10.0 * kSame_mm);
+          EXPECT_EQ(here.cloud[row].left_out, there.cloud[row].left_out);
+        }
+        EXPECT_TRUE(here.poses.empty());
+        if (!here.mz_cylinder) continue;
+        const Eigen::Vector3d found = turn.transpose() * here.mz_cylinder->axis.direction;
+        EXPECT_NEAR(found.cross(there.mz_cylinder->axis.direction).norm(), 0.0, kSame_rad);
+        EXPECT_NEAR(here.mz_cylinder->outer_radius_mm, there.mz_cylinder->outer_radius_mm,
+                    kSame_mm);
+      }
+    }
+  }
 }
 
 TEST(FixedPart, IsKeptClearOfWhatHoldsIt) {

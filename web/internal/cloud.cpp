@@ -37,6 +37,9 @@ RunRecord of_one_pose(const RunRecord& record, const record::PoseVisit& visit, s
   out.artefact = record.artefact;
   out.settings = record.settings;
   out.features = {seen_in_one_pose(record.features[static_cast<std::size_t>(visit.feature)])};
+  for (const record::Decision& decision : record.decisions) {
+    if (decision.feature < 0) out.decisions.push_back(decision);  // of the place of the part
+  }
   std::set<int> poses;
   for (const record::PoseVisit& other : record.poses) {
     if (other.feature != visit.feature) continue;

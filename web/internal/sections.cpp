@@ -7,6 +7,7 @@
 
 #include "core/numbers.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
@@ -122,7 +123,10 @@ std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
   }
   html += fmt::format(R"(<h2 class="doing">{}</h2><dl class="keys">)", live_doing(record, now));
   html += touches_entry(record, now) + time_entries(now);
-  if (now.pose != nullptr) {
+  const auto stands = [&] {
+    return evaluation::stands_still(record.features[static_cast<std::size_t>(now.pose->feature)]);
+  };
+  if (now.pose != nullptr && !stands()) {
     html += entry(tr("Pose"), with_note(std::to_string(number_of(record, *now.pose)),
                                         angles_of(now.pose->reached)));
   }

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "evaluation/results/internal/fixture_use.h"
+#include "evaluation/results/measured_cloud.h"
 #include "fixture/error_model.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
@@ -192,7 +193,8 @@ std::optional<Declared> declared_for(const record::RunRecord& record, const Feat
     out.influences.thermal =
         thermal_influences(*said.thermal, (*recorded)->expansion_per_K, result);
   }
-  if (said.fixture) {
+  out.influences.no_fixture = stands_still(result.feature);
+  if (said.fixture && !out.influences.no_fixture) {
     out.influences.fixture = influences_of(*said.fixture);
     const auto merged = record::task_of<record::MergedPosesSettings>(result.feature.settings);
     if (result.merged && merged) {  // the axes cross there, as for the solution of the poses

@@ -118,6 +118,8 @@ core::Result<void> check_ascending(const PreparedSurface& surface, const Section
     Eigen::Index largest = 0;
     surface.axis.direction.cwiseAbs().maxCoeff(&largest);
     up = surface.axis.direction[largest] < 0.0 ? -1.0 : 1.0;
+    const bool touched = surface.of->feature.strategy != record::Strategy::kPointsFile;
+    if (touched && surface.axis.direction.dot(surface.of->part_turn.col(2)) < 0.0) up = -1.0;
   }
   for (std::size_t i = 1; i < sections.size(); ++i) {
     const SurfaceSection& below = sections[i - 1];

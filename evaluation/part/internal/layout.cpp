@@ -64,7 +64,7 @@ class LayoutBuilder {
       : feature_(feature),
         settings_(std::move(settings)),
         tips_(tips_of(feature.cloud)),
-        to_part_(part_from_cloud(feature)),
+        to_part_(feature.part_turn.transpose()),
         guard_mm_(kGuardMm + feature.tip_radius_mm.value_or(0.0)) {
     out_.kept.assign(tips_.size(), true);
   }
@@ -529,17 +529,6 @@ bool has_layers(const FeatureResult& feature) {
                      [&](const CloudPoint& point) { return point.layer != cloud.front().layer; });
 }
 
-Eigen::Matrix3d part_from_cloud(const FeatureResult& feature) {
-  // A cloud of several poses is in the frame of the body already.
-  if (!is_touched(feature.feature) || feature.merged) return Eigen::Matrix3d::Identity();
-  const PoseValue* found = nullptr;
-  for (const PoseValue& value : feature.poses) {
-    if (value.physical && (found == nullptr || !found->final_pose)) found = &value;
-  }
-  if (found == nullptr) return Eigen::Matrix3d::Identity();
-  return rotation(found->pose).transpose();
-}
-
 core::Result<FittedSurface> fitted(const FeatureResult& feature,
                                    std::span<const Eigen::Vector3d> points_mm,
                                    const std::optional<Eigen::Vector3d>& near,
@@ -578,7 +567,7 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
     }
     case Shape::kSphere: {
       TRY(const auto sphere, fit::ls_sphere(points_mm));
-      out.axis = {sphere.center_mm, part_from_cloud(feature).transpose().col(2)};
+      out.axis = {sphere.center_mm, feature.part_turn.col(2)};
       fill([&](const Eigen::Vector3d& p) { return (p - sphere.center_mm).norm(); });
       return out;
     }

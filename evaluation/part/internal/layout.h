@@ -69,8 +69,4 @@ enum class Deviations { kSkip, kCompute };
                                                  const std::optional<Eigen::Vector3d>& near,
                                                  Deviations deviations);
 
-/// Turns the frame of the cloud to that of the part as planned: a file's own frame, the machine's
-/// turned back by the pose in which the cloud was touched.
-[[nodiscard]] Eigen::Matrix3d part_from_cloud(const FeatureResult& feature);
-
 }  // namespace rondure::evaluation

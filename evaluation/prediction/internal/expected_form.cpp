@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/results/internal/deviation.h"
+#include "evaluation/results/measured_cloud.h"
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/form_value.h"
 
@@ -41,17 +42,6 @@ std::vector<CloudPoint> places_of(const record::RunRecord& record, int feature) 
   std::vector<CloudPoint> out;
   for (const auto& [key, place] : places) out.push_back(place);
   return out;
-}
-
-/// The axis of a nominal part is the z axis of its pose.
-Eigen::Vector3d direction_of(const record::RunRecord& record, int feature) {
-  for (const record::PoseVisit& pose : record.poses) {
-    if (pose.feature != feature || !pose.final_cloud) continue;
-    return Eigen::AngleAxisd(pose.reached.alpha_rad, Eigen::Vector3d::UnitX()) *
-           (Eigen::AngleAxisd(pose.reached.beta_rad, Eigen::Vector3d::UnitY()) *
-            Eigen::Vector3d::UnitZ());
-  }
-  return Eigen::Vector3d::UnitZ();
 }
 
 /// The sections of a simulated cloud about the requested reference.
@@ -149,7 +139,12 @@ core::Result<TrialInspection> TrialInspection::of(const record::RunRecord& expec
     return core::fail(core::Code::kNoPoints, "the feature is not touched");
   }
   for (const CloudPoint& place : out.result_.cloud) out.result_.repeat_freedom += place.repeats - 1;
-  const Eigen::Vector3d direction = direction_of(expected, feature);
+  for (const record::PoseVisit& pose : expected.poses) {
+    if (pose.feature != feature || !pose.final_cloud) continue;
+    out.result_.part_turn = part_turn(expected, pose);
+    break;
+  }
+  const Eigen::Vector3d direction = out.result_.part_turn.col(2);
   out.result_.section_axis.direction = direction;
   out.result_.mz_cylinder.emplace();
   out.result_.mz_cylinder->axis.direction = direction;

@@ -28,14 +28,28 @@ Way joined(Way first, const Way& second, Phase across) {
   return first;
 }
 
+/// The geometry with room beyond the upper end for a part that points down, if only by how a lying
+/// one was found: the tip that comes straight down beyond that end nears the end face again.
+PathGeometry beyond_end(PathGeometry geometry, const Placement& placement) {
+  const double up = placement.X_WP.linear()(2, 2);
+  if (geometry.inside || up >= 0.0) return geometry;
+  constexpr double kPolygon = 1.01;  // the path around is a polygon
+  const double across_mm = 2.0 * kPolygon *
+                           (geometry.radius_mm + geometry.tip_radius_mm + geometry.stand_off_mm +
+                            std::max(geometry.approach_mm, geometry.clearance_mm));
+  const double level = std::sqrt(std::max(0.0, 1.0 - up * up));
+  geometry.to_mm += level > 0.0 ? std::min(kFarthest_mm, across_mm * -up / level) : kFarthest_mm;
+  return geometry;
+}
+
 }  // namespace
 
 CloudPath::CloudPath(const Scene& scene, const Placement& placement, const PathGeometry& geometry,
                      double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed)
     : scene_(&scene),
       placement_(placement),
-      geometry_(geometry),
-      further_(geometry),
+      geometry_(beyond_end(geometry, placement)),
+      further_(geometry_),
       sky_mm_(sky_mm),
       targets_(std::move(targets)) {
   further_.stand_off_mm += further_mm();

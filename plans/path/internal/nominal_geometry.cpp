@@ -23,9 +23,7 @@ fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
 Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {
   Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
   X_BP.translation() = vector3(fixture.part_position_mm);
-  X_BP.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), vector3(fixture.part_axis))
-          .toRotationMatrix();
+  X_BP.linear() = fixture::turn_of_part(vector3(fixture.part_axis));
   return X_BP;
 }
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
 #include "fit/geometry/registration.h"
+#include "fixture/kinematics.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/path/internal/nominal_geometry.h"
@@ -20,18 +20,6 @@ using Eigen::Vector3d;
 
 /// A display of the position shows micrometres; other systems differ by far more.
 constexpr double kSameSystem_mm = 0.01;
-
-/// The base that a message tells: base_message(). A run uses the base of the message, so that a
-/// resumed run has the same bits.
-Eigen::Isometry3d base_of(const core::Message& m) {
-  const Vector3d turn = core::kDegree * Vector3d(m.number(3), m.number(4), m.number(5));
-  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-  out.translation() = Vector3d(m.number(0), m.number(1), m.number(2));
-  if (const double angle = turn.norm(); angle > 0.0) {
-    out.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  }
-  return out;
-}
 
 core::Result<fit::Registration> part_system(RunContext& context) {
   TRY(const auto steps, qualification_steps(context.plan));
@@ -109,8 +97,8 @@ core::Result<void> find_part_place(RunContext& context) {
     }
   }
   context.aligned = part.alignment.has_value();
-  context.cell->set_base(base_of(found));
-  return check_room_at(context.plan, base_of(found) * planned);
+  context.cell->set_base(fixture::base_found(found));
+  return check_room_at(context.plan, fixture::base_found(found) * planned);
 }
 
 }  // namespace rondure::plans

@@ -161,10 +161,15 @@ bool is_round(record::Shape shape) {
   return shape == record::Shape::kCylinder || shape == record::Shape::kCircle;
 }
 
+/// Whether the part can be turned: f is of the pose, and without a fixture there is none.
+bool turns(const PoseSession& session) {
+  return session.limits().min_alpha_rad < session.limits().max_alpha_rad;
+}
+
 /// Measures one cloud in the start pose: no search, or a cloud that is later turned in software.
 core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
   TRY(const auto cloud, session.measure(start_pose(session, feature)));
-  if (is_round(feature.type)) session.show(f_of(cloud, false));
+  if (is_round(feature.type) && turns(session)) session.show(f_of(cloud, false));
   return finish(session, feature);
 }
 
@@ -194,8 +199,7 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
   // sphere shows no place of the part alone. Their approach is longer instead.
   if (session.must_locate() && strategy != Strategy::kMerged && is_round(feature.type)) {
     TRY(const auto axis, session.locate(pose));
-    const fixture::FixtureLimits& limits = session.limits();
-    if (limits.min_alpha_rad == limits.max_alpha_rad) return single(session, feature);  // it stands
+    if (!turns(session)) return single(session, feature);
     const core::Pose level = session.levelling(axis.direction);
     auto noted = session.note(message_at(pose, core::MessageCode::kPartLocated,
                                          {in_deg(level.alpha_rad), in_deg(level.beta_rad)}));

@@ -81,6 +81,7 @@ record::SurfaceSettings surface_settings(const Plan& plan, const FeaturePlan& fe
     out.half_angle_deg = feature.nominal.half_angle_deg;
   }
   if (is_touched(feature)) {
+    if (is_fixed(plan)) out.part_axis.assign(plan.part.axis.begin(), plan.part.axis.end());
     if (const auto targets = sampling_targets(feature)) {
       out.first_layer_mm = targets->front().z_mm;
     }
