@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_checks.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/schema/json_text.h"
 
 namespace rondure::plans {
@@ -47,6 +49,65 @@ void check_alignment(const Plan& plan, Findings& findings) {
   check("face", plan.part.alignment->face, record::Shape::kPlane);
 }
 
+/// Checks what holds against the part where it holds it: the circle contains both.
+void check_held(const Plan& plan, Findings& findings) {
+  const auto& held = plan.part.held;
+  if (!held || !findings.sound("/part/held")) return;
+  // Of the pieces in the band the thickest; where none is known there, the thinnest of the part.
+  double thickest_mm = 0.0;
+  double thinnest_mm = std::numeric_limits<double>::infinity();
+  const auto add = [&](double from_mm, double to_mm, double diameter_mm) {
+    thinnest_mm = std::min(thinnest_mm, diameter_mm);
+    const bool within = from_mm < held->to_mm && to_mm > held->from_mm;
+    if (within) thickest_mm = std::max(thickest_mm, diameter_mm);
+  };
+  for (const SectionPlan& s : plan.part.sections) add(s.from_mm, s.to_mm, s.diameter_mm);
+  for (const FeaturePlan& feature : plan.features) {
+    if (!is_touched(feature) || feature.side == record::Side::kInside) continue;
+    const PartPiece piece = piece_of(feature);
+    add(piece.from_mm(), piece.to_mm(), 2.0 * piece.radius_mm());
+  }
+  const double least_mm = thickest_mm > 0.0 ? thickest_mm : thinnest_mm;
+  if (!(held->diameter_mm < least_mm) || std::isinf(least_mm)) return;
+  findings.meaning(
+      Code::kMeaning, "/part/held/diameter_mm",
+      fmt::format("{:g} mm is less than the part, {:g} mm, which the holder contains; give the "
+                  "circle about the part axis that contains all of the holder",
+                  held->diameter_mm, least_mm));
+}
+
+/// Checks that a part whose height no touch shows cannot be met or missed by moves that believe it.
+void check_height(const Plan& plan, Findings& findings) {
+  if (plan.part.system == PartPlan::System::kControl || plan.part.alignment) return;
+  constexpr std::string_view kWhere = "/part/location_uncertainty_mm";
+  constexpr std::string_view kRemedy =
+      "lower it, or give part.alignment, whose face shows the height";
+  const double off_mm = plan.part.location_uncertainty_mm;
+  const double kept_mm = std::min(plan.machine->approach_mm, plan.machine->clearance_mm);
+  const std::string why = fmt::format(
+      "no touch shows the height of the part, which may be {:g} mm off along its axis", off_mm);
+  if (off_mm > kept_mm) {
+    findings.meaning(Code::kUnreachable, std::string(kWhere),
+                     fmt::format("{}, and the tip keeps {:g} mm from it (the lesser of "
+                                 "machine.approach_mm and clearance_mm); {}",
+                                 why, kept_mm, kRemedy));
+    return;
+  }
+  for (const FeaturePlan& feature : plan.features) {
+    const bool round =
+        feature.type == record::Shape::kCylinder || feature.type == record::Shape::kCircle;
+    if (!round || !is_touched(feature)) continue;
+    const auto targets = locating_targets(feature, off_mm);
+    if (!targets || targets->empty()) continue;
+    const double inside_mm = targets->front().z_mm - feature.nominal.from_mm;
+    if (off_mm <= inside_mm) continue;
+    findings.meaning(Code::kUnreachable, std::string(kWhere),
+                     fmt::format("{}, and the touches that locate {} lie {:g} mm from its ends; {}",
+                                 why, in_quotes(feature.id), inside_mm, kRemedy));
+    return;
+  }
+}
+
 void check_place(const Plan& plan, Findings& findings) {
   if (!findings.sound("/part")) return;
   const bool control = plan.part.system == PartPlan::System::kControl;
@@ -62,6 +123,10 @@ void check_place(const Plan& plan, Findings& findings) {
                      "remove it, or take \"system\": \"plan\"");
   }
   check_alignment(plan, findings);
+  check_held(plan, findings);
+  if (plan.machine && findings.sound("/machine") && findings.sound("/features")) {
+    check_height(plan, findings);
+  }
   const auto& axis = plan.part.axis;
   if (std::hypot(axis[0], axis[1], axis[2]) < 1e-3) {
     findings.meaning(Code::kMeaning, "/part/axis",

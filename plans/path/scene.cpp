@@ -200,7 +200,9 @@ std::optional<double> Scene::room_mm(Body body, Limb limb, Phase phase,
   const double near_mm = std::min(geometry.approach_mm, geometry.clearance_mm);
   if (!is_part(body) || phase == Phase::kTravel) return radius_mm + geometry.clearance_mm;
   if (phase == Phase::kNear) return radius_mm + near_mm;
-  if (limb == Limb::kShaft) return radius_mm + kTouchGap_mm;
+  // The ball meets the surface wherever it is; a shoulder may be nearer to the shaft.
+  const double off_mm = body == Body::kShoulder ? geometry.location_mm : 0.0;
+  if (limb == Limb::kShaft) return radius_mm + kTouchGap_mm + off_mm;
   if (limb == Limb::kBall && body != Body::kShoulder) return std::nullopt;
   return radius_mm + near_mm;
 }

@@ -20,6 +20,7 @@ struct PathGeometry {
   double tip_radius_mm = 2.0;
   double approach_mm = 3.0;   ///< Distance from the pre-touch point to the expected contact.
   double clearance_mm = 5.0;  ///< Distance from all obstacles while travelling.
+  double location_mm = 0.0;   ///< How far the part may be off; approach and clearance contain it.
   double stand_off_mm = 0.0;  ///< Added to the radius of the path around a shaft.
   /// The surface in this room; none: the cylinder of `radius_mm`.
   std::optional<SurfaceChart> surface = {};

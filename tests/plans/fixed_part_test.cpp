@@ -220,7 +220,8 @@ TEST(FixedPart, WhoseFirstTouchIsFartherOffThanTheSearchStopsWithTheDistance) {
   for (const double off_mm : {4.0, -4.0}) {
     SCOPED_TRACE(off_mm);
     Json patch = fixed_moved(off_mm, 0.0);
-    patch["part"]["location_uncertainty_mm"] = 4.0;
+    patch["part"]["location_uncertainty_mm"] = 4.5;
+    patch["machine"]["approach_mm"] = 4.5;
     patch["machine"]["search_mm"] = 1.0;
     const FixedRun result = fixed_run(patch);
     ASSERT_TRUE(result.failure);
@@ -301,6 +302,61 @@ TEST(FixedPart, IsAlignedByAFaceAndTwoSectionsBeforeItIsMeasured) {
   no_plane["part"]["alignment"]["face"] = "journal B";
   EXPECT_THAT(lines_of(fixed_plan(no_plane)),
               HasSubstr("/part/alignment/face: \"journal B\" is no touched plane of this plan"));
+}
+
+TEST(FixedPart, BesideItsPlaceIsFoundWithinTheStatedUncertaintyAndStopsTheRunBeyondIt) {
+  for (const bool aligned : {false, true}) {
+    for (const double stated_mm : {0.5, 2.0}) {
+      for (int axis = 0; axis < (aligned ? 3 : 2); ++axis) {  // only a face shows the height
+        for (const double off_mm : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 5.0, -5.0}) {
+          SCOPED_TRACE(fmt::format("{}, {} mm along {}, {} mm stated",
+                                   aligned ? "aligned" : "located", off_mm, axis, stated_mm));
+          Json patch = aligned ? fixed_aligned() : Json::object();
+          patch["part"]["location_uncertainty_mm"] = stated_mm;
+          patch["simulation"]["part"] = nullptr;
+          Json& offset = patch["simulation"]["fixture"]["base_offset_mm"] = {0.0, 0.0, 0.0};
+          offset[static_cast<std::size_t>(axis)] = off_mm;
+          const FixedRun result = fixed_run(patch);
+          if (std::abs(off_mm) <= stated_mm) {
+            EXPECT_FALSE(result.failure) << result.failure->what;
+            EXPECT_EQ(result.record.ending, "finished");
+            continue;
+          }
+          ASSERT_TRUE(result.failure);
+          for (const record::Touch& touch : result.record.touches) {
+            EXPECT_TRUE(touch.pose < 0 || touch.purpose == record::Touch::Purpose::kLocate);
+          }
+          // The first approach begins 3 mm and the stated uncertainty before the nominal surface.
+          if (std::abs(off_mm) >= 3.0 + stated_mm) continue;
+          EXPECT_EQ(result.failure->code, core::Code::kLocation) << result.failure->what;
+          EXPECT_THAT(
+              result.failure->what,
+              AllOf(HasSubstr(fmt::format("location_uncertainty_mm allows {:g} mm", stated_mm)),
+                    HasSubstr("place the part anew")));
+        }
+      }
+    }
+  }
+}
+
+TEST(FixedPart, WhoseHeightNoTouchShowsMayBeOffByLessThanItsPathsKeep) {
+  const auto high = fixed_plan({{"part", {{"location_uncertainty_mm", 3.5}}}});
+  EXPECT_THAT(lines_of(high),
+              AllOf(HasSubstr("/part/location_uncertainty_mm: no touch shows the height of the "
+                              "part, which may be 3.5 mm off along its axis, and the tip keeps 3 "
+                              "mm from it"),
+                    HasSubstr("part.alignment")));
+  Json narrow = fixed_json({{"part", {{"location_uncertainty_mm", 2.0}}}});
+  narrow["features"][1]["nominal"]["to_mm"] = 14;
+  narrow["features"][1]["sampling"]["margin_mm"] = 1;
+  EXPECT_THAT(lines_of(parse_plan(narrow.dump(), "", "plan.json")),
+              HasSubstr("the touches that locate \"journal B\" lie 1.6 mm from its ends"));
+}
+
+TEST(FixedPart, IsContainedInWhatHoldsIt) {
+  EXPECT_THAT(lines_of(fixed_plan({{"part", {{"held", {{"diameter_mm", 20}}}}}})),
+              HasSubstr("/part/held/diameter_mm: 20 mm is less than the part, 26 mm"));
+  EXPECT_TRUE(fixed_plan({{"part", {{"held", {{"diameter_mm", 26}}}}}}));
 }
 
 TEST(FixedPart, IsFoundFromTheJournalByARunThatGoesOn) {

@@ -123,6 +123,7 @@ PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double 
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.approach_mm = plan.machine->approach_mm + location_mm;
   out.clearance_mm = plan.machine->clearance_mm + location_mm;
+  out.location_mm = location_mm;
   const auto pass_outside = [&](double radius_mm, double to_mm) {
     if (to_mm <= lower_end_mm) return;
     out.to_mm = std::max(out.to_mm, to_mm);

@@ -14,6 +14,9 @@
 namespace rondure::plans {
 namespace {
 
+/// Form, size and probing of a part are no displacement: more than they make of a touch.
+constexpr double kFormOfPart_mm = 0.01;
+
 /// The window in which a point lies; of a scan, one that crosses its layer.
 const record::WindowTask* window_at(const FeaturePlan& feature, const Target& target) {
   if (feature.type == record::Shape::kPlane) return nullptr;  // its windows are of radii
@@ -112,7 +115,7 @@ core::Result<void> FeatureSession::turn(const core::Pose& commanded,
   repeat_ = 0;
   pose_id_ = visit.id;
   context_.progress.pose_number = ++visits_;
-  context_.progress.pose = reached_;
+  if (!is_fixed(context_.plan)) context_.progress.pose = reached_;
   return {};
 }
 
@@ -120,20 +123,44 @@ Eigen::Vector3d FeatureSession::expected_axis() const {
   return part_at(reached_).linear() * Eigen::Vector3d::UnitZ();
 }
 
-core::Result<void> FeatureSession::check_first_touch(const Target& target,
-                                                     const cmm::TouchCommand& command,
-                                                     const Eigen::Vector3d& tip_W_mm) {
-  if (context_.part_met || !is_fixed(context_.plan)) return {};
-  const double late_mm = (tip_W_mm - command.expected_tip_W_mm).dot(command.direction_W);
-  context_.part_met = std::abs(late_mm) <= context_.plan.machine->search_mm;
+core::Result<void> FeatureSession::check_place(const Target& target, const TouchStep& step,
+                                               const Eigen::Vector3d& tip_W_mm) {
+  const bool locates = step.row.purpose == record::Touch::Purpose::kLocate;
+  if (!is_fixed(context_.plan) || (context_.part_met && !locates)) return {};
+  const bool first = !context_.part_met;
+  const double search_mm = context_.plan.machine->search_mm;
+  const double location_mm = geometry_.location_mm;
+  const bool located = location_mm > 0.0 && location_mm < search_mm;
+  const double late_mm = (tip_W_mm - step.command.expected_tip_W_mm).dot(step.command.direction_W);
+  context_.part_met = std::abs(late_mm) <= (located ? location_mm + kFormOfPart_mm : search_mm);
   if (context_.part_met) return {};
   return core::fail_with(
       core::Code::kLocation,
-      "feature {}, layer {}, point {}: the first touch met the part {:.3f} mm {} its place in the "
-      "plan, machine.search_mm allows {:g} mm; nothing else has moved; correct part.position_mm "
-      "and part.axis, or place the part anew",
-      feature_.id, target.layer + 1, target.point + 1, std::abs(late_mm),
-      late_mm < 0.0 ? "before" : "behind", context_.plan.machine->search_mm);
+      "feature {}, layer {}, point {}: {} touch met the part {:.3f} mm {} its place in the plan, "
+      "{} allows {:g} mm; {}; correct part.position_mm and part.axis, or place the part anew",
+      feature_.id, target.layer + 1, target.point + 1, first ? "the first" : "a", std::abs(late_mm),
+      late_mm < 0.0 ? "before" : "beyond",
+      located ? "part.location_uncertainty_mm" : "machine.search_mm",
+      located ? location_mm : search_mm, first ? "nothing else has moved" : "nothing was measured");
+}
+
+core::Result<void> FeatureSession::check_displacement(const fit::Axis& found) const {
+  if (!is_fixed(context_.plan)) return {};
+  const Eigen::Isometry3d X_WP = fixture::body_to_machine(context_.cell->kinematics(), reached_) *
+                                 context_.cell->nominal_part();
+  const double middle_mm = 0.5 * (feature_.nominal.from_mm + feature_.nominal.to_mm);
+  const Eigen::Vector3d expected = X_WP * Eigen::Vector3d(0.0, 0.0, middle_mm);
+  const Eigen::Vector3d& along = found.direction;
+  const Eigen::Vector3d off =
+      found.point_mm + along * along.dot(expected - found.point_mm) - expected;
+  const double allowed_mm = context_.plan.part.location_uncertainty_mm;
+  if (off.norm() <= allowed_mm + kFormOfPart_mm) return {};
+  return core::fail_with(
+      core::Code::kLocation,
+      "feature {}: the part stands {:.3f} mm from its place in the plan, by ({:.3f}, {:.3f}, "
+      "{:.3f}) mm in machine x, y, z; part.location_uncertainty_mm allows {:g} mm; nothing was "
+      "measured; correct part.position_mm and part.axis, or place the part anew",
+      feature_.id, off.norm(), off.x(), off.y(), off.z(), allowed_mm);
 }
 
 core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) const {
@@ -155,7 +182,7 @@ core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) 
   const double half_mm = 0.5 * (feature_.nominal.to_mm - feature_.nominal.from_mm);
   const double reach = half_mm * std::sqrt(1.0 - cosine * cosine);
   if (!(reach <= allowed)) return refuse("end of the axis", reach);
-  return {};
+  return check_displacement(found.axis);
 }
 
 core::Result<fit::Axis> FeatureSession::locate_once(const core::Pose& commanded) {
@@ -375,14 +402,13 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
   TRY(const auto path, lay(targets, reached_));
   const bool shows_truth = purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
   std::vector<Eigen::Vector3d> tips(targets.size());
-  const auto touch = [&](TouchStep step, std::size_t k) -> core::Result<void> {
-    const cmm::TouchCommand command = step.command;
-    const auto touched = context_.touch(std::move(step));
+  const auto touch = [&](const TouchStep& step, std::size_t k) -> core::Result<void> {
+    const auto touched = context_.touch(step);
     if (!touched) {
       return context_.lost_place ? core::fail(touched.error())
                                  : fault_at(path.target(k), touched.error());
     }
-    TRY_DO(check_first_touch(path.target(k), command, touched->tip_mm));
+    TRY_DO(check_place(path.target(k), step, touched->tip_mm));
     if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
       truth_.push_back(*truth);
     }

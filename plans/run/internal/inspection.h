@@ -83,14 +83,16 @@ class FeatureSession final : public PoseSession {
   /// The error with its point and the remedy.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
-  /// Checks that the first touch of a part without a fixture met it no farther than
-  /// machine.search_mm from its place in the plan; otherwise nothing more may move toward it.
-  [[nodiscard]] core::Result<void> check_first_touch(const Target& target,
-                                                     const cmm::TouchCommand& command,
-                                                     const Eigen::Vector3d& tip_W_mm);
-  /// Checks that a located cylinder can be the part of the plan; otherwise nothing may move near
+  /// Checks that the first touch of a part without a fixture, and each that locates it, met it no
+  /// farther than location_uncertainty_mm and machine.search_mm from its place in the plan;
+  /// otherwise nothing more may move toward it.
+  [[nodiscard]] core::Result<void> check_place(const Target& target, const TouchStep& step,
+                                               const Eigen::Vector3d& tip_W_mm);
+  /// Checks that a located cylinder can be the part of the plan and, without a fixture, that it
+  /// stands no farther than location_uncertainty_mm from its place; otherwise nothing may move near
   /// it.
   [[nodiscard]] core::Result<void> check_location(const fit::LsCylinder& found) const;
+  [[nodiscard]] core::Result<void> check_displacement(const fit::Axis& found) const;
   /// From now on targets follow this axis, seen in the current pose.
   void follow_axis(const fit::Axis& axis_W);
   [[nodiscard]] Eigen::Isometry3d part_at(const core::Pose& pose) const;
