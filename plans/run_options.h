@@ -20,7 +20,7 @@ namespace rondure::plans {
 struct Progress {
   std::string feature;
   int pose_number = 0;               ///< Number within the feature, from 1.
-  core::Pose pose;                   ///< Pose as the fixture reads it.
+  std::optional<core::Pose> pose;    ///< As the fixture reads it; none: there is no fixture.
   std::size_t touches = 0;           ///< Touches made so far in the whole run.
   std::size_t touches_expected = 0;  ///< Estimate for the whole run.
   double time_s = 0.0;               ///< Machine clock at the last touch.

@@ -7,6 +7,7 @@
 
 #include "core/round_values.h"
 #include "core/units.h"
+#include "plans/analyses/features.h"
 
 namespace rondure::app {
 namespace {
@@ -53,7 +54,7 @@ std::string row_of(const plans::Plan& plan, const ForecastStage& stage) {
   std::string what = name_of(stage.kind);
   if (stage.final_cloud) what = "final cloud";
   if (stage.times > 1) what += fmt::format(" x {}", stage.times);
-  const std::string pose = stage.feature < 0
+  const std::string pose = stage.feature < 0 || plans::is_fixed(plan)
                                ? ""
                                : fmt::format("({:.2f}, {:.2f})", hundredths(stage.pose.alpha_rad),
                                              hundredths(stage.pose.beta_rad));
@@ -119,14 +120,23 @@ std::string further_poses(const plans::Plan& plan, const plans::Forecast& foreca
   return "A part that sits beside its nominal place needs poses more than these:\n" + out;
 }
 
-std::string tool_line(const plans::ProbePlan& probe) {
+/// What of the tool is kept clear; without a fixture also whether anything is known to hold the
+/// part.
+std::string tool_line(const plans::Plan& plan) {
+  const plans::ProbePlan& probe = *plan.probe;
+  const std::string holder =
+      plans::is_fixed(plan) && !plan.part.held
+          ? "Holder: no part.held, so clamps and jaws are not checked; keep the tip clear of them\n"
+          : "";
   if (probe.stylus_length_mm <= 0.0) {
     return fmt::format("Tool: ball {:g} mm; no stylus_length_mm, so only the ball is kept clear\n",
-                       probe.tip_diameter_mm);
+                       probe.tip_diameter_mm) +
+           holder;
   }
   return fmt::format("Tool: ball {:g} mm, shaft {:g} x {:g} mm, holder {:g} mm\n",
                      probe.tip_diameter_mm, probe.stylus_diameter_mm, probe.stylus_length_mm,
-                     probe.holder_diameter_mm);
+                     probe.holder_diameter_mm) +
+         holder;
 }
 
 ordered_json stage_json(const plans::Plan& plan, const ForecastStage& stage) {
@@ -154,14 +164,15 @@ std::string clock_text(double time_s) {
 std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forecast) {
   std::string out = fmt::format("{}, revision {}\n", plan.plan.name, plan.plan.revision);
   if (forecast.stages.empty()) return out + "All points come from files: nothing would move.\n";
-  out += tool_line(*plan.probe);
+  out += tool_line(plan);
   out += fmt::format("Speeds: {:g} mm/s between touches, {:g} mm/s in the search\n\n",
                      plan.machine->travel_speed_mm_s, plan.machine->touch_speed_mm_s);
-  out += fmt::format("  {:<16} {:<18} {:>15} {:>7} {:>9} {:>8}\n", "stage", "feature", "pose deg",
-                     "touches", "path mm", "min:s");
+  out += fmt::format("  {:<16} {:<18} {:>15} {:>7} {:>9} {:>8}\n", "stage", "feature",
+                     plans::is_fixed(plan) ? "" : "pose deg", "touches", "path mm", "min:s");
   out += rows(plan, forecast.stages);
-  out += row("total", "", fmt::format("{} poses", forecast.poses), forecast.touches,
-             forecast.path_mm, forecast.time_s);
+  out += row("total", "",
+             plans::is_fixed(plan) ? std::string() : fmt::format("{} poses", forecast.poses),
+             forecast.touches, forecast.path_mm, forecast.time_s);
   const std::string further = further_poses(plan, forecast);
   if (!further.empty()) out += "\n" + further;
   return out + "\nEvery target can be reached where the plan puts the part. Nothing has moved.\n";

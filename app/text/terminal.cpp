@@ -63,9 +63,12 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
                        progress.touches_expected);
   }
   const std::size_t expected = std::max(progress.touches_expected, progress.touches);
-  std::string out = fmt::format("{}  pose {} ({:.2f}, {:.2f}) deg  touch {}/{}", progress.feature,
-                                progress.pose_number, progress.pose.alpha_rad / core::kDegree,
-                                progress.pose.beta_rad / core::kDegree, progress.touches, expected);
+  std::string out = progress.feature;
+  if (const auto& pose = progress.pose) {
+    out += fmt::format("  pose {} ({:.2f}, {:.2f}) deg", progress.pose_number,
+                       pose->alpha_rad / core::kDegree, pose->beta_rad / core::kDegree);
+  }
+  out += fmt::format("  touch {}/{}", progress.touches, expected);
   if (progress.f_mm) out += fmt::format("  f {:.1f} um", *progress.f_mm / core::kMicrometre);
   if (progress.touches > 0) {
     const double left = elapsed_s * static_cast<double>(expected - progress.touches) /

@@ -20,6 +20,7 @@
 #include "app/verbs/verbs.h"
 #include "core/numbers.h"
 #include "core/result.h"
+#include "plans/analyses/features.h"
 #include "plans/checks/doubts.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
@@ -177,6 +178,11 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
 
 void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   if (!run.failure || !plans::is_resumable(*run.failure)) return;
+  if (run.failure->code == core::Code::kCollision && plans::is_fixed(ending.plan)) {
+    return tell(
+        "rondure: a resumed run would take the same path: correct the place of the part in the\n"
+        "plan, or place the part anew, and start a new run\n");
+  }
   tell(fmt::format("rondure: to resume it after its last touch: {}\n", resume_command(ending)));
 }
 
