@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
@@ -105,6 +106,9 @@ std::string reach_advice(const Plan& plan, const FeaturePlan& feature) {
       ways.push_back(fmt::format("give a margin of {:g} mm (margin_mm)", *margin_mm));
     }
   }
+  if (ways.empty() && is_fixed(plan))
+    return "no stylus or margin that was tried reaches it; stand the part nearer to machine z "
+           "(part.axis)";
   if (ways.empty()) return "no other pose, stylus or margin that was tried reaches it";
   std::string out = "to reach all of them: " + ways.front();
   for (std::size_t i = 1; i < ways.size(); ++i) out += ", or " + ways[i];
