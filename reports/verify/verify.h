@@ -15,11 +15,11 @@ namespace rondure::reports {
 /// Settings of verify_run().
 struct VerifyOptions {
   std::string processor;  ///< Processor of this machine, spelled as in the journal.
-  /// What this program would write before the draws in trials.bin of this directory.
-  std::string trials_head = {};
   std::optional<std::string> public_key_pem;  ///< If given, the signature is checked too.
   /// Whether a record can be evaluated: plans::check_record(), which this room does not see.
   std::function<core::Result<void>(const record::ReadJournal&)> check = {};
+  /// What this program would write before the draws in trials.bin of this directory.
+  std::string trials_head = {};
 };
 
 /// Result of verify_run().
