@@ -142,6 +142,17 @@ RadiusOf radius_among(std::span<const FeatureResult> earlier) {
   };
 }
 
+/// What the heads among these features found.
+HeadOf head_among(std::span<const FeatureResult> earlier) {
+  return [earlier](const std::string& id) -> core::Result<HeadGain> {
+    TRY(const auto producer, producer_of(id, earlier));
+    const auto* const found = std::get_if<FiveAxisResult>(&producer->analysis->found);
+    if (found != nullptr) return HeadGain{id, found->study.before, found->study.left.rms_mm};
+    return core::fail(core::Code::kMeaning,
+                      core::phrase("the table is that of feature {}, which is no head", id));
+  };
+}
+
 /// Evaluates the series of a feature, or says why they cannot be.
 void evaluate_series(const record::RunRecord& record, int index,
                      std::span<const FeatureResult> earlier, FeatureResult& result) {
@@ -166,6 +177,9 @@ void evaluate_series(const record::RunRecord& record, int index,
       break;
     case record::Shape::kContour:
       keep(evaluate_contour(record, index, radius_among(earlier), result), result);
+      break;
+    case record::Shape::kFiveAxis:
+      keep(evaluate_five_axis(record, index, head_among(earlier), result), result);
       break;
     default:
       result.failure = core::Error{

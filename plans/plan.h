@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "plans/contour_plan.h"
+#include "plans/five_axis_plan.h"
 #include "plans/fixture_drivers_plan.h"
 #include "plans/machine_errors_plan.h"
 #include "plans/rotary_plan.h"
@@ -22,6 +23,7 @@
 #include "record/run_record.h"
 #include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
+#include "record/tasks/five_axis.h"
 #include "record/tasks/rotary_axes.h"
 #include "record/tasks/run.h"
 #include "record/tasks/spindle.h"
@@ -268,6 +270,7 @@ struct FeaturePlan {
   std::optional<record::WheelTask> wheel;  ///< As spindle.
   std::optional<record::ContourTask> contour;     ///< As spindle.
   std::optional<record::RotaryTask> rotary_axes;  ///< As spindle.
+  std::optional<record::FiveAxisTask> five_axis;  ///< As spindle.
   std::optional<SourcePlan> source;
   std::vector<record::WindowTask> exclude;
   record::DefaultsTask defaults;
@@ -359,6 +362,7 @@ struct SimulationPlan {
   std::optional<SimulatedSpindlePlan> spindle;
   std::optional<SimulatedWheelPlan> wheel;
   std::optional<SimulatedContourPlan> contour;
+  std::optional<SimulatedFiveAxisPlan> five_axis;
 };
 
 struct ReportsPlan {

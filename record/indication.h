@@ -29,9 +29,10 @@ struct Indication {
   enum class Association { kOneSided, kEqualised, kLs, kZone };
   enum class Filter { kNone, kGaussian, kRobustGaussian, kSpline };
   enum class Outliers { kNone, kFiveScales };
-  enum class Axis { kAlpha, kBeta };  ///< Of a fixture.
-  /// Of a rotary axis: the shifts EX, EY, EZ, then the tilts EA, EB, EC.
-  enum class AxisError { kX, kY, kZ, kA, kB, kC };
+  enum class Axis { kAlpha, kBeta, kC, kA };  ///< Of a fixture; of a head.
+  /// Of a rotary axis: the shifts EX, EY, EZ, then the tilts EA, EB, EC. Then the location errors
+  /// of a head (ISO 230-7).
+  enum class AxisError { kX, kY, kZ, kA, kB, kC, kXOC, kYOC, kAOC, kBOC, kYOA, kZOA, kBOA, kCOA };
 
   Parameter parameter = Parameter::kTotal;
   Size size = Size::kLP;
@@ -71,11 +72,17 @@ RONDURE_WORDS(Indication::Association, {kOneSided, "one-sided"}, {kEqualised, "e
               {kLs, "ls"}, {kZone, "zone"});
 RONDURE_WORDS(Indication::Filter, {kNone, "none"}, {kGaussian, "gaussian"},
               {kRobustGaussian, "robust-gaussian"}, {kSpline, "spline"});
-RONDURE_WORDS(Indication::Axis, {kAlpha, "alpha"}, {kBeta, "beta"});
+RONDURE_WORDS(Indication::Axis, {kAlpha, "alpha"}, {kBeta, "beta"}, {kC, "c"}, {kA, "a"});
 RONDURE_WORDS(Indication::AxisError, {kX, "EX"}, {kY, "EY"}, {kZ, "EZ"}, {kA, "EA"}, {kB, "EB"},
-              {kC, "EC"});
+              {kC, "EC"}, {kXOC, "XOC"}, {kYOC, "YOC"}, {kAOC, "AOC"}, {kBOC, "BOC"}, {kYOA, "YOA"},
+              {kZOA, "ZOA"}, {kBOA, "BOA"}, {kCOA, "COA"});
+[[nodiscard]] constexpr bool is_location(Indication::AxisError error) {
+  return error > Indication::AxisError::kC;
+}
 [[nodiscard]] constexpr bool is_angle(Indication::AxisError error) {
-  return error >= Indication::AxisError::kA;
+  using E = Indication::AxisError;
+  return (error >= E::kA && error <= E::kC) || error == E::kAOC || error == E::kBOC ||
+         error == E::kBOA || error == E::kCOA;
 }
 RONDURE_WORDS(Indication::Outliers, {kNone, "none"}, {kFiveScales, "five-scales"});
 
@@ -136,13 +143,15 @@ void describe(Visitor& v, Indication& p) {
       "from_mm", p.from_mm,
       within(10'000.0, "Restricted portion: its lower end, part z. Left out: of the feature."));
   v.number("to_mm", p.to_mm, within(10'000.0, "Restricted portion: its upper end, part z."));
-  v.text(
-      "axis", p.axis,
-      {.meaning =
-           "Of an axis-error: alpha is the base-fixed axis of the fixture, beta the carried one."});
+  v.text("axis", p.axis,
+         {.meaning = "Of an axis-error: alpha is the base-fixed axis of the fixture, beta the "
+                     "carried one; c or a, "
+                     "of a head."});
   v.text("error", p.error,
          {.meaning = "Of an axis-error: EX, EY, EZ, shift along this machine axis; EA, EB, EC, "
-                     "tilt about its x, y or z, in urad."});
+                     "tilt about its x, y or z, in urad. Of a location: XOC, YOC, YOA, ZOA, or "
+                     "AOC, BOC, BOA, "
+                     "COA in urad."});
   v.texts("datum", p.datum,
           {.empty_allowed = false,
            .meaning = "Datums in order, each the letter or id of a feature, or a common datum, "

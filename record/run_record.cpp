@@ -6,7 +6,7 @@ namespace rondure::record {
 
 bool is_analysis(Shape shape) {
   return shape == Shape::kSpindle || shape == Shape::kWheel || shape == Shape::kContour ||
-         shape == Shape::kRotaryAxes;
+         shape == Shape::kRotaryAxes || shape == Shape::kFiveAxis;
 }
 
 std::optional<std::vector<double>> Series::column(std::string_view wanted) const {

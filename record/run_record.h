@@ -18,8 +18,8 @@ namespace rondure::record {
 
 /// Shape of a feature in the plan. The journal stores it, so that a run can be evaluated without
 /// the code that reads plans.
-/// kSpindle, kWheel and kContour are analyses: their data are series, not touches. kRotaryAxes, the
-/// calibration of the fixture, is an analysis of touches.
+/// kSpindle, kWheel, kContour and kFiveAxis are analyses: their data are series, not touches.
+/// kRotaryAxes, the calibration of the fixture, is an analysis of touches.
 enum class Shape {
   kCylinder,
   kCircle,
@@ -29,7 +29,8 @@ enum class Shape {
   kSpindle,
   kWheel,
   kContour,
-  kRotaryAxes
+  kRotaryAxes,
+  kFiveAxis
 };
 enum class Side { kOutside, kInside };
 /// What a characteristic is the value of. form_facts.h holds what is true of each.
@@ -59,6 +60,9 @@ enum class Form {
   kFixtureResidual,     ///< Largest distance of a ball from its predicted position.
   kFixtureResidualRms,  ///< Root mean square of these distances.
   kAxisError,           ///< Largest of one error of a rotary axis over its stations.
+  kLeftRms,             ///< Of a head: root mean square of what its errors do not explain.
+  kLeftLargest,         ///< Largest of these distances.
+  kLocation,            ///< A location error of an axis of a head, e.g. YOA.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
 /// kStartPose: no search, the cloud of the start pose. kMerged: no search, one cloud from several
@@ -86,7 +90,7 @@ enum class SamplingMethod { kTouch, kScan };
 /// Spelling in plans, journals and JSON; name_of() and value_named() read these tables.
 RONDURE_WORDS(Shape, {kCylinder, "cylinder"}, {kCircle, "circle"}, {kPlane, "plane"},
               {kCone, "cone"}, {kSphere, "sphere"}, {kSpindle, "spindle"}, {kWheel, "wheel"},
-              {kContour, "contour"}, {kRotaryAxes, "rotary_axes"});
+              {kContour, "contour"}, {kRotaryAxes, "rotary_axes"}, {kFiveAxis, "five_axis"});
 RONDURE_WORDS(Side, {kOutside, "outside"}, {kInside, "inside"});
 RONDURE_WORDS(Form, {kCylindricity, "cylindricity"}, {kRoundness, "roundness"},
               {kDiameter, "diameter"}, {kStraightness, "straightness"},
@@ -100,7 +104,8 @@ RONDURE_WORDS(Form, {kCylindricity, "cylindricity"}, {kRoundness, "roundness"},
               {kMotionAsynchronous, "motion-asynchronous"}, {kRadius, "radius"},
               {kRunOut, "run-out"}, {kContourDeviation, "contour-deviation"},
               {kContourSpread, "contour-spread"}, {kFixtureResidual, "fixture-residual"},
-              {kFixtureResidualRms, "fixture-residual-rms"}, {kAxisError, "axis-error"});
+              {kFixtureResidualRms, "fixture-residual-rms"}, {kAxisError, "axis-error"},
+              {kLeftRms, "left-rms"}, {kLeftLargest, "left-largest"}, {kLocation, "location"});
 RONDURE_WORDS(Reference, {kMinimumZone, "mz"}, {kLeastSquares, "ls"}, {kMinimumCircumscribed, "mc"},
               {kMaximumInscribed, "mi"});
 RONDURE_WORDS(Strategy, {kGuided, "guided"}, {kRefined, "refined"}, {kAsPublished, "as-published"},

@@ -167,6 +167,10 @@ core::Result<FactorPoints> analysis_points(const RotaryResult&) {
   return core::fail(core::Code::kNoPoints, "balls of a fixture are no section of points");
 }
 
+core::Result<FactorPoints> analysis_points(const FiveAxisResult&) {
+  return core::fail(core::Code::kNoPoints, "balls of a head are no section of points");
+}
+
 bool keeps(PointSubset subset, std::size_t layer, std::size_t layers, std::size_t point) {
   switch (subset) {
     case PointSubset::kAll:

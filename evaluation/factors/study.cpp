@@ -184,6 +184,9 @@ std::string_view why_no_factors(record::Form form) {
     case Form::kFixtureResidual:
     case Form::kFixtureResidualRms:
     case Form::kAxisError:
+    case Form::kLeftRms:
+    case Form::kLeftLargest:
+    case Form::kLocation:
       return "the balls are held against the places that the calibration predicts, not against a "
              "reference that is fitted to them";
     default:

@@ -109,6 +109,9 @@ bool is_found(const record::Feature& feature, const record::Characteristic& aske
     case Form::kFixtureResidual:
     case Form::kFixtureResidualRms:
     case Form::kAxisError:
+    case Form::kLeftRms:
+    case Form::kLeftLargest:
+    case Form::kLocation:
       break;
   }
   return false;

@@ -58,6 +58,9 @@ std::optional<std::string> why_not_foretold(record::Form form) {
     case record::Form::kFixtureResidualRms:
       return "it is what the axes do together beyond their calibration, and only the fixture shows "
              "that";
+    case record::Form::kLeftRms:
+    case record::Form::kLeftLargest:
+      return "it is what the axes do together beyond their errors, and only readings show that";
     case record::Form::kAxisError:
       return "it is an error of the axis itself, and only measured balls show that";
     default:
@@ -73,9 +76,10 @@ core::Result<std::vector<AnalysisPrediction>> predict_analysis(const record::Run
   if (of == nullptr || !record::is_analysis(of->shape) || of->shape == record::Shape::kRotaryAxes) {
     return core::fail_with(core::Code::kBadOption, "feature {} is no analysis of series", feature);
   }
-  std::vector<FeatureResult> wheels;  // no other feature gives a value to a later one
+  std::vector<FeatureResult> wheels;  // and heads: no other feature gives a value to a later one
   for (int i = 0; i < feature; ++i) {
-    if (simulated.features[static_cast<std::size_t>(i)].shape != record::Shape::kWheel) continue;
+    const record::Shape shape = simulated.features[static_cast<std::size_t>(i)].shape;
+    if (shape != record::Shape::kWheel && shape != record::Shape::kFiveAxis) continue;
     wheels.push_back(evaluate_analysis(simulated, i, std::nullopt, wheels));
   }
   const FeatureResult result = evaluate_analysis(simulated, feature, std::nullopt, wheels);

@@ -130,8 +130,12 @@ std::string symbol_of(const record::Characteristic& characteristic) {
     if (asked.rank) symbol += fmt::format(" {}", record::name_of(*asked.rank));
   }
   if (characteristic.form == Form::kAxisError && asked.axis && asked.error) {
-    const char* axis = *asked.axis == Indication::Axis::kAlpha ? "\u03b1" : "\u03b2";
-    return fmt::format("{} {}", record::name_of(*asked.error), axis);
+    constexpr std::array kAxes = {"\u03b1", "\u03b2", "C", "A"};
+    return fmt::format("{} {}", record::name_of(*asked.error),
+                       kAxes[static_cast<std::size_t>(*asked.axis)]);
+  }
+  if (characteristic.form == Form::kLocation && asked.error) {
+    return std::string(record::name_of(*asked.error));
   }
   if (asked.section != Indication::Section::kAll) {
     symbol += fmt::format(" {}", record::name_of(asked.section));

@@ -7,7 +7,6 @@
 #include "evaluation/rotary/internal/axis_extreme.h"
 #include "evaluation/rotary/internal/combined_field.h"
 #include "evaluation/rotary/result.h"
-#include "evaluation/uncertainty/curve_trials.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -45,41 +44,6 @@ std::vector<InfluenceStatement> declaration_of(const RotaryResult& facts, bool o
                "a temperature in use that differs from that of the calibration: not covered")}};
 }
 
-/// The residual in every trial, and its change with the noise of the balls.
-struct ResidualTrials {
-  std::vector<double> rms_mm;
-  std::vector<double> max_mm;
-  CombinedField::Residual noise;
-};
-
-ResidualTrials residual_trials(const RotaryResult& result, const UncertaintyOptions& options) {
-  const CombinedField field(result.combined, result.noise_mm);
-  const int trials = std::max(2000, options.least_trials);
-  ResidualTrials out;
-  for (int t = 0; t < trials; ++t) {
-    const CombinedField::Residual drawn = field.draw(options.seed, t);
-    out.rms_mm.push_back(drawn.rms_mm);
-    out.max_mm.push_back(drawn.max_mm);
-  }
-  out.noise = field.per_noise();
-  return out;
-}
-
-UncertaintyStatus residual_interval(const RotaryResult& result, const record::Characteristic& asked,
-                                    const ResidualTrials& trials,
-                                    const UncertaintyOptions& options) {
-  const fixture::Verification& v = result.calibration.verification;
-  const bool rms = asked.form == record::Form::kFixtureResidualRms;
-  TrialValues values;
-  values.as_measured_mm = rms ? v.rms_mm : v.max_mm;
-  values.values_mm = rms ? trials.rms_mm : trials.max_mm;
-  auto stated = statement_of_trials(
-      std::move(values), {{"ball-centre", rms ? trials.noise.rms_mm : trials.noise.max_mm}},
-      declaration_of(result, true), options);
-  return stated ? UncertaintyStatus::stated(*std::move(stated), options.coverage)
-                : UncertaintyStatus::none(stated.error().said());
-}
-
 }  // namespace
 
 std::vector<UncertaintyStatus> intervals_of(const RotaryResult& result,
@@ -98,13 +62,17 @@ std::vector<UncertaintyStatus> intervals_of(const RotaryResult& result,
   for (const record::Characteristic& asked : characteristics) {
     if (asked.form == record::Form::kAxisError) {
       out.push_back(asked.indication.axis && asked.indication.error
-                        ? axis_error_interval(result, asked, declaration_of(result, false), options)
+                        ? axis_error_interval(axis_curve(result, asked), asked,
+                                              declaration_of(result, false), options)
                         : UncertaintyStatus::none({}));
     } else if (result.combined.empty()) {
       out.push_back(UncertaintyStatus::none(core::phrase("no combined pose was measured")));
     } else {
-      if (!residual) residual = residual_trials(result, options);
-      out.push_back(residual_interval(result, asked, *residual, options));
+      const fixture::Verification& v = result.calibration.verification;
+      if (!residual) residual = residual_trials(result.combined, result.noise_mm, options);
+      const bool rms = asked.form == record::Form::kFixtureResidualRms;
+      out.push_back(residual_interval(rms ? v.rms_mm : v.max_mm, rms, *residual,
+                                      declaration_of(result, true), options));
     }
   }
   return out;

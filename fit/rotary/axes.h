@@ -48,6 +48,9 @@ struct RotaryMeasurement {
   /// that the positions are exact.
   std::vector<std::vector<BallCentre>> references;
   std::vector<RotaryPose> stations;
+  /// Whether the table has a row at the reference angle, of no error and no noise: E = I there by
+  /// definition.
+  bool reference_is_station = false;
   /// Covariance of (t; w) by which the body may be misplaced in the mean of the references: it
   /// turns with the body and is in all stations alike.
   Matrix6 reference_placing = Matrix6::Zero();

@@ -246,8 +246,10 @@ Vector6 hysteresis_of(const std::vector<RotaryTableRow>& rows) {
   return n > 0.0 ? Vector6((squares / n).cwiseMax(0.0).cwiseSqrt()) : Vector6::Zero();
 }
 
-void fill_table(RotaryStudy& study) {
+/// @param with_reference  Adds a row at the reference angle, in place of a station there.
+void fill_table(bool with_reference, RotaryStudy& study) {
   std::vector<double> angles;
+  if (with_reference) angles.push_back(study.reference_rad);
   for (const RotaryStation& station : study.stations) {
     if (!station.undetermined) angles.push_back(station.angle_rad);
   }
@@ -266,6 +268,10 @@ void fill_table(RotaryStudy& study) {
                            [](double a, double b) { return b - a <= core::kSameAngle; }),
                angles.end());
   for (const double angle : angles) {
+    if (with_reference && std::abs(place(study.reference_rad) - angle) <= core::kSameAngle) {
+      table.rows.emplace_back().angle_rad = angle;
+      continue;
+    }
     std::vector<const RotaryStation*> group;
     for (const RotaryStation& station : study.stations) {
       const bool here = std::abs(place(station.angle_rad) - angle) <= core::kSameAngle;
@@ -361,7 +367,7 @@ core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& opt
   add_placing(m, study);
   TRY(study.warnings, check_neighbours(study.stations, m.axis, m.reference_rad));
   TRY(study.periodicity_checked, check_periodicity(study.stations));
-  fill_table(study);
+  fill_table(m.reference_is_station, study);
   warn_of_stations(study);
   warn_of_study(m, study);
   auto offset = axis_offset(study.table);

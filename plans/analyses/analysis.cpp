@@ -18,8 +18,8 @@ namespace {
 
 using core::Code;
 
-std::array<const AnalysisKind*, 4> kinds() {
-  return {&spindle_kind(), &wheel_kind(), &contour_kind(), &rotary_kind()};
+std::array<const AnalysisKind*, 5> kinds() {
+  return {&spindle_kind(), &wheel_kind(), &contour_kind(), &rotary_kind(), &five_axis_kind()};
 }
 
 core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,

@@ -88,5 +88,6 @@ void check_analysis(const Plan& plan, std::size_t index, Findings& findings);
 [[nodiscard]] const AnalysisKind& wheel_kind();
 [[nodiscard]] const AnalysisKind& contour_kind();
 [[nodiscard]] const AnalysisKind& rotary_kind();
+[[nodiscard]] const AnalysisKind& five_axis_kind();
 
 }  // namespace rondure::plans

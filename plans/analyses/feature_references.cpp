@@ -55,6 +55,15 @@ std::string why_no_radius(const FeaturePlan& producer) {
              : fmt::format("feature {} has no nominal_radius_mm", in_quotes(producer.id));
 }
 
+std::string why_no_table(const FeaturePlan& producer) {
+  if (!producer.five_axis || producer.source) {
+    return fmt::format("feature {} is no simulated head", in_quotes(producer.id));
+  }
+  return producer.five_axis->repeat
+             ? fmt::format("feature {} has a table loaded itself", in_quotes(producer.id))
+             : std::string();
+}
+
 std::vector<TakenValue> references_of(const FeaturePlan& feature) {
   std::vector<TakenValue> out;
   if (feature.spindle && feature.spindle->wheel_radius_from) {
@@ -68,6 +77,10 @@ std::vector<TakenValue> references_of(const FeaturePlan& feature) {
     out.push_back(
         {"/contour/wheel_radius_from/feature", feature.contour->wheel_radius_from->feature,
          "the radius is that of a wheel of mode envelope with a nominal radius", why_no_radius});
+  }
+  if (feature.five_axis && feature.five_axis->repeat) {
+    out.push_back({"/five_axis/repeat/with/feature", feature.five_axis->repeat->with.feature,
+                   "the table is that of a simulated feature of type five_axis", why_no_table});
   }
   if (feature.wheel && feature.wheel->axis_from) {
     out.push_back({"/wheel/axis_from/feature", feature.wheel->axis_from->feature,

@@ -239,10 +239,11 @@ void check_signed_limits(const Asked& asked) {
 void check_unit_of_limits(const Asked& asked) {
   const Form form = asked.task.form;
   const Indication& i = asked.task.indication;
-  if (form == Form::kAxisError && !i.error) return;  // which unit it has is not known
+  const bool named = record::takes(form, "error");
+  if (named && !i.error) return;  // which unit it has is not known
   const bool angle = record::is_angle(form, i);
-  const std::string what = form == Form::kAxisError ? std::string(record::name_of(*i.error))
-                                                    : with_article(name_of(form));
+  const std::string what =
+      named ? std::string(record::name_of(*i.error)) : with_article(name_of(form));
   for (const std::string_view key : {"tolerance", "lower", "upper", "symmetric"}) {
     const std::string wrong = fmt::format("{}_{}", key, angle ? "um" : "urad");
     if (!asked.given(wrong)) continue;
@@ -474,25 +475,46 @@ void check_of_surface(const Asked& asked) {
   check_sampling_of(asked.feature(), asked.resolved, asked.where, asked.findings);
 }
 
+/// Checks axis and error of an axis-error, and the error of a location.
+void check_error_keys(const Asked& asked) {
+  using Axis = Indication::Axis;
+  const Indication& i = asked.task.indication;
+  const bool of_head = asked.feature().type == Shape::kFiveAxis;
+  const bool location = asked.task.form == Form::kLocation;
+  if (!location && asked.task.form != Form::kAxisError) return;
+  const char* const axes = of_head ? "c or a" : "alpha or beta";
+  const char* const errors =
+      location ? "XOC, YOC, AOC, BOC, YOA, ZOA, BOA or COA" : "EX, EY, EZ, EA, EB or EC";
+  for (const std::string_view key : {"axis", "error"}) {
+    if (asked.given(key) || (location && key == "axis")) continue;
+    asked.refuse(key,
+                 fmt::format("this key is missing: {} is that of one axis; give {}",
+                             with_article(name_of(asked.task.form)), key == "axis" ? axes : errors),
+                 Code::kMissingKey);
+  }
+  if (!location && i.axis && (*i.axis == Axis::kC || *i.axis == Axis::kA) != of_head) {
+    asked.refuse("axis", fmt::format("{} is no axis of a {}; give {}", name_of(*i.axis),
+                                     name_of(asked.feature().type), axes));
+  }
+  if (i.error && is_location(*i.error) != location) {
+    asked.refuse("error", fmt::format("{} is no {}; give {}", name_of(*i.error),
+                                      name_of(asked.task.form), errors));
+  }
+}
+
 void check_of_analysis(const Asked& asked) {
   KeyNames names;
   Indication all;
   describe(names, all);
-  const bool of_axis = asked.task.form == Form::kAxisError;
   for (const std::string_view key : names.keys) {
-    if (of_axis && record::takes(asked.task.form, key)) continue;
+    const bool of_error = asked.task.form == Form::kAxisError || asked.task.form == Form::kLocation;
+    if (of_error && record::takes(asked.task.form, key)) continue;
     const bool axis_key = key == "axis" || key == "error";
     asked.refuse_idle(
         key, axis_key ? fmt::format("{} has no {}", with_article(name_of(asked.task.form)), key)
                       : std::string("the feature is no surface"));
   }
-  for (const std::string_view key : {"axis", "error"}) {
-    if (!of_axis || asked.given(key)) continue;
-    asked.refuse(key,
-                 fmt::format("this key is missing: an axis-error is that of one axis; give {}",
-                             key == "axis" ? "alpha or beta" : "EX, EY, EZ, EA, EB or EC"),
-                 Code::kMissingKey);
-  }
+  check_error_keys(asked);
   check_limits_of(asked);
 }
 

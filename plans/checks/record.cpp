@@ -197,7 +197,7 @@ class RequiredKeys {
     number(key, value, spec);
   }
   template <class T>
-  void object(std::string_view, const std::optional<T>&, const GroupSpec&) {}
+  void object(std::string_view, const T&, const GroupSpec&) {}
   template <class T>
   void list(std::string_view key, const std::vector<T>&, const GroupSpec& spec) {
     if (!spec.required) return;
@@ -254,6 +254,8 @@ Fault check_feature_settings(const record::Feature& feature, bool strict) {
       return check_task<record::ContourTask>(feature, strict);
     case Shape::kRotaryAxes:
       return check_task<record::RotaryTask>(feature, strict);
+    case Shape::kFiveAxis:
+      return check_task<record::FiveAxisTask>(feature, strict);
     case Shape::kCylinder:
     case Shape::kCircle:
     case Shape::kPlane:
@@ -298,11 +300,12 @@ Fault check_run_settings(std::span<const record::Setting> settings, bool strict)
 struct WantedSeries {
   Shape shape;
   std::string_view name;  ///< For a contour, without the number of the part.
-  std::array<std::string_view, 4> columns;
+  std::array<std::string_view, 7> columns;
 };
-constexpr std::array<WantedSeries, 5> kWantedSeries = {
+constexpr std::array<WantedSeries, 6> kWantedSeries = {
     {{Shape::kSpindle, "data", {"alpha_deg", "H1_um", "H2_um", "H3_um"}},
      {Shape::kWheel, "data", {"x", "z"}},
+     {Shape::kFiveAxis, "data", {"step", "c_deg", "a_deg", "setup", "dx_um", "dy_um", "dz_um"}},
      {Shape::kContour, "axes", {"c_deg", "c_error_deg", "x_error_mm"}},
      {Shape::kContour, "pin", {"angle_deg", "deviation_um"}},
      {Shape::kContour, "main", {"angle_deg", "deviation_um"}}}};

@@ -2,6 +2,7 @@
 
 #include "plans/plan.h"
 #include "plans/schema/contour_table.h"
+#include "plans/schema/five_axis_table.h"
 #include "plans/schema/key_spec.h"
 #include "plans/schema/machine_errors_table.h"
 #include "plans/schema/rotary_table.h"
@@ -153,6 +154,8 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.object("wheel", p.wheel, {.meaning = "The wheel whose edge points a wheel feature gets."});
   v.object("contour", p.contour,
            {.meaning = "Axis errors and parts that control and gauge of a contour feature see."});
+  v.object("five_axis", p.five_axis,
+           {.meaning = "The head whose readings a five_axis feature gets."});
 }
 
 }  // namespace rondure::plans

@@ -74,6 +74,7 @@ core::Result<Layout> read_layout(std::string_view line, std::span<const WantedCo
 /// Adds a row to the values of a series.
 /// @param stated_degC  Of a series whose last column is the temperature that the file states once.
 core::Result<void> read_row(std::string_view line, const Layout& layout,
+                            std::span<const WantedColumn> wanted,
                             const std::optional<double>& stated_degC, Series& series) {
   const auto fields = split_fields(line);
   if (fields.size() != layout.fields.size()) {
@@ -87,6 +88,17 @@ core::Result<void> read_row(std::string_view line, const Layout& layout,
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!layout.places[i]) continue;
     const SeriesColumn& column = series.columns[*layout.places[i]];
+    const auto words = wanted[layout.wanted[*layout.places[i]]].words;
+    if (!words.empty()) {
+      const auto at = std::find(words.begin(), words.end(), fields[i]);
+      if (at == words.end()) {
+        return core::fail(syntax_error(fmt::format("{} is {}; {} is expected", column.name,
+                                                   quoted_text(fields[i]),
+                                                   fmt::join(words, ", "))));
+      }
+      series.values[start + *layout.places[i]] = static_cast<double>(at - words.begin());
+      continue;
+    }
     const auto value = core::parse_number(fields[i]);
     if (!value) {
       const auto error = explain_field(fields[i], column.name, column.unit);
@@ -171,7 +183,7 @@ core::Result<Series> parse_series_csv(std::string_view text, std::string_view na
   };
   TRY_DO(read_table(
       text, name, header,
-      [&](std::string_view line, std::size_t) { return read_row(line, layout, stated_degC, out); },
+      [&](std::string_view line, std::size_t) { return read_row(line, layout, all, stated_degC, out); },
       [&](bool) {
         return fmt::format(
             "the file holds no rows; a header line {} and a row a sample are expected", list);

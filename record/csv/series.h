@@ -13,6 +13,8 @@ namespace rondure::record {
 struct WantedColumn {
   std::string_view name;
   bool required = true;
+  /// Words that stand for 0, 1, ...; empty: numbers.
+  std::span<const std::string_view> words = {};
 };
 
 /// The name of a wanted column in a file that uses another one.

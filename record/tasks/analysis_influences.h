@@ -54,6 +54,13 @@ struct RotaryInfluencesTask {
   Influence expansion_per_K;  ///< Of the fixture.
 };
 
+/// Of a head read in a gauge nest.
+struct HeadInfluencesTask {
+  Influence ball_um;      ///< Of one coordinate of a reading.
+  Influence slides_um;    ///< Of the slides over the travel of the pivot.
+  Influence slides_urad;  ///< Their squareness and turn.
+};
+
 /// Of a contour and the traces of the controller.
 struct ContourInfluencesTask {
   Influence gauge_um;  ///< Of one reading of the gauge.
@@ -118,6 +125,15 @@ void describe(Visitor& v, RotaryInfluencesTask& p) {
   v.influence("reading_urad", p.reading_urad, range(0.0, 1e4, "Reading of an angle."));
   v.influence("expansion_per_K", p.expansion_per_K,
               range(0.0, 1e-4, "Expansion coefficient of the fixture."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, HeadInfluencesTask& p) {
+  v.influence("ball_um", p.ball_um, range(0.0, 100.0, "One coordinate of a reading."));
+  v.influence("slides_um", p.slides_um,
+              range(0.0, 1000.0, "Position of the slides over the travel of the pivot."));
+  v.influence("slides_urad", p.slides_urad,
+              range(0.0, 1000.0, "Squareness and turn of the slides."));
 }
 
 template <class Visitor>

@@ -146,9 +146,12 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
      {Form::kAxisError,
       "E max",
       std::nullopt,
-      {Shape::kRotaryAxes},
+      {Shape::kRotaryAxes, Shape::kFiveAxis},
       "axis error",
-      LimitKind::kSigned}});
+      LimitKind::kSigned},
+     {Form::kLeftRms, "Left rms", std::nullopt, {Shape::kFiveAxis}},
+     {Form::kLeftLargest, "Left max", std::nullopt, {Shape::kFiveAxis}},
+     {Form::kLocation, "Location", std::nullopt, {Shape::kFiveAxis}, "error", LimitKind::kSigned}});
 
 [[nodiscard]] constexpr const FormFacts& facts_of(Form form) {
   return kFormFacts[static_cast<std::size_t>(form)];
@@ -176,7 +179,8 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
 
 /// Whether value and limits of a characteristic are angles.
 [[nodiscard]] constexpr bool is_angle(Form form, const Indication& indication) {
-  return form == Form::kAxisError && indication.error && is_angle(*indication.error);
+  return (form == Form::kAxisError || form == Form::kLocation) && indication.error &&
+         is_angle(*indication.error);
 }
 
 /// Whether each form has its row and its word.

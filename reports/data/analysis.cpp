@@ -68,6 +68,7 @@ Json found_json(const evaluation::WheelResult& found) {
   return out;
 }
 Json found_json(const evaluation::RotaryResult& found) { return rotary_json(found); }
+Json found_json(const evaluation::FiveAxisResult& found) { return five_axis_json(found); }
 
 /// The result under the name of its shape. Curves (one number per sample) are written under the key
 /// "curves", which the stored results omit.

@@ -1,6 +1,8 @@
 #include "reports/data/corrections.h"
 
+#include <cmath>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -118,17 +120,21 @@ Handed contour_tables(const record::RunRecord& record, int index, const FeatureR
   return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
-std::string axis_rows(const evaluation::AxisFacts& axis) {
+/// @param rounded  To 1e-6 um or urad: the digits of a table, not those of binary numbers.
+std::string axis_rows(const char* key, std::span<const fixture::AxisStation> rows, bool rounded) {
+  const auto in = [rounded](double value, double unit) {
+    return shortest(rounded ? std::round(value / unit * 1e6) / 1e6 : value / unit);
+  };
   std::string text =
       "axis,angle_deg,EX_um,EY_um,EZ_um,EA_urad,EB_urad,EC_urad,u_EX_um,u_EY_um,u_EZ_um,"
       "u_EA_urad,u_EB_urad,u_EC_urad\n";
-  for (const fixture::AxisStation& station : axis.motion->stations()) {
-    text += fmt::format("{},{}", axis.key, shortest(core::stated_degrees(station.angle_rad)));
+  for (const fixture::AxisStation& station : rows) {
+    text += fmt::format("{},{}", key, shortest(core::stated_degrees(station.angle_rad)));
     const Eigen::Matrix<double, 6, 1> u = station.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    for (const double v : station.errors.shift_mm) text += "," + shortest(v / kMicrometre);
-    for (const double v : station.errors.tilt_rad) text += "," + shortest(v / kMicroradian);
+    for (const double v : station.errors.shift_mm) text += "," + in(v, kMicrometre);
+    for (const double v : station.errors.tilt_rad) text += "," + in(v, kMicroradian);
     for (Eigen::Index k = 0; k < 6; ++k) {
-      text += "," + shortest(u(k) / (k < 3 ? kMicrometre : kMicroradian));
+      text += "," + in(u(k), k < 3 ? kMicrometre : kMicroradian);
     }
     text += "\n";
   }
@@ -156,11 +162,45 @@ Handed axis_tables(const record::RunRecord& record, int index, const FeatureResu
         "axis, in the frame that carries it, from the zero pose; location: included";
     head.gain = said;
     const std::string file = fmt::format("{}/{}-{}-table.csv", kCorrectionsFolder, name, axis.key);
-    out.tables.push_back({file, head_of(record, index, result, head) + axis_rows(axis)});
+    out.tables.push_back({file, head_of(record, index, result, head) +
+                                    axis_rows(axis.key, axis.motion->stations(), false)});
     out.line += (out.line.empty() ? "" : ", ") + file;
   }
   out.line += ": " + said;
   return out;
+}
+
+/// One file of a head: both axes in steps, then the location errors, which the table holds already.
+Handed head_table(const record::RunRecord& record, int index, const FeatureResult& result,
+                  const std::string& name) {
+  if (result.failure) return none_because(*result.failure);
+  const auto& facts = std::get<evaluation::FiveAxisResult>(result.analysis->found);
+  if (facts.gain) return {{}, "none: this run has the table of another feature loaded"};
+  if (facts.withheld) return none_because(core::Error{core::Code::kMeaning, *facts.withheld, {}});
+  Head head;
+  head.kind = "axis-table";
+  head.sense =
+      fmt::format("C and A as the control counts them, c_sense {}, a_sense {}",
+                  record::name_of(facts.task.c_sense), record::name_of(facts.task.a_sense));
+  head.sign = "actual minus nominal";
+  head.validity = fmt::format("machine {}, until {}, within the stations",
+                              printable(facts.task.machine_id), printable(facts.expires_utc));
+  head.units =
+      "angle_deg deg, E*_um um, E*_urad urad; u_ is a standard uncertainty; at the pivot, from C = "
+      "A = 0, right-handed; linear between the rows; location: included";
+  head.gain = fmt::format("rms at combined poses {} um without it, {} um with it",
+                          um(facts.study.before.rms_mm), um(facts.study.left.rms_mm));
+  std::string text = head_of(record, index, result, head) + axis_rows("c", facts.c_table, true);
+  const std::string a_rows = axis_rows("a", facts.a_table, true);
+  text += a_rows.substr(a_rows.find('\n') + 1);
+  text += "\nlocation,value,u,unit\n";
+  for (const evaluation::HeadLocation& one : evaluation::locations_of(facts)) {
+    text += fmt::format("{},{},{},{}\n", record::name_of(one.error),
+                        shortest(one.value_mm / kMicrometre), shortest(one.u_mm / kMicrometre),
+                        record::is_angle(one.error) ? "urad" : "um");
+  }
+  const std::string file = fmt::format("{}/{}-head-table.csv", kCorrectionsFolder, name);
+  return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
 /// The tables of any feature.
@@ -168,7 +208,8 @@ Handed tables_of(const record::RunRecord& record, int index, const FeatureResult
   const std::string name = record::plain_name(result.feature.id);
   if (result.feature.shape == Shape::kContour) return contour_tables(record, index, result, name);
   if (result.feature.shape == Shape::kRotaryAxes) return axis_tables(record, index, result, name);
-  return {{}, "none: only a contour and a calibrated fixture give a correction for a machine"};
+  if (result.feature.shape == Shape::kFiveAxis) return head_table(record, index, result, name);
+  return {{}, "none: only a contour, a fixture and a head give a correction for a machine"};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 
 #include "core/units.h"
+#include "evaluation/five_axis/result.h"
 #include "evaluation/rotary/result.h"
 #include "reports/data/internal/json_parts.h"
 
@@ -86,6 +87,43 @@ Json rotary_json(const evaluation::RotaryResult& facts) {
                           {"expected_rms_um", in_um(v.expected_mm)},
                           {"before_rms_um", in_um(v.before_rms_mm)},
                           {"before_max_um", in_um(v.before_max_mm)}};
+  for (const evaluation::AxisFacts& axis : axes_of(facts)) json[axis.key] = axis_json(axis);
+  return json;
+}
+
+Json five_axis_json(const evaluation::FiveAxisResult& facts) {
+  const auto rms = [](const fit::HeadRms& of) -> Json {
+    return {{"rms_um", in_um(of.rms_mm)}, {"max_um", in_um(of.max_mm)}};
+  };
+  Json json = {{"machine", facts.task.machine_id},
+               {"expires_utc", facts.expires_utc},
+               {"readings", facts.readings},
+               {"reading_u_um", in_um(facts.noise_mm)},
+               {"condition", facts.condition},
+               {"reference_step_um", in_um(facts.study.reference_step_mm)},
+               {"before", rms(facts.study.before)},
+               {"left", rms(facts.left())},
+               {"expected_rms_um", in_um(facts.study.expected_mm)},
+               {"repeat", nullptr}};
+  if (facts.gain) {
+    json["repeat"] = {{"with", facts.gain->with},
+                      {"before", rms(facts.gain->before)},
+                      {"forecast_rms_um", in_um(facts.gain->forecast_mm)}};
+  }
+  json["locations"] = list_json(locations_of(facts), [](const evaluation::HeadLocation& one) {
+    return Json{{"error", record::name_of(one.error)},
+                {"unit", record::is_angle(one.error) ? "urad" : "um"},
+                {"found", in_um(one.value_mm)},
+                {"u", in_um(one.u_mm)}};
+  });
+  json["poses"] = list_json(facts.combined, [](const evaluation::CombinedPose& pose) {
+    return Json{{"c_deg", in_deg(pose.pose.alpha_rad)},
+                {"a_deg", in_deg(pose.pose.beta_rad)},
+                {"balls", pose.points},
+                {"rms_um", in_um(pose.rms_mm)},
+                {"max_um", in_um(pose.max_mm)},
+                {"before_rms_um", in_um(pose.before_rms_mm)}};
+  });
   for (const evaluation::AxisFacts& axis : axes_of(facts)) json[axis.key] = axis_json(axis);
   return json;
 }

@@ -268,7 +268,10 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
       R"(<section><h2>{}</h2><p class="note">{}</p>)", feature_title(asked),
       trf("{}.", asked.shape == record::Shape::kRotaryAxes
                      ? tr("Calibration of the fixture with balls that it carried")
-                     : trf("{}; data {}", capitalised(tr(record::name_of(asked.shape))),
+                     : trf("{}; data {}",
+                           asked.shape == record::Shape::kFiveAxis
+                               ? tr("Axes C and A of a head")
+                               : capitalised(tr(record::name_of(asked.shape))),
                            asked.points_file.empty()
                                ? tr("simulated")
                                : trf("from the file {}", isolated(asked.points_file)))));
@@ -313,6 +316,8 @@ std::string feature_title(const record::Feature& feature) {
       return trf("Crank pin {}: contour error and how much of it follows the axes", name);
     case record::Shape::kRotaryAxes:
       return trf("Fixture {}: errors of its axes and what is left of them", name);
+    case record::Shape::kFiveAxis:
+      return trf("Head {}: errors of its axes and what is left of them", name);
     default:
       return trf("Feature {}", name);
   }

@@ -149,6 +149,7 @@ std::string kind_of_page(const evaluation::Evaluation& evaluation, bool of_drawi
     case record::Shape::kContour:
       return tr("crank-pin contour report");
     case record::Shape::kRotaryAxes:
+    case record::Shape::kFiveAxis:
       return tr("calibration report");
     default:
       return tr("inspection report");

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "evaluation/rotary/result.h"
 #include "reports/escaping.h"
+#include "reports/html/internal/axis_parts.h"
 #include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
@@ -76,23 +77,6 @@ Curve station_marks(const fixture::StationMotion& motion, Eigen::Index index) {
   return out;
 }
 
-std::string axis_charts(const evaluation::AxisFacts& axis, const record::Series* truth) {
-  std::string html = R"(<div class="scroll">)";
-  for (const ErrorName& error : kErrorNames) {
-    std::vector<Curve> curves = {model_curve(*axis.motion, error.index),
-                                 station_marks(*axis.motion, error.index)};
-    if (truth != nullptr) {
-      const auto x = truth->column("angle_deg");
-      const auto y = truth->column(error.truth);
-      if (x && y) curves.push_back({tr("hidden truth"), "mean", *x, *y});
-    }
-    html += line_chart(trf("Axis {}: {}", axis.key, tr(error.title)),
-                       fmt::format("phi {} / °", axis.key),
-                       error.index < 3 ? tr("error / µm") : tr("error / µrad"), curves);
-  }
-  return html + "</div>";
-}
-
 std::string with_u(double value, double u, int decimals) {
   return fmt::format("{} ± {}", fixed(value, decimals), fixed(kCoverage * u, decimals));
 }
@@ -115,55 +99,6 @@ std::string location_table(const evaluation::RotaryResult& facts) {
       "", "lllllll", spoken_caption(tr("Location and orientation of the axes")),
       {tr("Axis"), "d x / µm", "d y / µm", "d z / µm", "e x / µrad", "e y / µrad", "e z / µrad"},
       rows));
-}
-
-std::string combined_table(const evaluation::RotaryResult& facts) {
-  TableRows rows;
-  for (const evaluation::CombinedPose& pose : facts.combined) {
-    rows.push_back({deg(pose.pose.alpha_rad, 2) + "°", deg(pose.pose.beta_rad, 2) + "°",
-                    std::to_string(pose.points), um(pose.before_rms_mm), um(pose.rms_mm),
-                    um(pose.max_mm), fixed(pose.tilt_rad / kMicroradian, 1)});
-  }
-  return scrolling(table("", "lllllll", spoken_caption(tr("Combined poses")),
-                         {"alpha", "beta", tr("balls"), tr("before, rms / µm"),
-                          tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad")},
-                         rows));
-}
-
-/// What compensation is worth: the balls in poses that the fit did not use, before and after it.
-std::string residual_chart(const evaluation::RotaryResult& facts) {
-  if (facts.combined.empty()) return {};
-  Curve before{tr("before compensation, rms"), "zone-outer", {}, {}};
-  Curve left{tr("left, rms"), "profile", {}, {}};
-  Curve largest{tr("left, largest ball"), "guide", {}, {}};
-  for (const evaluation::CombinedPose& pose : facts.combined) {
-    const auto number = static_cast<double>(left.x.size() + 1);
-    for (Curve* const curve : {&before, &left, &largest}) curve->x.push_back(number);
-    before.y.push_back(pose.before_rms_mm / kMicrometre);
-    left.y.push_back(pose.rms_mm / kMicrometre);
-    largest.y.push_back(pose.max_mm / kMicrometre);
-  }
-  return fmt::format(
-      "<h3>{}</h3>{}{}", tr("What is left at poses that were not used"),
-      note(tr("Distance of the balls from their predicted places, pose by pose; the lines guide "
-              "the eye only.")),
-      scrolling(line_chart(tr("Residuals of the combined poses"),
-                           tr("number of the pose, as in the table below"), tr("distance / µm"),
-                           {before, left, largest})));
-}
-
-std::string words_of_rotary() {
-  return explained(
-             tr("Combined poses"),
-             tr("Poses with both axes turned, which the identification did not use: they show "
-                "whether the errors found hold elsewhere.")) +
-         explained(tr("Left at combined poses"),
-                   tr("Distance of a ball centre from its predicted place after compensation; "
-                      "expected: what noise and the uncertainty of the errors explain.")) +
-         explained(
-             tr("Condition of the balls"),
-             tr("How evenly the balls determine the six errors of a pose: 1 when all are known "
-                "equally well, large when some of them are hardly seen."));
 }
 
 std::string key_numbers(const evaluation::RotaryResult& facts) {
@@ -193,11 +128,78 @@ std::string key_numbers(const evaluation::RotaryResult& facts) {
 
 }  // namespace
 
+std::string axis_charts(const evaluation::AxisFacts& axis, const record::Series* truth) {
+  std::string html = R"(<div class="scroll">)";
+  for (const ErrorName& error : kErrorNames) {
+    std::vector<Curve> curves = {model_curve(*axis.motion, error.index),
+                                 station_marks(*axis.motion, error.index)};
+    if (truth != nullptr) {
+      const auto x = truth->column("angle_deg");
+      const auto y = truth->column(error.truth);
+      if (x && y) curves.push_back({tr("hidden truth"), "mean", *x, *y});
+    }
+    html += line_chart(trf("Axis {}: {}", axis.key, tr(error.title)),
+                       fmt::format("phi {} / °", axis.key),
+                       error.index < 3 ? tr("error / µm") : tr("error / µrad"), curves);
+  }
+  return html + "</div>";
+}
+
+std::string combined_table(std::span<const evaluation::CombinedPose> poses, const char* first,
+                           const char* second) {
+  TableRows rows;
+  for (const evaluation::CombinedPose& pose : poses) {
+    rows.push_back({deg(pose.pose.alpha_rad, 2) + "°", deg(pose.pose.beta_rad, 2) + "°",
+                    std::to_string(pose.points), um(pose.before_rms_mm), um(pose.rms_mm),
+                    um(pose.max_mm), fixed(pose.tilt_rad / kMicroradian, 1)});
+  }
+  return scrolling(table("", "lllllll", spoken_caption(tr("Combined poses")),
+                         {first, second, tr("balls"), tr("before, rms / µm"), tr("left, rms / µm"),
+                          tr("largest / µm"), tr("tilt / µrad")},
+                         rows));
+}
+
+std::string residual_chart(std::span<const evaluation::CombinedPose> poses) {
+  if (poses.empty()) return {};
+  Curve before{tr("before compensation, rms"), "zone-outer", {}, {}};
+  Curve left{tr("left, rms"), "profile", {}, {}};
+  Curve largest{tr("left, largest ball"), "guide", {}, {}};
+  for (const evaluation::CombinedPose& pose : poses) {
+    const auto number = static_cast<double>(left.x.size() + 1);
+    for (Curve* const curve : {&before, &left, &largest}) curve->x.push_back(number);
+    before.y.push_back(pose.before_rms_mm / kMicrometre);
+    left.y.push_back(pose.rms_mm / kMicrometre);
+    largest.y.push_back(pose.max_mm / kMicrometre);
+  }
+  return fmt::format(
+      "<h3>{}</h3>{}{}", tr("What is left at poses that were not used"),
+      note(tr("Distance of the balls from their predicted places, pose by pose; the lines guide "
+              "the eye only.")),
+      scrolling(line_chart(tr("Residuals of the combined poses"),
+                           tr("number of the pose, as in the table below"), tr("distance / µm"),
+                           {before, left, largest})));
+}
+
+std::string words_of_rotary() {
+  return explained(
+             tr("Combined poses"),
+             tr("Poses with both axes turned, which the identification did not use: they show "
+                "whether the errors found hold elsewhere.")) +
+         explained(tr("Left at combined poses"),
+                   tr("Distance of a ball centre from its predicted place after compensation; "
+                      "expected: what noise and the uncertainty of the errors explain.")) +
+         explained(
+             tr("Condition of the balls"),
+             tr("How evenly the balls determine the six errors of a pose: 1 when all are known "
+                "equally well, large when some of them are hardly seen."));
+}
+
 std::string analysis_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
                           int feature) {
   std::string html =
-      residual_chart(facts) + as_read_note() + key_numbers(facts) + words_of_rotary();
-  html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
+      residual_chart(facts.combined) + as_read_note() + key_numbers(facts) + words_of_rotary();
+  html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"),
+                      combined_table(facts.combined, "alpha", "beta"));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
                       location_table(facts));
   html += note(

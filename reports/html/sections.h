@@ -12,6 +12,7 @@
 
 namespace rondure::evaluation {
 struct ContourResult;
+struct FiveAxisResult;
 struct RotaryResult;
 struct SpindleResult;
 struct WheelResult;
@@ -45,6 +46,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string analysis_part(const evaluation::ContourResult& facts,
                                         const record::RunRecord& record, int feature);
 [[nodiscard]] std::string analysis_part(const evaluation::RotaryResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::FiveAxisResult& facts,
                                         const record::RunRecord& record, int feature);
 /// Stands above the key numbers of an analysis: which of them are as read.
 [[nodiscard]] std::string as_read_note();

@@ -133,6 +133,16 @@ std::vector<SummaryLine> lines_of(const evaluation::RotaryResult& facts) {
   return out;
 }
 
+std::vector<SummaryLine> lines_of(const evaluation::FiveAxisResult& facts) {
+  const fit::HeadRms before = facts.gain ? facts.gain->before : facts.study.before;
+  const double expected_mm = facts.gain ? facts.gain->forecast_mm : facts.study.expected_mm;
+  return {
+      {"before", core::phrase("{} um rms, {} um at most", um(before.rms_mm), um(before.max_mm))},
+      {"compensated",
+       core::phrase("{} um rms, {} um at most; {} um rms expected", um(facts.left().rms_mm),
+                    um(facts.left().max_mm), um(expected_mm))}};
+}
+
 /// The summary lines of an analysis, in English.
 std::vector<SummaryLine> summary_lines(const evaluation::AnalysisResult& result) {
   return std::visit([](const auto& found) { return lines_of(found); }, result.found);

@@ -72,7 +72,8 @@ bool is_analysis(const json& plan) {
 bool has_series(const json& plan) {
   for (const json& feature : plan.at("features")) {
     const std::string type = feature.at("type");
-    if (type == "spindle" || type == "wheel" || type == "contour") return true;
+    if (type == "spindle" || type == "wheel" || type == "contour" || type == "five_axis")
+      return true;
   }
   return false;
 }

@@ -62,6 +62,10 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& /*plan*/, std::s
   return std::vector<Target>();
 }
 
+core::Result<AnalysisData> simulate_five_axis(const Plan& /*plan*/, std::size_t /*index*/,
+                                              std::uint64_t /*seed*/) {
+  return core::fail(core::Code::kMeaning, "no simulation here");
+}
 core::Result<AnalysisData> simulate_contour(const Plan& /*plan*/, std::size_t /*index*/,
                                             std::uint64_t /*seed*/) {
   return AnalysisData();

@@ -25,12 +25,12 @@
 namespace rondure::fit {
 namespace {
 
-using Plane = std::vector<Eigen::Vector2d>;
+using PlanePoints = std::vector<Eigen::Vector2d>;
 using Space = std::vector<Eigen::Vector3d>;
 
-Plane circle_points(std::uint64_t seed, int count) {
+PlanePoints circle_points(std::uint64_t seed, int count) {
   core::KeyedNoise noise(seed, {31});
-  Plane out;
+  PlanePoints out;
   for (int k = 0; k < count; ++k) {
     const double theta = core::kTwoPi * (k + 0.4 * noise.uniform()) / count;
     const double r = 25.0 + 0.01 * std::cos(3.0 * theta) + 0.003 * noise.normal();
@@ -59,7 +59,7 @@ Eigen::Vector3d lying(const Space& points) { return ls_cylinder(points)->axis.di
 TEST(MinCircumscribedCircle, IsTheSmallestOfAllPairsAndTriplesThatHoldThePoints) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
-    const Plane points = circle_points(seed, 3 + static_cast<int>(seed % 12));
+    const PlanePoints points = circle_points(seed, 3 + static_cast<int>(seed % 12));
     const auto fit = min_circumscribed_circle(points);
     ASSERT_TRUE(fit.has_value()) << fit.error().what;
     double best = std::numeric_limits<double>::infinity();
@@ -90,7 +90,7 @@ TEST(MinCircumscribedCircle, IsTheSmallestOfAllPairsAndTriplesThatHoldThePoints)
 TEST(OneSidedCircle, KeepsTheOrderOfTheFourReferences) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Plane points = circle_points(seed, 12 + static_cast<int>(7 * seed));
+    const PlanePoints points = circle_points(seed, 12 + static_cast<int>(7 * seed));
     const auto mc = min_circumscribed_circle(points);
     const auto mi = max_inscribed_circle(points);
     const auto mz = min_zone_circle(points);
@@ -186,8 +186,8 @@ TEST(OneSidedCylinder, SaysHowOftenRegularLayersLeaveItWithoutCertificate) {
 
 /// A ring with dents at 0 and 180 deg that hold an inscribed circle between them, and a bump at 90
 /// deg: the circle is free to slide across until the points at 90 or 270 deg stop it.
-Plane dented_ring(double radius) {
-  Plane out;
+PlanePoints dented_ring(double radius) {
+  PlanePoints out;
   for (int k = 0; k < 360; ++k) {
     const double angle = k * core::kDegree;
     const double r = radius + (k % 180 == 0 ? -0.010 : k == 90 ? 0.008 : 0.0);
@@ -292,7 +292,7 @@ TEST(OneSidedCylinder, SaysThatACylinderAcrossAnArcIsSmaller) {
 }
 
 TEST(OneSided, HasNoInscribedReferenceWhereThePointsDoNotSurroundIt) {
-  Plane half;
+  PlanePoints half;
   Space gutter;
   for (int k = 0; k <= 24; ++k) {
     const double theta = 170.0 * core::kDegree * k / 24.0;
@@ -311,7 +311,7 @@ TEST(OneSided, HasNoInscribedReferenceWhereThePointsDoNotSurroundIt) {
 
 TEST(OneSided, NamesTheRowThatIsNotANumber) {
   for (const int count : {9, 500}) {
-    Plane points = circle_points(1, count);
+    PlanePoints points = circle_points(1, count);
     points[7].y() = std::numeric_limits<double>::quiet_NaN();
     Space space = cylinder_points(1, count);
     space[8].z() = std::numeric_limits<double>::infinity();
@@ -331,7 +331,7 @@ TEST(ZoneFitters, LookAtEveryRowForNumbers) {
   for (const int count : {20, 100, 128, 300}) {
     for (int row = 0; row < count; ++row) {
       SCOPED_TRACE(fmt::format("row {} of {}", row, count));
-      Plane points = circle_points(2, count);
+      PlanePoints points = circle_points(2, count);
       points[static_cast<std::size_t>(row)].x() = std::numeric_limits<double>::quiet_NaN();
       for (const ZoneWeights& weights : {kMinimumZone, kMinimumCircumscribed, kMaximumInscribed}) {
         const auto zone = fitter.fit(points, weights);
@@ -346,7 +346,7 @@ TEST(ZoneFitters, LookAtEveryRowForNumbers) {
 
 TEST(MinCircumscribedCircle, RefusesLinesThoughTheyHaveASmallestCircle) {
   for (const std::size_t count : {3U, 60U, 200U}) {
-    Plane line;
+    PlanePoints line;
     for (std::size_t i = 0; i < count; ++i) {
       line.emplace_back(static_cast<double>(i), 2.0 * static_cast<double>(i));
     }
@@ -354,7 +354,7 @@ TEST(MinCircumscribedCircle, RefusesLinesThoughTheyHaveASmallestCircle) {
     ASSERT_FALSE(circle.has_value());
     EXPECT_EQ(circle.error().code, core::Code::kCollinear);
   }
-  const auto circle = min_circumscribed_circle(Plane{{1, 2}, {3, 4}, {1, 2}, {3, 4}});
+  const auto circle = min_circumscribed_circle(PlanePoints{{1, 2}, {3, 4}, {1, 2}, {3, 4}});
   ASSERT_FALSE(circle.has_value());
   EXPECT_EQ(circle.error().code, core::Code::kTooFewPoints);
 }

@@ -581,6 +581,7 @@ core::Result<FittedSurface> fitted(const FeatureResult& feature,
     case Shape::kWheel:
     case Shape::kContour:
     case Shape::kRotaryAxes:
+    case Shape::kFiveAxis:
       break;
   }
   return core::fail(

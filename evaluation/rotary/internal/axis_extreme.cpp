@@ -26,6 +26,8 @@ Eigen::Matrix3d independent_parts(const Eigen::Matrix3d& covariance) {
   return solved.eigenvectors() * solved.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
+}  // namespace
+
 double least_redundancy(const fit::RotaryStudy& study, double angle_rad) {
   double least = 1.0;
   for (const fit::RotaryStation& station : study.stations) {
@@ -35,9 +37,11 @@ double least_redundancy(const fit::RotaryStudy& study, double angle_rad) {
   return std::max(0.0, least);
 }
 
+namespace {
+
 /// The errors of one trial: those of the stations, with the common noise of the reference pose.
 std::vector<double> with_common(std::vector<double> errors_mm, const AxisCurve& curve,
-                                const Eigen::Vector4d& draw) {
+                                const Eigen::VectorXd& draw) {
   for (std::size_t s = 0; s < errors_mm.size(); ++s) errors_mm[s] += curve.common_mm[s].dot(draw);
   return errors_mm;
 }
@@ -59,6 +63,7 @@ AxisCurve axis_curve(const RotaryResult& result, const record::Characteristic& c
   const Eigen::Matrix3d of_reference = table.reference_covariance.block<3, 3>(place - k, place - k);
   const Eigen::Matrix3d parts = scale * independent_parts(factor * of_reference);
   AxisCurve out;
+  out.noises = {{"zero-pose", 3}, {kTipRadius, 1}};
   const auto& modes = result.calibration.common_modes;
   const auto tip = std::ranges::find(modes, kTipRadius, &fixture::CommonMode::name);
   for (std::size_t s = 0; s < axis.motion->stations().size(); ++s) {
@@ -66,7 +71,7 @@ AxisCurve axis_curve(const RotaryResult& result, const record::Characteristic& c
     const double turned_rad = station.angle_rad - table.reference_rad;
     if (std::abs(turned_rad) <= kReferencePose_rad) continue;
     const double by_tip = tip == modes.end() ? 0.0 : (beta ? tip->beta : tip->alpha)[s](place);
-    Eigen::Vector4d common;
+    Eigen::VectorXd common(4);
     common << (table.axis.turn(turned_rad) * parts).row(k).transpose(), scale * by_tip;
     const double alone_mm2 =
         scale * scale * station.covariance(place, place) - common.squaredNorm();
@@ -101,11 +106,10 @@ double axis_value_mm(const record::Characteristic& characteristic, const AxisExt
   return middle_of(characteristic) + off_mm;
 }
 
-UncertaintyStatus axis_error_interval(const RotaryResult& result,
+UncertaintyStatus axis_error_interval(const AxisCurve& curve,
                                       const record::Characteristic& characteristic,
                                       std::vector<InfluenceStatement> declaration,
                                       const UncertaintyOptions& options) {
-  const AxisCurve curve = axis_curve(result, characteristic);
   if (curve.found_mm.empty()) {
     return UncertaintyStatus::none(core::phrase("no station was measured beside the zero pose"));
   }
@@ -123,8 +127,8 @@ UncertaintyStatus axis_error_interval(const RotaryResult& result,
   std::vector<AxisExtreme> drawn;
   std::vector<double> core_mm;
   for (int t = 0; t < trials; ++t) {
-    Eigen::Vector4d common;
-    for (int i = 0; i < 4; ++i) {
+    Eigen::VectorXd common(curve.common_mm.front().size());
+    for (Eigen::Index i = 0; i < common.size(); ++i) {
       common(i) = normal_draw(options.seed, "rotary.zero-pose", static_cast<std::uint64_t>(i), t);
     }
     drawn.push_back(axis_extreme(with_common(draws.draw(t), curve, common), middle_mm));
@@ -143,11 +147,14 @@ UncertaintyStatus axis_error_interval(const RotaryResult& result,
     values.values_mm.push_back(axis_value_mm(characteristic, one));
   }
   const std::size_t s = measured.station;
-  auto stated = statement_of_trials(std::move(values),
-                                    {{"axis-station", curve.u_mm[s]},
-                                     {"zero-pose", curve.common_mm[s].head<3>().norm()},
-                                     {kTipRadius, std::abs(curve.common_mm[s](3))}},
-                                    std::move(declaration), options);
+  std::vector<LinearTerm> budget = {{"axis-station", curve.u_mm[s]}};
+  Eigen::Index at = 0;
+  for (const CommonNoise& noise : curve.noises) {
+    budget.push_back({noise.name, curve.common_mm[s].segment(at, noise.columns).norm()});
+    at += noise.columns;
+  }
+  auto stated =
+      statement_of_trials(std::move(values), std::move(budget), std::move(declaration), options);
   return stated ? UncertaintyStatus::stated(*std::move(stated), options.coverage)
                 : UncertaintyStatus::none(stated.error().said());
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/decompositions.h"
 #include "evaluation/uncertainty/curve_trials.h"
@@ -147,6 +148,33 @@ CombinedField::Residual CombinedField::per_noise() const {
     }
   }
   return out;
+}
+
+ResidualTrials residual_trials(std::span<const CombinedPose> poses, double noise_mm,
+                               const UncertaintyOptions& options) {
+  const CombinedField field(poses, noise_mm);
+  const int trials = std::max(2000, options.least_trials);
+  ResidualTrials out;
+  for (int t = 0; t < trials; ++t) {
+    const CombinedField::Residual drawn = field.draw(options.seed, t);
+    out.rms_mm.push_back(drawn.rms_mm);
+    out.max_mm.push_back(drawn.max_mm);
+  }
+  out.noise = field.per_noise();
+  return out;
+}
+
+UncertaintyStatus residual_interval(double as_measured_mm, bool rms, const ResidualTrials& trials,
+                                    std::vector<InfluenceStatement> declaration,
+                                    const UncertaintyOptions& options) {
+  TrialValues values;
+  values.as_measured_mm = as_measured_mm;
+  values.values_mm = rms ? trials.rms_mm : trials.max_mm;
+  auto stated = statement_of_trials(
+      std::move(values), {{"ball-centre", rms ? trials.noise.rms_mm : trials.noise.max_mm}},
+      std::move(declaration), options);
+  return stated ? UncertaintyStatus::stated(*std::move(stated), options.coverage)
+                : UncertaintyStatus::none(stated.error().said());
 }
 
 }  // namespace rondure::evaluation

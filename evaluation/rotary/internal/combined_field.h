@@ -52,4 +52,19 @@ class CombinedField {
   std::vector<double> cumulative_;  ///< Posterior of the scales, 0..1.
 };
 
+/// The residual in every trial, and its change with the noise of the balls.
+struct ResidualTrials {
+  std::vector<double> rms_mm;
+  std::vector<double> max_mm;
+  CombinedField::Residual noise;
+};
+[[nodiscard]] ResidualTrials residual_trials(std::span<const CombinedPose> poses, double noise_mm,
+                                             const UncertaintyOptions& options);
+
+/// The interval of the residual, its root mean square or the largest.
+[[nodiscard]] UncertaintyStatus residual_interval(double as_measured_mm, bool rms,
+                                                  const ResidualTrials& trials,
+                                                  std::vector<InfluenceStatement> declaration,
+                                                  const UncertaintyOptions& options);
+
 }  // namespace rondure::evaluation

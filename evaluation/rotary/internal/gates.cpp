@@ -86,15 +86,15 @@ Gate reference_gate(const PlacingFacts& placing) {
 
 /// The station with the largest chi-square over its limit. All of them together fail by chance once
 /// in a thousand calibrations.
-Gate station_gate(const RotaryResult& facts) {
+Gate station_gate(std::span<const AxisFacts> axes) {
   double stations = 0.0;
-  for (const AxisFacts& axis : axes_of(facts)) {
+  for (const AxisFacts& axis : axes) {
     stations += static_cast<double>(axis.study->stations.size());
   }
   double worst = 0.0;
   double angle_deg = 0.0;
   std::string name;
-  for (const AxisFacts& axis : axes_of(facts)) {
+  for (const AxisFacts& axis : axes) {
     for (const fit::RotaryStation& station : axis.study->stations) {
       if (station.undetermined || station.dof <= 0) continue;
       const double ratio =
@@ -113,10 +113,10 @@ Gate station_gate(const RotaryResult& facts) {
                             angle_deg, name, worst));
 }
 
-Gate small_residual_gate(const RotaryResult& facts) {
+Gate small_residual_gate(std::span<const AxisFacts> axes) {
   double chi2 = 0.0;
   double dof = 0.0;
-  for (const AxisFacts& axis : axes_of(facts)) {
+  for (const AxisFacts& axis : axes) {
     chi2 += axis.study->s0 * axis.study->s0 * axis.study->dof;
     dof += axis.study->dof;
   }
@@ -128,9 +128,9 @@ Gate small_residual_gate(const RotaryResult& facts) {
                                chi2, least));
 }
 
-Gate redundancy_gate(const RotaryResult& facts) {
+Gate redundancy_gate(std::span<const AxisFacts> axes) {
   double least = 1.0;
-  for (const AxisFacts& axis : axes_of(facts)) {
+  for (const AxisFacts& axis : axes) {
     for (const fit::RotaryStation& station : axis.study->stations) {
       for (const Eigen::Vector3d& r : station.redundancy) least = std::min(least, r.minCoeff());
     }
@@ -144,26 +144,29 @@ Gate redundancy_gate(const RotaryResult& facts) {
                                least, kRedundancy));
 }
 
-Gate condition_gate(const RotaryResult& facts) {
-  return up_to("condition", core::phrase("condition of the balls"), facts.condition,
+Gate condition_gate(double condition) {
+  return up_to("condition", core::phrase("condition of the balls"), condition,
                fit::kConditionWarning, {}, Outcome::kWarns,
                core::phrase("the balls lie nearly on one line (condition {:.1f}, limit {:g}): "
                             "spread them out",
-                            facts.condition, fit::kConditionWarning));
+                            condition, fit::kConditionWarning));
 }
 
-Gate residual_gate(const RotaryResult& facts) {
-  const fixture::Verification& v = facts.calibration.verification;
+}  // namespace
+
+Gate residual_gate(double rms_mm, double expected_mm) {
   // A simulation without errors explains nothing, and leaves what the digits of the touches do.
-  const double ratio = v.rms_mm / std::max(v.expected_mm, kDigits_mm);
+  const double ratio = rms_mm / std::max(expected_mm, kDigits_mm);
   return up_to("depends-on-both",
                core::phrase("residual at combined poses over what the uncertainty explains"), ratio,
                kExplained, {}, Outcome::kVoids,
                core::phrase("the combined poses leave {} um rms, {:.1f} times what the uncertainty "
                             "explains (limit {:g}): errors depend on both angles (gravity, play), "
                             "or something moved; no table of single axes holds them",
-                            core::um(v.rms_mm), ratio, kExplained));
+                            core::um(rms_mm), ratio, kExplained));
 }
+
+namespace {
 
 /// Range of the angles that lie off the stations of an axis, over that of the stations. At a
 /// station its errors were measured; what is left between stations shows off them only.
@@ -227,14 +230,19 @@ Gate scale_gate(const RotaryResult& facts) {
 
 }  // namespace
 
+std::vector<Gate> station_gates(std::span<const AxisFacts> axes, double condition) {
+  return {condition_gate(condition), redundancy_gate(axes), station_gate(axes),
+          small_residual_gate(axes)};
+}
+
 std::vector<Gate> rotary_gates(const RotaryResult& facts, const PlacingFacts& placing) {
-  std::vector<Gate> out = {other_axis_gate(placing), drive_gate(placing),
-                           condition_gate(facts),    redundancy_gate(facts),
-                           station_gate(facts),      small_residual_gate(facts)};
+  std::vector<Gate> out = {other_axis_gate(placing), drive_gate(placing)};
+  for (Gate& gate : station_gates(axes_of(facts), facts.condition)) out.push_back(std::move(gate));
   if (placing.references > 1) out.push_back(reference_gate(placing));
   if (facts.combined.empty()) return out;
   out.push_back(between_stations_gate(facts));
-  out.push_back(residual_gate(facts));
+  const fixture::Verification& v = facts.calibration.verification;
+  out.push_back(residual_gate(v.rms_mm, v.expected_mm));
   out.push_back(scale_gate(facts));
   return out;
 }

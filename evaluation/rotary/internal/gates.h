@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "evaluation/results/gate.h"
@@ -19,6 +20,12 @@ struct PlacingFacts {
   /// Largest difference of a ball between two zero poses, in its standard uncertainty.
   double reference_sigmas = 0.0;
 };
+
+/// Condition, redundancy, and chi2 of the stations of some axes.
+[[nodiscard]] std::vector<Gate> station_gates(std::span<const AxisFacts> axes, double condition);
+
+/// Whether what is left at combined poses is explained (rms).
+[[nodiscard]] Gate residual_gate(double rms_mm, double expected_mm);
 
 /// The gates of a calibration, in the order of the pages; all of them, passed or not. The scales of
 /// `facts` are known.

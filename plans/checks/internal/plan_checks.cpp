@@ -255,6 +255,7 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   refuse("/wheel", "the feature is no wheel");
   refuse("/contour", "the feature is touched, not ground after axis traces");
   refuse("/rotary_axes", "the feature is a surface, not the fixture");
+  refuse("/five_axis", "the feature is a surface, no head");
   if (feature.type != record::Shape::kCircle) refuse("/source/plane", "it is that of a circle");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
@@ -319,7 +320,8 @@ void check_equipment(const Plan& plan, Findings& findings) {
 /// another feature.
 void check_table_names(const Plan& plan, std::size_t index, Findings& findings) {
   const auto has_tables = [](const FeaturePlan& feature) {
-    return feature.type == record::Shape::kContour || feature.type == record::Shape::kRotaryAxes;
+    return feature.type == record::Shape::kContour || feature.type == record::Shape::kRotaryAxes ||
+           feature.type == record::Shape::kFiveAxis;
   };
   const FeaturePlan& feature = plan.features[index];
   const std::string name = record::plain_name(feature.id);

@@ -28,6 +28,7 @@ constexpr std::array kPages = {
     Page{"", "plan.md"},
     Page{"features[].characteristics[]", "drawing.md"},
     Page{"features[].contour", "contour.md"},
+    Page{"features[].five_axis", "five-axis-head.md"},
     Page{"features[].rotary_axes", "fixture-calibration.md"},
     Page{"features[].spindle", "spindle.md"},
     Page{"features[].wheel", "wheel.md"},
@@ -37,6 +38,7 @@ constexpr std::array kPages = {
     Page{"fixture.thorlabs", "fixture-thorlabs.md"},
     Page{"simulation", "simulation.md"},
     Page{"simulation.contour", "contour.md"},
+    Page{"simulation.five_axis", "five-axis-head.md"},
     Page{"simulation.spindle", "spindle.md"},
     Page{"simulation.wheel", "wheel.md"},
 };

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "plans/plan.h"
 #include "plans/schema/contour_table.h"
+#include "plans/schema/five_axis_table.h"
 #include "plans/schema/internal/fixture_drivers_table.h"
 #include "plans/schema/internal/zaber_table.h"
 #include "plans/schema/key_spec.h"
@@ -308,7 +309,7 @@ void describe(Visitor& v, EnvironmentPlan& p) {
                  "declared. Left out: such a result is void."));
   v.number("max_drift_K", p.max_drift_K,
            above(0.0, 10.0,
-                 "Of spindle, wheel, contour and rotary_axes: a greater change at one place during "
+                 "Of spindle, wheel, contour, rotary_axes and five_axis: a greater change at one place during "
                  "the measurement makes the result void."));
 }
 
@@ -500,7 +501,8 @@ void describe(Visitor& v, FeaturePlan& p) {
       {.required = true,
        .meaning = "The surface, or an analysis: spindle (part form and axis motion from three "
                   "probes), wheel (grinding wheel, from points of its edge), contour (crank pins "
-                  "in follow grinding), rotary_axes (calibration of the fixture with balls)."});
+                  "in follow grinding), rotary_axes (calibration of the fixture with balls), five_axis (axes C and A of "
+                  "a swivel head)."});
   v.text("side", p.side, {.meaning = "outside: a shaft; inside: a bore."});
   v.text(
       "letter", p.letter,
@@ -514,6 +516,8 @@ void describe(Visitor& v, FeaturePlan& p) {
   v.object("contour", p.contour, {.meaning = "Crank, files and evaluation of the type contour."});
   v.object("rotary_axes", p.rotary_axes,
            {.meaning = "Balls, stations and poses of the type rotary_axes."});
+  v.object("five_axis", p.five_axis,
+           {.meaning = "Set-ups, stations, poses and table of the type five_axis."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("exclude", p.exclude,

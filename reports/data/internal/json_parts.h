@@ -13,6 +13,7 @@
 #include "evaluation/results/finding.h"
 
 namespace rondure::evaluation {
+struct FiveAxisResult;
 struct RotaryResult;
 }  // namespace rondure::evaluation
 
@@ -52,6 +53,7 @@ using Json = nlohmann::ordered_json;
 /// JSON of a feature whose shape is an analysis.
 [[nodiscard]] Json analysis_json(const evaluation::FeatureResult& feature);
 [[nodiscard]] Json rotary_json(const evaluation::RotaryResult& facts);
+[[nodiscard]] Json five_axis_json(const evaluation::FiveAxisResult& facts);
 /// The decision rule of a run with its parameters and statements; null for an unknown rule.
 [[nodiscard]] Json rule_json(const evaluation::Evaluation& evaluation);
 
