@@ -8,7 +8,7 @@
 
 // The swivel head of a five-axis machine: axis C (along z) on the slides carries axis A (along x),
 // which carries the ball. Finds the errors of both from one ball read in a gauge nest while the
-// control holds its place (RTCP); start with identify_head(). Formulas: docs/five-axis-head.md.
+// control holds its place (RTCP); start with identify_head(). Formulas: methods, machine cell 1.
 
 namespace rondure::fit {
 
