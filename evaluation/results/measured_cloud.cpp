@@ -12,7 +12,7 @@
 
 #include "core/units.h"
 #include "fit/zone/center_search.h"
-#include "fixture/kinematics.h"
+#include "fixture/error_model.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 

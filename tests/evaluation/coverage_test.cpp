@@ -215,7 +215,7 @@ Scenario scenario(std::string name, double noise_mm, double lobe_mm, double wave
   evaluation::FixtureInfluences fixture;
   fixture.creep_rad = creep_rad;
   fixture.pivot_mm = Vector3d(0.0, 0.0, -60.0);
-  out.influences = {probe, machine, thermal, fixture, {}};
+  out.influences = {probe, machine, thermal, fixture, false, {}};
   return out;
 }
 

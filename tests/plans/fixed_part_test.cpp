@@ -174,7 +174,7 @@ TEST(FixedPart, HasTheSameResultsHoweverItLeans) {
         for (std::size_t row = 0; row < here.cloud.size(); ++row) {
           const bool plane = here.feature.shape == record::Shape::kPlane;  // its zero is any
           const double turned_rad = here.cloud[row].angle_rad - there.cloud[row].angle_rad;
-          if (!plane) EXPECT_NEAR(std::remainder(turned_rad, core::kTwoPi), 0.0, kSame_rad);
+          EXPECT_NEAR(plane ? 0.0 : std::remainder(turned_rad, core::kTwoPi), 0.0, kSame_rad);
           EXPECT_NEAR(here.cloud[row].height_mm, there.cloud[row].height_mm, 10.0 * kSame_mm);
           EXPECT_EQ(here.cloud[row].left_out, there.cloud[row].left_out);
         }
