@@ -11,8 +11,7 @@ namespace rondure::plans {
 
 ServedCell::ServedCell(const Plan& plan, std::uint64_t seed)
     : features_(plan.features), cell_(plan, seed, false), turns_(!is_fixed(plan)) {
-  const auto first = std::find_if(features_.begin(), features_.end(),
-                                  [](const FeaturePlan& feature) { return is_touched(feature); });
+  const auto first = std::find_if(features_.begin(), features_.end(), needs_machine);
   if (first != features_.end()) cell_.mount(*first);
 }
 
@@ -39,7 +38,7 @@ core::Result<std::vector<Eigen::Vector3d>> ServedCell::align_part(
 
 core::Result<void> ServedCell::choose_feature(int index) {
   const auto count = static_cast<int>(features_.size());
-  if (index < 0 || index >= count || !is_touched(features_[static_cast<std::size_t>(index)])) {
+  if (index < 0 || index >= count || !needs_machine(features_[static_cast<std::size_t>(index)])) {
     return core::fail_with(core::Code::kOutOfRange,
                            "feature {} is none of the {} that can be touched", index, count);
   }
@@ -74,9 +73,8 @@ cmm::ipp::ServerOptions server_options(const Plan& plan) {
 }
 
 core::Result<void> check_servable(const Plan& plan) {
-  const bool touched = std::any_of(plan.features.begin(), plan.features.end(),
-                                   [](const FeaturePlan& feature) { return is_touched(feature); });
-  if (touched && plan.machine && plan.fixture && plan.probe && plan.simulation) return {};
+  if (touches_anything(plan) && plan.machine && plan.fixture && plan.probe && plan.simulation)
+    return {};
   return core::fail(core::Code::kMeaning,
                     "the plan has no virtual machine to serve: it needs machine, fixture, probe, "
                     "simulation and a feature that is touched");

@@ -12,8 +12,8 @@
 
 namespace rondure::plans {
 
-/// The simulated cell of a plan for an I++ DME server: machine, part and the two-axis fixture,
-/// which AlignPart turns; without a fixture a machine that has no rotary table.
+/// The simulated cell of a plan for an I++ DME server: machine, part or balls, and the two-axis
+/// fixture, which AlignPart turns; without a fixture a machine that has no rotary table.
 class ServedCell final : public cmm::ipp::Backend {
  public:
   /// @param plan  Must have `machine`, `fixture`, `probe` and `simulation`, and a feature to touch;

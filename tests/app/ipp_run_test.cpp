@@ -240,6 +240,35 @@ TEST(IppRun, JudgesTheTwentyCallOutsOfADrawingAsTheRunInOneProcess) {
   EXPECT_EQ(conform, 20);
 }
 
+TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
+  for (const char* name : {"03_calibrate_fixture.json", "03_inspect_calibrated.json"}) {
+    SCOPED_TRACE(name);
+    const TemporaryFolder folder;
+    fs::copy(example("03_calibration"), folder / "03_calibration");
+    const Simulator simulator(free_port(), "inf", name);
+    std::vector<json> reports;
+    for (const char* driver : {"ippdme", "simulated"}) {
+      const std::string plan = std::string(driver) + ".json";
+      write_wire_plan(folder / plan, simulator.port(), driver, name);
+      const Outcome ran = rondure({"run", folder / plan, "--out", folder / driver, "--archive",
+                                   "none", "--format", "json"});
+      ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+      EXPECT_EQ(rondure({"verify", folder / driver}).status, 0);
+      reports.emplace_back(json::parse(read(folder / driver / "report.json")));
+    }
+    const auto wire = journal_of(folder / "ippdme");
+    const auto inside = journal_of(folder / "simulated");
+    expect_same_touches(wire, inside);
+    for (std::size_t i = 0; i < wire.touches.size(); ++i) {
+      ASSERT_EQ(wire.touches[i].time_s, inside.touches[i].time_s) << "touch " << i;
+    }
+    for (std::size_t f = 0; f < wire.features.size(); ++f) {
+      EXPECT_EQ(reports[0]["features"][f]["characteristics"],
+                reports[1]["features"][f]["characteristics"]);
+    }
+  }
+}
+
 TEST(IppRun, AServedWorldMeasuresTheNextPartAsTheFirst) {
   const TemporaryFolder folder;
   const Simulator simulator;

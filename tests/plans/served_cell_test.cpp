@@ -228,6 +228,36 @@ TEST(ServedCell, OffersTheToolOfThePlan) {
   EXPECT_EQ(cell.machine().capabilities().tools, std::vector<std::string>{"Probe 7"});
 }
 
+TEST(ServedCell, TurnsTheBallsOfACalibrationToTheirTruePlaces) {
+  const Plan plan = testing::plan_of("03_calibrate_fixture.json");
+  ASSERT_TRUE(check_servable(plan));
+  ServedCell served(plan, 5);
+  EXPECT_TRUE(served.choose_feature(0));
+  SimulatedCell cell(plan, 5, false);
+  cell.mount(plan.features[0]);
+  ASSERT_TRUE(served.machine().home() && served.home_table());
+  ASSERT_TRUE(cell.machine().home() && cell.home_fixture());
+  const core::Pose pose = example_pose();
+  const Eigen::Matrix3d R = fixture::body_to_machine({}, pose).linear();
+  const std::array<cmm::ipp::Alignment, 2> wanted = {
+      {{Vector3d::UnitZ(), R.col(2)}, {Vector3d::UnitY(), R.col(1)}}};
+  ASSERT_TRUE(served.align_part(wanted));
+  ASSERT_TRUE(cell.turn_to(pose));
+  const Eigen::Isometry3d X_WB = fixture::body_to_machine(cell.kinematics(), pose);
+  cmm::TouchCommand down;  // onto the pole of the ball in the middle
+  down.expected_tip_W_mm = X_WB * Vector3d(0.0, 0.0, 90.0) + Vector3d(0.0, 0.0, 7.0);
+  down.direction_W = -Vector3d::UnitZ();
+  down.approach_mm = down.search_mm = kApproach_mm;
+  down = cmm::on_grid(down);
+  for (cmm::Machine* machine : {&served.machine(), &cell.machine()}) {
+    ASSERT_TRUE(machine->move_to(start_of(down)));
+  }
+  const auto over_wire = served.machine().touch(down);
+  const auto inside = cell.machine().touch(down);
+  ASSERT_TRUE(over_wire && inside);
+  EXPECT_EQ(over_wire->tip_W_mm, inside->tip_W_mm);
+}
+
 TEST(ServedCell, APlanWithoutASimulationCannotBeServed) {
   const auto plan = read_plan(testing::example("09_axle_points_file.json"));
   ASSERT_TRUE(plan.has_value());
