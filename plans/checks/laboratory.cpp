@@ -79,7 +79,8 @@ std::optional<PictureSize> size_of_png(std::string_view bytes) {
 /// The size of a JPEG whose segments are whole up to its scan, and that has its end. Source: ITU-T
 /// T.81, annex B.
 std::optional<PictureSize> size_of_jpeg(std::string_view bytes) {
-  if (!bytes.ends_with("\xFF\xD9")) return std::nullopt;
+  constexpr std::size_t kEnd = 0xFFD9;
+  if (bytes.size() < 4 || number_at(bytes, bytes.size() - 2, 2) != kEnd) return std::nullopt;
   std::optional<PictureSize> out;
   std::size_t at = 2;
   while (at + 4 <= bytes.size() && bytes[at] == '\xFF') {
@@ -101,7 +102,8 @@ core::Result<std::string> logo_of(const Plan& plan, const std::string& file) {
     return core::fail(core::Code::kFile, fmt::format("the logo {} {}", in_quotes(file), why));
   };
   const bool png = bytes.starts_with("\x89PNG\r\n\x1a\n");
-  if (!png && !bytes.starts_with("\xFF\xD8\xFF")) return refuse("is neither a PNG nor a JPEG file");
+  const bool jpeg = number_at(bytes, 0, 3) == 0xFFD8FF;
+  if (!png && !jpeg) return refuse("is neither a PNG nor a JPEG file");
   const auto size = png ? size_of_png(bytes) : size_of_jpeg(bytes);
   if (!size) {
     return refuse(

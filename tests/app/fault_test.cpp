@@ -28,7 +28,8 @@ struct ChangedRun {
 void expect_unfinished(const ChangedRun& run) {
   EXPECT_EQ(run.outcome.status, 3);
   EXPECT_THAT(run.outcome.out,
-              ::testing::StartsWith("0 of 2 conform; CYLt of running surface: void;"));
+              ::testing::StartsWith(
+                  "INCOMPLETE: 0 of 2 judged\n0 of 2 conform; CYLt of running surface: void;"));
   EXPECT_THAT(run.outcome.out, HasSubstr("not finished"));
   EXPECT_THAT(read(run.folder / "run" / "report.html"), HasSubstr("</html>"));
   const Outcome verified = run.verify();

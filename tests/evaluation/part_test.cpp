@@ -286,9 +286,8 @@ TEST(SurfaceWindows, LeaveOutOnlyWhatLiesOffTheProfile) {
 
 TEST(SurfaceWindows, OfATouchedPartTurnWithItsPose) {
   // The part leans by 30 deg; its window at 90 deg lies between 10 and 20 mm of part z.
-  const core::Pose pose{30.0 * core::kDegree, 0.0};
   const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(pose.alpha_rad, Eigen::Vector3d::UnitX()).toRotationMatrix();
+      Eigen::AngleAxisd(30.0 * core::kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
   Layers layers;
   for (const double z : {100.0, 115.0, 130.0}) {
     layers.push_back(ring(8, z, [](double) { return 0.0; }));
@@ -300,7 +299,7 @@ TEST(SurfaceWindows, OfATouchedPartTurnWithItsPose) {
   settings.first_layer_mm = 0.0;
   FeatureResult feature = cylinder_of(layers, settings);
   feature.feature.strategy = record::Strategy::kGuided;
-  feature.poses.push_back({.pose = pose, .ending = {}, .final_pose = true});
+  feature.part_turn = turn;
   const auto surface = prepared_of(feature);
   ASSERT_TRUE(surface) << surface.error().what;
   EXPECT_THAT(left_out_rows(*surface), ElementsAre(8 + 2));

@@ -13,6 +13,7 @@
 #include "evaluation/evaluate.h"
 #include "plans/forecast/forecast.h"
 #include "plans/run/runner.h"
+#include "tests/core/full.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 
@@ -113,10 +114,10 @@ Json leaning(double lean_deg, double azimuth_deg) {
                          std::cos(lean)};
   out["simulation"]["probe"].erase("repeatability_um");
   Json& a = out["features"][0];
-  a["exclude"] = {{{"name", "keyway"}, {"from_deg", 40}, {"to_deg", 80}}};
   a["characteristics"].push_back(
       {{"id", "GG"}, {"form", "diameter"}, {"size", "GG"}, {"lower_um", -20}, {"upper_um", 20}});
-  Json& b = out["features"][1];
+  Json& b = out["features"][1];  // no keyway in A: a datum axis is then any of a flat optimum
+  b["exclude"] = {{{"name", "keyway"}, {"from_deg", 40}, {"to_deg", 80}}};
   b["characteristics"].push_back(
       {{"id", "total"}, {"form", "total-run-out"}, {"datum", {"A"}}, {"tolerance_um", 20}});
   b["characteristics"].push_back({{"id", "line"}, {"form", "straightness"}, {"tolerance_um", 20}});
@@ -147,44 +148,49 @@ TEST(FixedPart, HasTheSameResultsHoweverItLeans) {
   constexpr double kSame_rad = 1e-6;
   const evaluation::Evaluation upright = evaluated(leaning(0.0, 0.0));
   ASSERT_EQ(upright.features.size(), 4U);
-  for (const double lean_deg : {30.0, 52.0, 55.0, 60.0, 80.0, 90.0}) {
-    for (const double azimuth_deg : {0.0, 70.0, 180.0, 235.0, 270.0}) {
-      SCOPED_TRACE(fmt::format("leans {} deg towards {} deg", lean_deg, azimuth_deg));
-      const Json plan = leaning(lean_deg, azimuth_deg);
-      const evaluation::Evaluation leans = evaluated(plan);
-      ASSERT_EQ(leans.features.size(), upright.features.size());
-      const auto axis = plan["part"]["axis"].get<std::array<double, 3>>();
-      const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(
-                                       Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Map(axis.data()))
-                                       .toRotationMatrix();
-      for (std::size_t f = 0; f < leans.features.size(); ++f) {
-        const evaluation::FeatureResult& here = leans.features[f];
-        const evaluation::FeatureResult& there = upright.features[f];
-        SCOPED_TRACE(here.feature.id);
-        ASSERT_FALSE(here.failure) << here.failure->what;
-        ASSERT_EQ(here.characteristics.size(), there.characteristics.size());
-        for (std::size_t c = 0; c < here.characteristics.size(); ++c) {
-          const auto& value = here.characteristics[c];
-          SCOPED_TRACE(value.characteristic.id);
-          ASSERT_TRUE(value.value_mm()) << value.reason.english();
-          EXPECT_NEAR(*value.value_mm(), *there.characteristics[c].value_mm(), kSame_mm);
-          EXPECT_EQ(value.verdict, there.characteristics[c].verdict);
-        }
-        ASSERT_EQ(here.cloud.size(), there.cloud.size());
-        for (std::size_t row = 0; row < here.cloud.size(); ++row) {
-          const bool plane = here.feature.shape == record::Shape::kPlane;  // its zero is any
-          const double turned_rad = here.cloud[row].angle_rad - there.cloud[row].angle_rad;
-          EXPECT_NEAR(plane ? 0.0 : std::remainder(turned_rad, core::kTwoPi), 0.0, kSame_rad);
-          EXPECT_NEAR(here.cloud[row].height_mm, there.cloud[row].height_mm, 10.0 * kSame_mm);
-          EXPECT_EQ(here.cloud[row].left_out, there.cloud[row].left_out);
-        }
-        EXPECT_TRUE(here.poses.empty());
-        if (!here.mz_cylinder) continue;
-        const Eigen::Vector3d found = turn.transpose() * here.mz_cylinder->axis.direction;
-        EXPECT_NEAR(found.cross(there.mz_cylinder->axis.direction).norm(), 0.0, kSame_rad);
-        EXPECT_NEAR(here.mz_cylinder->outer_radius_mm, there.mz_cylinder->outer_radius_mm,
-                    kSame_mm);
+  std::vector<std::pair<double, double>> leans_deg = {{30.0, 70.0}, {60.0, 235.0}, {90.0, 0.0}};
+  if (test::full()) {
+    for (const double lean_deg : {30.0, 52.0, 55.0, 60.0, 80.0, 90.0}) {
+      for (const double to_deg : {0.0, 70.0, 180.0, 235.0, 270.0}) {
+        leans_deg.emplace_back(lean_deg, to_deg);
       }
+    }
+  }
+  for (const auto& [lean_deg, azimuth_deg] : leans_deg) {
+    SCOPED_TRACE(fmt::format("leans {} deg towards {} deg", lean_deg, azimuth_deg));
+    const Json plan = leaning(lean_deg, azimuth_deg);
+    const evaluation::Evaluation leans = evaluated(plan);
+    ASSERT_EQ(leans.features.size(), upright.features.size());
+    const auto axis = plan["part"]["axis"].get<std::array<double, 3>>();
+    const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(
+                                     Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Map(axis.data()))
+                                     .toRotationMatrix();
+    for (std::size_t f = 0; f < leans.features.size(); ++f) {
+      const evaluation::FeatureResult& here = leans.features[f];
+      const evaluation::FeatureResult& there = upright.features[f];
+      SCOPED_TRACE(here.feature.id);
+      ASSERT_FALSE(here.failure) << here.failure->what;
+      ASSERT_EQ(here.characteristics.size(), there.characteristics.size());
+      for (std::size_t c = 0; c < here.characteristics.size(); ++c) {
+        const auto& value = here.characteristics[c];
+        SCOPED_TRACE(value.characteristic.id);
+        ASSERT_TRUE(value.value_mm()) << value.reason.english();
+        EXPECT_NEAR(*value.value_mm(), *there.characteristics[c].value_mm(), kSame_mm);
+        EXPECT_EQ(value.verdict, there.characteristics[c].verdict);
+      }
+      ASSERT_EQ(here.cloud.size(), there.cloud.size());
+      for (std::size_t row = 0; row < here.cloud.size(); ++row) {
+        const bool plane = here.feature.shape == record::Shape::kPlane;  // its zero is any
+        const double turned_rad = here.cloud[row].angle_rad - there.cloud[row].angle_rad;
+        EXPECT_NEAR(plane ? 0.0 : std::remainder(turned_rad, core::kTwoPi), 0.0, kSame_rad);
+        EXPECT_NEAR(here.cloud[row].height_mm, there.cloud[row].height_mm, 10.0 * kSame_mm);
+        EXPECT_EQ(here.cloud[row].left_out, there.cloud[row].left_out);
+      }
+      EXPECT_TRUE(here.poses.empty());
+      if (!here.mz_cylinder) continue;
+      const Eigen::Vector3d found = turn.transpose() * here.mz_cylinder->axis.direction;
+      EXPECT_NEAR(found.cross(there.mz_cylinder->axis.direction).norm(), 0.0, kSame_rad);
+      EXPECT_NEAR(here.mz_cylinder->outer_radius_mm, there.mz_cylinder->outer_radius_mm, kSame_mm);
     }
   }
 }
