@@ -318,7 +318,9 @@ void FormModel::find_bands() {
         places.try_emplace({group.octave, group.degree_class}, bands_.size());
     if (fresh) {
       FormBand band;
-      band.rareness = std::max(0.1, std::min(1.0, std::exp2(1.0 - group.octave))) *
+      // A form of few groups is as likely as one of many. With 1 in the lowest octaves half of a
+      // band is present beforehand, and noise is taken for form where its groups are in truth none.
+      band.rareness = std::max(0.1, std::min(0.5, std::exp2(1.0 - group.octave))) *
                       (group.degree_class < 2 ? 1.0 : 0.3);
       bands_.push_back(band);
     }
