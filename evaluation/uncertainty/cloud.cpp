@@ -58,6 +58,34 @@ core::Result<FormCloud> form_cloud(FormKind kind, std::span<const Vector3d> poin
   return cloud;
 }
 
+core::Result<FormCloud> sections_cloud(std::span<const std::vector<Vector3d>> sections_mm,
+                                       const Vector3d& direction) {
+  FormCloud out;
+  out.kind = FormKind::kSections;
+  out.axis = {Vector3d::Zero(), direction.normalized()};
+  const double count = static_cast<double>(sections_mm.size());
+  std::vector<FormCloud> sections;
+  for (const std::vector<Vector3d>& points : sections_mm) {
+    TRY(auto section, form_cloud(FormKind::kRoundness, points, direction));
+    Vector3d middle = Vector3d::Zero();
+    for (const Vector3d& p : points) middle += p / static_cast<double>(points.size());
+    const double along = (middle - section.axis.point_mm).dot(out.axis.direction);
+    section.axis.point_mm += along * out.axis.direction;
+    out.axis.point_mm += section.axis.point_mm / count;
+    out.radius_mm += section.radius_mm / count;
+    sections.push_back(std::move(section));
+  }
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    for (FormPoint& point : sections[s].points) {
+      point.section = static_cast<int>(s);
+      point.height_mm = (sections[s].axis.point_mm - out.axis.point_mm).dot(out.axis.direction);
+      point.deviation_mm += sections[s].radius_mm - out.radius_mm;
+      out.points.push_back(point);
+    }
+  }
+  return out;
+}
+
 Vector3d outward_normal(const FormCloud& cloud, const FormPoint& point) {
   const auto across = fit::across(cloud.axis.direction);
   return across * Eigen::Vector2d(std::cos(point.angle_rad), std::sin(point.angle_rad));
@@ -78,14 +106,15 @@ Eigen::MatrixXd rigid_motions(const FormCloud& cloud) {
   for (const FormPoint& p : cloud.points) {
     reach = std::max(reach, std::abs(p.height_mm - middle));
   }
-  Eigen::MatrixXd out(n, tilts ? 5 : 3);
+  const Index sections = cloud.kind == FormKind::kSections ? cloud.points.back().section + 1 : 1;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, tilts ? 5 : 3 * sections);
   for (Index i = 0; i < n; ++i) {
     const FormPoint& p = cloud.points[static_cast<std::size_t>(i)];
     const double arm = plane ? p.height_mm / cloud.radius_mm : 1.0;
     const double c = arm * std::cos(p.angle_rad);
     const double s = arm * std::sin(p.angle_rad);
     const double q = reach > 0.0 ? (p.height_mm - middle) / reach : 0.0;
-    out.row(i).head(3) << 1.0, c, s;
+    out.row(i).segment(Index{3} * p.section, 3) << 1.0, c, s;
     if (tilts) out.row(i).tail(2) << q * c, q * s;
   }
   return out;

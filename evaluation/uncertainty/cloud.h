@@ -16,6 +16,7 @@ namespace rondure::evaluation {
 enum class FormKind {
   kCylindricity,  ///< CYLt of all points.
   kRoundness,     ///< RONt of one section.
+  kSections,      ///< RONt of several sections: that of the section where it is greatest.
   kFlatness,      ///< Of a plane: heights of the points are distances from its middle.
 };
 
@@ -28,6 +29,7 @@ struct FormPoint {
   int repeats = 1;      ///< Number of touches that the point is the mean of, >= 1.
   int pose = 0;         ///< Fixture pose in which it was touched.
   double time_1 = 0.0;  ///< Time of the touch, from 0 (first touch) to 1 (last touch).
+  int section = 0;      ///< Of kSections: which one, from 0 without gaps, ascending.
 };
 
 /// Points of a cylinder or a section with all data that the uncertainty engine needs: measured
@@ -58,6 +60,14 @@ struct FormCloud {
     FormKind kind, std::span<const Eigen::Vector3d> points_mm,
     const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
 
+/// Several sections as one cloud of kSections, one after another. Each is taken about its own
+/// least-squares circle, so that a bend or a taper of the part is no form; what they have in
+/// common, such as lobes along the whole part, is learnt from all.
+/// @param direction  Of the axis, normal of all sections.
+/// @return  The errors of fit::ls_circle().
+[[nodiscard]] core::Result<FormCloud> sections_cloud(
+    std::span<const std::vector<Eigen::Vector3d>> sections_mm, const Eigen::Vector3d& direction);
+
 /// The unit vector from the axis to a point, in the frame of the cloud.
 [[nodiscard]] Eigen::Vector3d outward_normal(const FormCloud& cloud, const FormPoint& point);
 
@@ -65,7 +75,7 @@ struct FormCloud {
 [[nodiscard]] Eigen::Vector3d position_mm(const FormCloud& cloud, const FormPoint& point);
 
 /// Effect of a shift, a tilt (cylinder and plane only) and a change of radius on the deviations, to
-/// first order: n x 5, of a section and of a plane n x 3.
+/// first order: n x 5, of a plane n x 3, of each section 3 columns more.
 [[nodiscard]] Eigen::MatrixXd rigid_motions(const FormCloud& cloud);
 
 /// The same as orthonormal columns (fewer where the points do not determine them).

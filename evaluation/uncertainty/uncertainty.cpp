@@ -182,7 +182,7 @@ core::Result<std::optional<WholeExtent>> extent_of(const FormCloud& cloud, const
   out.declared = !spectrum->terms.empty();
   if (out.declared) return std::optional<WholeExtent>(out);
   const PointLayout& layout = model.columns().layout();
-  const bool section = cloud.kind == FormKind::kRoundness;
+  const bool section = cloud.kind == FormKind::kRoundness || cloud.kind == FormKind::kSections;
   if (!layout.layered || layout.arc_rad || (!section && layout.layers < kDenseLayers) ||
       layout.points_per_layer < kDensePoints) {
     const int layers = section ? 1 : kDenseLayers;

@@ -437,14 +437,15 @@ struct TouchedFace {
   Circles touched;
 };
 
-/// Flatness about both references, with intervals where noise is declared.
-std::vector<CharacteristicResult> flatness(const Circles& circles, double sigma_mm) {
+/// A form about both references, with intervals where noise is declared.
+std::vector<CharacteristicResult> judged(const Circles& circles, double sigma_mm,
+                                         record::Shape shape, record::Form form) {
   record::RunRecord run;
   run.header.decision_rule = "iso-14253-1";
-  auto& feature = add_to_points_run(run, "f", record::Shape::kPlane, circles);
+  auto& feature = add_to_points_run(run, "f", shape, circles);
   using record::Reference;
-  feature.characteristics = {{"mz", record::Form::kFlatness, Reference::kMinimumZone, 0.02, ""},
-                             {"ls", record::Form::kFlatness, Reference::kLeastSquares, 0.02, ""}};
+  feature.characteristics = {{"mz", form, Reference::kMinimumZone, 0.02, ""},
+                             {"ls", form, Reference::kLeastSquares, 0.02, ""}};
   record::UncertaintyTask declared;
   declared.probe.emplace().repeatability_um = sigma_mm / core::kMicrometre;
   declared.least_trials = declared.most_trials = 2000;
@@ -461,8 +462,11 @@ TEST(Coverage, OfFlatnessHoldsTheTruth) {
     std::array<double, 2> bias_um{};
     for (int p = 0; p < count; ++p) {
       const TouchedFace face(sigma_mm, static_cast<std::uint64_t>(p));
-      const auto truth = flatness(face.truth, 0.0);
-      const auto read = flatness(face.touched, sigma_mm);
+      const auto of = [](const Circles& circles, double sigma) {
+        return judged(circles, sigma, record::Shape::kPlane, record::Form::kFlatness);
+      };
+      const auto truth = of(face.truth, 0.0);
+      const auto read = of(face.touched, sigma_mm);
       for (std::size_t r = 0; r < 2; ++r) {
         const UncertaintyStatement* stated = read[r].value->statement();
         ASSERT_NE(stated, nullptr) << read[r].reason.english();
@@ -479,6 +483,59 @@ TEST(Coverage, OfFlatnessHoldsTheTruth) {
       EXPECT_LT(bias_um[r], 0.5 * sigma_mm / core::kMicrometre);
     }
   }
+}
+
+/// Sections of 8 points, an oval with three lobes along the whole shaft.
+struct TouchedShaft {
+  TouchedShaft(double sigma_mm, std::uint64_t number) {
+    core::KeyedNoise noise(kSeed, {6, number});
+    std::array<double, 4> size{};
+    for (double& one : size) one = noise.normal();
+    for (int j = 0; j < 4; ++j) {
+      truth.emplace_back();
+      touched.emplace_back();
+      for (int i = 0; i < 8; ++i) {
+        const double angle = core::kTwoPi * i / 8.0;
+        const double form =
+            size[0] * std::cos(2.0 * angle) + size[1] * std::sin(2.0 * angle) +
+            0.5 * (size[2] * std::cos(3.0 * angle) + size[3] * std::sin(3.0 * angle));
+        const Vector3d out(std::cos(angle), std::sin(angle), 0.0);
+        const Vector3d height(0.0, 0.0, 12.0 * j);
+        const double radius = kPartRadius + 0.5e-3 * form;
+        truth.back().push_back(radius * out + height);
+        touched.back().push_back((radius + sigma_mm * noise.normal()) * out + height);
+      }
+    }
+  }
+  Circles truth;
+  Circles touched;
+};
+
+// The section that reads most is the one that noise raises most: its interval alone lies too high,
+// and is as wide as that of 8 points.
+TEST(Coverage, OfRoundnessInSeveralSectionsHoldsTheTruth) {
+  const int count = inspections(12, 300);
+  constexpr double kSigma = 0.5e-3;
+  std::array<Tally, 2> tallies{};
+  for (int p = 0; p < count; ++p) {
+    const TouchedShaft shaft(kSigma, static_cast<std::uint64_t>(p));
+    const auto of = [](const Circles& circles, double sigma) {
+      return judged(circles, sigma, record::Shape::kCylinder, record::Form::kRoundness);
+    };
+    const auto truth = of(shaft.truth, 0.0);
+    const auto read = of(shaft.touched, kSigma);
+    for (std::size_t r = 0; r < tallies.size(); ++r) {
+      const UncertaintyStatement* stated = read[r].value->statement();
+      ASSERT_NE(stated, nullptr) << read[r].reason.english();
+      tallies[r].count = count;
+      tallies[r].add(*truth[r].value_mm(), read[r].value->value_mm(), *stated);
+    }
+  }
+  std::printf("%s", kHead);
+  tallies[0].print("4 sections, MZCI");
+  tallies[1].print("4 sections, LSCI");
+  expect_covered(tallies[0], "MZCI", 0.72);  // 1.03 um of the section alone that reads most
+  expect_covered(tallies[1], "LSCI", 0.85);
 }
 
 }  // namespace

@@ -16,15 +16,46 @@ namespace {
 struct Rows {
   FormKind kind = FormKind::kCylindricity;
   std::vector<std::size_t> rows;
+  std::vector<std::size_t> counts = {};  ///< Of kSections: rows of each section.
 };
+
+/// Of many or dense sections those that read most take part: the others hardly ever hold the
+/// greatest value, and all sections together would take as long as the whole surface.
+constexpr std::size_t kMostSections = 32;
+constexpr std::size_t kMostInSections = 2000;
+
+/// The sections that may hold the greatest value. It is that of the surface, whichever section
+/// noise lets read most: an interval of that section alone would be too high.
+Rows rows_of_sections(const FeatureResult& result, record::Reference reference) {
+  std::vector<std::pair<double, const LayerResult*>> read;
+  for (const LayerResult& layer : result.layers) {
+    const auto section = section_deviation(layer, reference);
+    if (!section) return {FormKind::kRoundness, {}};
+    read.emplace_back(section->value_mm, &layer);
+  }
+  std::stable_sort(read.begin(), read.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::size_t points = 0;
+  std::size_t kept = 0;
+  for (; kept < std::min(read.size(), kMostSections); ++kept) {
+    points += read[kept].second->rows.size();
+    if (kept > 0 && points > kMostInSections) break;
+  }
+  read.resize(kept);
+  std::sort(read.begin(), read.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+  Rows out{kept > 1 ? FormKind::kSections : FormKind::kRoundness, {}};
+  for (const auto& [value_mm, layer] : read) {
+    out.rows.insert(out.rows.end(), layer->rows.begin(), layer->rows.end());
+    out.counts.push_back(layer->rows.size());
+  }
+  return out;
+}
 
 Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
   Rows out;
   if (asked.form == record::Form::kRoundness) {
-    out.kind = FormKind::kRoundness;
-    const auto worst = worst_section(result, asked.reference);
-    if (worst) out.rows = worst->layer->rows;
-    return out;
+    return rows_of_sections(result, asked.reference);
   }
   for (std::size_t i = 0; i < result.cloud.size(); ++i) out.rows.push_back(i);
   return out;
@@ -54,7 +85,18 @@ core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) 
   std::optional<Eigen::Vector3d> direction;
   if (result.mz_cylinder) direction = result.mz_cylinder->axis.direction;
   if (result.feature.shape == record::Shape::kCircle) direction = result.section_axis.direction;
-  auto cloud = form_cloud(rows.kind, tips, direction);
+  auto cloud = core::Result<FormCloud>();
+  if (rows.kind == FormKind::kSections) {
+    std::vector<std::vector<Eigen::Vector3d>> sections;
+    for (auto tip = tips.begin(); const std::size_t count : rows.counts) {
+      const auto end = tip + static_cast<std::ptrdiff_t>(count);
+      sections.emplace_back(tip, end);
+      tip = end;
+    }
+    cloud = sections_cloud(sections, direction.value_or(Eigen::Vector3d::UnitZ()));
+  } else {
+    cloud = form_cloud(rows.kind, tips, direction);
+  }
   if (!cloud) return cloud;
   cloud->outside = result.feature.side == record::Side::kOutside;
   cloud->passes = passes_of(result.cloud);

@@ -49,7 +49,23 @@ double unseen_in(const FeatureResult& result) {
   return unseen_rad(std::move(angles_rad), a_turn);
 }
 
-/// The deviation about one reference, or why that reference does not exist.
+core::Result<Deviation> deviation_about(const FeatureResult& result, Reference reference) {
+  if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
+  switch (reference) {
+    case Reference::kLeastSquares:
+      return least_squares_deviation(result.ls_cylinder->deviation_mm);
+    case Reference::kMinimumZone:
+      return certified_deviation(result.mz_cylinder->width_mm(), *result.mz_cylinder);
+    case Reference::kMinimumCircumscribed:
+      return one_sided_deviation(result.mc_cylinder);
+    case Reference::kMaximumInscribed:
+      return one_sided_deviation(result.mi_cylinder);
+  }
+  return not_fitted();
+}
+
+}  // namespace
+
 core::Result<Deviation> section_deviation(const LayerResult& layer, Reference reference) {
   if (!layer.mz) return core::fail(layer.mz.error());
   if (!layer.ls) return core::fail(layer.ls.error());
@@ -68,23 +84,6 @@ core::Result<Deviation> section_deviation(const LayerResult& layer, Reference re
   }
   return not_fitted();
 }
-
-core::Result<Deviation> deviation_about(const FeatureResult& result, Reference reference) {
-  if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
-  switch (reference) {
-    case Reference::kLeastSquares:
-      return least_squares_deviation(result.ls_cylinder->deviation_mm);
-    case Reference::kMinimumZone:
-      return certified_deviation(result.mz_cylinder->width_mm(), *result.mz_cylinder);
-    case Reference::kMinimumCircumscribed:
-      return one_sided_deviation(result.mc_cylinder);
-    case Reference::kMaximumInscribed:
-      return one_sided_deviation(result.mi_cylinder);
-  }
-  return not_fitted();
-}
-
-}  // namespace
 
 double unseen_rad(std::vector<double> angles_rad, std::size_t a_turn) {
   if (angles_rad.size() < 3) return 0.0;

@@ -35,6 +35,10 @@ struct Deviation {
 [[nodiscard]] core::Result<Deviation> cylinder_deviation(const FeatureResult& result,
                                                          record::Reference reference);
 
+/// RONt of one section about a reference; or why that reference does not exist.
+[[nodiscard]] core::Result<Deviation> section_deviation(const LayerResult& layer,
+                                                        record::Reference reference);
+
 /// RONt about a reference: the largest of the sections; fails if one section lacks the reference.
 [[nodiscard]] core::Result<Deviation> worst_section(const FeatureResult& result,
                                                     record::Reference reference);

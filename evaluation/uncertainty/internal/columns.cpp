@@ -29,6 +29,14 @@ std::vector<Rows> height_layers(const FormCloud& cloud) {
   Rows order(cloud.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   if (cloud.kind == FormKind::kRoundness) return {order};
+  if (cloud.kind == FormKind::kSections) {
+    std::vector<Rows> sections;
+    for (const std::size_t i : order) {
+      sections.resize(static_cast<std::size_t>(cloud.points[i].section) + 1);
+      sections.back().push_back(i);
+    }
+    return sections;
+  }
   const auto height = [&](std::size_t i) { return cloud.points[i].height_mm; };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
@@ -219,6 +227,7 @@ void FormColumns::lay_out(const FormCloud& cloud) {
 }
 
 void FormColumns::make_rigid(const FormCloud& cloud, const VectorXd& root_weights) {
+  sections_ = cloud.kind == FormKind::kSections;
   const Index n = static_cast<Index>(cloud.points.size());
   for (const FormPoint& p : cloud.points) middle_mm_ += p.height_mm / static_cast<double>(n);
   for (const FormPoint& p : cloud.points) {
@@ -431,10 +440,18 @@ MatrixXd FormColumns::on_grid(const VectorXd& coefficients, const FormGrid& grid
     if (column.rigid.size() > 0) moved += size * column.rigid;
   }
   const VectorXd motion = rigid_map_ * moved;
-  cosines.row(0).array() -= motion[0];
-  cosines.row(1).array() -= motion[1];
-  sines.row(1).array() -= motion[2];
-  if (motion.size() == 5) {
+  if (sections_) {  // a height each, with a place of its own
+    for (Index h = 0; h < cosines.cols(); ++h) {
+      cosines(0, h) -= motion[3 * h];
+      cosines(1, h) -= motion[3 * h + 1];
+      sines(1, h) -= motion[3 * h + 2];
+    }
+  } else {
+    cosines.row(0).array() -= motion[0];
+    cosines.row(1).array() -= motion[1];
+    sines.row(1).array() -= motion[2];
+  }
+  if (!sections_ && motion.size() == 5) {
     cosines.row(1) -= motion[3] * grid.heights_1.transpose();
     sines.row(1) -= motion[4] * grid.heights_1.transpose();
   }

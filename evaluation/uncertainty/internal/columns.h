@@ -64,7 +64,7 @@ class FormColumns {
   [[nodiscard]] int most_undulations() const { return most_undulations_; }
   [[nodiscard]] int most_degree() const { return most_degree_; }
 
-  /// Position, size and tilt: n x 5 (3 for a section), orthogonal, mean square 1.
+  /// Position, size and tilt: n x 5 (3 for each section), orthogonal, mean square 1.
   [[nodiscard]] const Eigen::MatrixXd& rigid() const { return rigid_; }
 
   /// X^T values, for all columns.
@@ -75,6 +75,7 @@ class FormColumns {
   /// A grid of a full turn, for forms with at most `undulations`.
   [[nodiscard]] FormGrid grid(int undulations, int angles, const Eigen::VectorXd& heights_mm) const;
   /// Values of a form on a grid: one row per angle, one column per height.
+  /// Of sections, the heights are theirs, in their order.
   /// @param coefficients  Of all columns; those with more undulations than the grid has must be 0.
   [[nodiscard]] Eigen::MatrixXd on_grid(const Eigen::VectorXd& coefficients,
                                         const FormGrid& grid) const;
@@ -105,6 +106,7 @@ class FormColumns {
   double middle_mm_ = 0.0;
   double reach_mm_ = 0.0;  ///< Height of q = 1 above the middle.
   bool legendre_ = false;
+  bool sections_ = false;
   Eigen::MatrixXd recurrence_;  ///< Shift and scale of each polynomial.
   Eigen::MatrixXd along_;       ///< Polynomials at the points, weighted.
   Eigen::MatrixXd rigid_;

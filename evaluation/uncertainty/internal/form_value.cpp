@@ -1,5 +1,6 @@
 #include "evaluation/uncertainty/internal/form_value.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,31 +40,55 @@ FormValue::FormValue(const FormCloud& cloud, std::span<const FormPoint> places)
   for (const FormPoint& place : places) {
     directions_.emplace_back(std::cos(place.angle_rad), std::sin(place.angle_rad), place.height_mm);
   }
-  plane_.resize(directions_.size());
   space_.resize(directions_.size());
+  if (kind_ == FormKind::kRoundness || kind_ == FormKind::kSections) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto section = static_cast<std::size_t>(places[i].section);
+      if (section >= sections_.size()) sections_.resize(section + 1);
+      ++sections_[section].count;
+      rows_.push_back(i);
+    }
+    std::stable_sort(rows_.begin(), rows_.end(), [&](std::size_t a, std::size_t b) {
+      return places[a].section < places[b].section;
+    });
+    for (std::size_t s = 1; s < sections_.size(); ++s) {
+      sections_[s].first = sections_[s - 1].first + sections_[s - 1].count;
+    }
+  }
   if (cloud.kind == FormKind::kCylindricity) start_ = start_of(cloud, cylinders_);
 }
 
 double FormValue::of(const Eigen::VectorXd& deviations_mm) {
+  if (!sections_.empty()) {
+    double greatest = 0.0;
+    for (Section& section : sections_) {
+      const double value = of_circle(section, deviations_mm);
+      if (std::isnan(value)) return kNone;
+      greatest = std::max(greatest, value);
+    }
+    return greatest;
+  }
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     const double r = radius_ + deviations_mm[static_cast<Eigen::Index>(i)];
     const Eigen::Vector3d& d = directions_[i];
-    if (kind_ == FormKind::kRoundness) {
-      plane_[i] = {r * d.x(), r * d.y()};
-    } else {
-      space_[i] = {r * d.x(), r * d.y(), d.z()};
-    }
+    space_[i] = {r * d.x(), r * d.y(), d.z()};
   }
-  return kind_ == FormKind::kRoundness ? of_circle() : of_cylinder();
+  return of_cylinder();
 }
 
-double FormValue::of_circle() {
+double FormValue::of_circle(Section& section, const Eigen::VectorXd& deviations_mm) {
+  plane_.resize(section.count);
+  for (std::size_t k = 0; k < section.count; ++k) {
+    const std::size_t i = rows_[section.first + k];
+    const double r = radius_ + deviations_mm[static_cast<Eigen::Index>(i)];
+    plane_[k] = {r * directions_[i].x(), r * directions_[i].y()};
+  }
   if (reference_ == Reference::kMinimumZone) {
-    auto circle = circles_.fit_from(plane_, center_);
+    auto circle = circles_.fit_from(plane_, section.center);
     if (circle.ending != fit::ZoneEnding::kConverged) {
       circle = circles_.fit_from(plane_, Eigen::Vector2d::Zero());
     }
-    center_ = circle.place;
+    section.center = circle.place;
     return circle.width_mm();
   }
   if (reference_ == Reference::kLeastSquares) {

@@ -26,13 +26,21 @@ class FormValue {
   [[nodiscard]] double of(const Eigen::VectorXd& deviations_mm);
 
  private:
-  [[nodiscard]] double of_circle();
+  /// Points of one section, with the start of searches for its circle.
+  struct Section {
+    std::size_t first = 0;  ///< Of the rows in `rows_`.
+    std::size_t count = 0;
+    Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  };
+
+  [[nodiscard]] double of_circle(Section& section, const Eigen::VectorXd& deviations_mm);
   [[nodiscard]] double of_cylinder();
 
   FormKind kind_;
   record::Reference reference_;
-  fit::Axis start_ = {};                              ///< Start of searches for a cylinder.
-  Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< Start of searches for a circle.
+  fit::Axis start_ = {};  ///< Start of searches for a cylinder.
+  std::vector<Section> sections_;
+  std::vector<std::size_t> rows_;  ///< Of the places, section by section.
   double radius_;
   std::vector<Eigen::Vector3d> directions_;  ///< cos, sin, height.
   std::vector<Eigen::Vector2d> plane_;

@@ -45,6 +45,10 @@ WholeSurface::WholeSurface(const FormCloud& cloud, const FormColumns& columns, d
   const int heights = section ? 1 : std::max(kLeastHeights, 2 * columns.most_degree() + 1);
   undulations_ = (declared ? 1 : kUnresolvedReach) * std::max(1, columns.most_undulations());
   heights_mm_ = VectorXd::LinSpaced(heights, low_mm, section ? low_mm : high_mm);
+  if (cloud.kind == FormKind::kSections) {
+    heights_mm_.resize(cloud.points.back().section + 1);
+    for (const FormPoint& point : cloud.points) heights_mm_[point.section] = point.height_mm;
+  }
 }
 
 WholeSurface::Level& WholeSurface::level_for(int undulations) {
@@ -57,11 +61,12 @@ WholeSurface::Level& WholeSurface::level_for(int undulations) {
   Level level;
   level.grid = columns_.grid(fine, kGridPerUndulation * fine, heights_mm_);
   std::vector<FormPoint> places;
-  for (const double height_mm : heights_mm_) {
+  for (Index h = 0; h < heights_mm_.size(); ++h) {
     for (const double angle_rad : level.grid.angles_rad) {
       FormPoint place;
       place.angle_rad = angle_rad;
-      place.height_mm = height_mm;
+      place.height_mm = heights_mm_[h];
+      if (cloud_.kind == FormKind::kSections) place.section = static_cast<int>(h);
       places.push_back(place);
     }
   }
