@@ -145,13 +145,11 @@ void describe(Visitor& v, Indication& p) {
   v.number("to_mm", p.to_mm, within(10'000.0, "Restricted portion: its upper end, part z."));
   v.text("axis", p.axis,
          {.meaning = "Of an axis-error: alpha is the base-fixed axis of the fixture, beta the "
-                     "carried one; c or a, "
-                     "of a head."});
+                     "carried one; c or a, of a head."});
   v.text("error", p.error,
          {.meaning = "Of an axis-error: EX, EY, EZ, shift along this machine axis; EA, EB, EC, "
                      "tilt about its x, y or z, in urad. Of a location: XOC, YOC, YOA, ZOA, or "
-                     "AOC, BOC, BOA, "
-                     "COA in urad."});
+                     "AOC, BOC, BOA, COA in urad."});
   v.texts("datum", p.datum,
           {.empty_allowed = false,
            .meaning = "Datums in order, each the letter or id of a feature, or a common datum, "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -278,10 +279,9 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
     if (!verb->get_subcommands().empty()) return;
     if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
     if (arguments.file.empty()) throw CLI::RequiredError("FILE");
-    for (const char* written : {"--out", "--save-plan"}) {
-      const auto& place =
-          written == std::string_view("--out") ? arguments.out : arguments.save_plan;
-      if (verb->count(written) > 0 && place.empty())
+    for (const auto& [written, place] :
+         {std::pair("--out", &arguments.out), std::pair("--save-plan", &arguments.save_plan)}) {
+      if (verb->count(written) > 0 && place->empty())
         throw CLI::ValidationError(written, "is empty; name a place, or leave it out");
     }
     for (const char* of_page : {"--tolerance-um", "--serial", "--operator"}) {

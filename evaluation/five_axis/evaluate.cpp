@@ -28,7 +28,6 @@ using record::FiveAxisTask;
 constexpr double kSecondsOfDay = 86'400.0;
 constexpr double kLeastReading_mm = 1e-6;  // of the digits of readings
 constexpr double kMostDeviation_mm = 5.0;  // the control holds the ball: no more is left
-constexpr double kLeastDeviation_mm = 1e-5;
 constexpr double kHeadSigmas = 4.0;
 constexpr double kHeadPoses = 5.0;
 
@@ -69,8 +68,6 @@ core::Result<fit::HeadMeasurement> measurement_of(const record::Series& series,
   const auto dx = column("dx_um");
   const auto dy = column("dy_um");
   const auto dz = column("dz_um");
-  const double c_sense = task.c_sense == FiveAxisTask::Sense::kReversed ? -1.0 : 1.0;
-  const double a_sense = task.a_sense == FiveAxisTask::Sense::kReversed ? -1.0 : 1.0;
   for (std::size_t i = 0; i < series.rows(); ++i) {
     const auto balls = static_cast<double>(task.balls.size());
     if (!(setup[i] >= 1.0 && setup[i] <= balls) || setup[i] != std::floor(setup[i])) {
@@ -82,10 +79,11 @@ core::Result<fit::HeadMeasurement> measurement_of(const record::Series& series,
     if (!(step[i] >= 0.0 && step[i] <= 3.0)) {
       return core::fail_with(Code::kMeaning, "row {}: step {:g} is not known", i + 1, step[i]);
     }
-    out.readings.push_back({static_cast<fit::HeadStep>(static_cast<int>(step[i])),
-                            {c_sense * c_deg[i] * kDegree, a_sense * a_deg[i] * kDegree},
-                            static_cast<std::size_t>(setup[i]) - 1,
-                            kMicrometre * Vector3d(dx[i], dy[i], dz[i])});
+    out.readings.push_back(
+        {static_cast<fit::HeadStep>(static_cast<int>(step[i])),
+         {task.c_sign() * c_deg[i] * kDegree, task.a_sign() * a_deg[i] * kDegree},
+         static_cast<std::size_t>(setup[i]) - 1,
+         kMicrometre * Vector3d(dx[i], dy[i], dz[i])});
   }
   if (task.uncertainty && task.uncertainty->ball_um) {
     out.u_mm = record::u_of(task.uncertainty->ball_um) * kMicrometre;
@@ -101,7 +99,8 @@ core::Result<fit::HeadMeasurement> measurement_of(const record::Series& series,
 }
 
 /// Refuses deviations that no head under its control leaves.
-core::Result<void> check_deviations(const fit::HeadMeasurement& m) {
+/// @param loaded  A simulated repeat: a table may leave less than a reading is uncertain by.
+core::Result<void> check_deviations(const fit::HeadMeasurement& m, bool loaded) {
   double largest = 0.0;
   for (const fit::HeadReading& r : m.readings) largest = std::max(largest, r.d_mm.norm());
   if (largest > kMostDeviation_mm) {
@@ -111,10 +110,12 @@ core::Result<void> check_deviations(const fit::HeadMeasurement& m) {
                            "transformation on",
                            largest, kMostDeviation_mm);
   }
-  if (largest < kLeastDeviation_mm && m.u_mm > kLeastDeviation_mm) {
+  // The largest of so many readings lies beyond the uncertainty of one, whatever the head leaves.
+  if (!loaded && largest < m.u_mm) {
     return core::fail_with(Code::kUnits,
-                           "no deviation is above {} um, less than the {} um stated for one "
-                           "reading; give dx_um, dy_um, dz_um in um",
+                           "no deviation is above {} um, less than the {} um that one "
+                           "reading is uncertain by; give dx_um, dy_um, dz_um in um, or the "
+                           "ball_um of this nest",
                            core::um(largest), core::um(m.u_mm));
   }
   return {};
@@ -237,7 +238,7 @@ core::Result<FiveAxisResult> evaluate_five_axis(const record::RunRecord& record,
   TRY(facts.task, record::task_of<FiveAxisTask>(result.feature.settings));
   const record::Series& series = *record.data_of(index, "data");
   TRY(const auto measured, measurement_of(series, facts.task));
-  TRY_DO(check_deviations(measured));
+  TRY_DO(check_deviations(measured, facts.task.repeat.has_value()));
   TRY(facts.study, fit::identify_head(measured));
   facts.readings = measured.readings.size();
   facts.u_mm = measured.u_mm;
@@ -252,11 +253,9 @@ core::Result<FiveAxisResult> evaluate_five_axis(const record::RunRecord& record,
     facts.lever_mm = std::max(facts.lever_mm, ball.centre_mm.norm());
   }
   facts.condition = fit::setup_condition(places);
-  const bool c_turned = facts.task.c_sense == FiveAxisTask::Sense::kReversed;
-  const bool a_turned = facts.task.a_sense == FiveAxisTask::Sense::kReversed;
-  TRY_DO(fill_axis(facts, c, facts.task.compensation.c_step_deg, c_turned ? -1.0 : 1.0,
+  TRY_DO(fill_axis(facts, c, facts.task.compensation.c_step_deg, facts.task.c_sign(),
                    facts.c_motion, facts.c_table));
-  TRY_DO(fill_axis(facts, a, facts.task.compensation.a_step_deg, a_turned ? -1.0 : 1.0,
+  TRY_DO(fill_axis(facts, a, facts.task.compensation.a_step_deg, facts.task.a_sign(),
                    facts.a_motion, facts.a_table));
   for (const fit::HeadVerification& pose : facts.study.poses) {
     facts.combined.push_back(combined_of(pose, facts.task.repeat.has_value()));

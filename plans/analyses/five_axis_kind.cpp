@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fit/rotary/ball_setup.h"
+#include "plans/analyses/internal/axis_checks.h"
 #include "plans/analyses/internal/five_axis_kind.h"
 #include "plans/schema/five_axis_table.h"
 #include "plans/schema/internal/setting_list.h"
@@ -30,7 +31,6 @@ constexpr std::array<record::WantedColumn, 8> kNestColumns = {{{"step", true, kH
                                                                {"dy_um"},
                                                                {"dz_um"},
                                                                {"u_um", false}}};
-constexpr std::size_t kHeadStations = 3;  // with the reference four, as a cubic needs
 constexpr std::size_t kHeadPoses = 5;
 constexpr double kLeastAngle_deg = 5.0;
 
@@ -42,10 +42,7 @@ void check_balls(const FiveAxisTask& plan, const std::string& where, Findings& f
   for (std::size_t i = 0; i < plan.balls.size(); ++i) {
     const record::HeadBallTask& ball = plan.balls[i];
     const std::string place = item_pointer(where, i);
-    if (!seen.insert(ball.id).second) {
-      findings.meaning(Code::kMeaning, place + "/id",
-                       fmt::format("two balls are called {}; choose another", in_quotes(ball.id)));
-    }
+    check_ball_id(ball.id, seen, place, findings);
     const bool centre = findings.is_given(place + "/center_mm");
     if (ball.l_mm.has_value() != ball.h_mm.has_value() || centre == ball.l_mm.has_value()) {
       findings.meaning(Code::kMeaning, place,
@@ -58,24 +55,6 @@ void check_balls(const FiveAxisTask& plan, const std::string& where, Findings& f
   if (const auto fine = fit::check_setup(places, names); !fine) {
     findings.meaning(fine.error().code, where, fine.error().what);
   }
-}
-
-void check_head_stations(const std::vector<double>& stations_deg, const std::string& where,
-                         Findings& findings) {
-  if (!findings.sound(where)) return;
-  std::set<double> seen;
-  for (std::size_t i = 0; i < stations_deg.size(); ++i) {
-    if (seen.insert(stations_deg[i]).second) continue;
-    findings.meaning(
-        Code::kMeaning, item_pointer(where, i),
-        fmt::format("the station {} deg stands here twice; remove one", plain(stations_deg[i])));
-  }
-  seen.erase(0.0);
-  if (seen.size() >= kHeadStations) return;
-  findings.meaning(Code::kTooFewPoints, where,
-                   fmt::format("{} stations beside C = A = 0 do not show how the errors change; "
-                               "at least {} are needed, 15 deg apart is usual",
-                               seen.size(), kHeadStations));
 }
 
 bool is_on(const std::vector<double>& stations_deg, double deg) {
@@ -134,8 +113,8 @@ void check_five_axis(const FeaturePlan& feature, const std::string& where, Findi
     }
     return;
   }
-  check_head_stations(plan.c_stations_deg, where + "/c_stations_deg", findings);
-  check_head_stations(plan.a_stations_deg, where + "/a_stations_deg", findings);
+  check_axis_stations(plan.c_stations_deg, "C = A = 0", where + "/c_stations_deg", findings);
+  check_axis_stations(plan.a_stations_deg, "C = A = 0", where + "/a_stations_deg", findings);
   check_verification(plan, where + "/verification", findings);
 }
 

@@ -112,8 +112,6 @@ std::vector<std::pair<HeadStep, HeadPose>> poses_of(const FiveAxisTask& asked) {
 fit::HeadMeasurement readings_of(const HeadWorld& world, std::size_t index, std::uint64_t seed,
                                  bool noisy) {
   const FiveAxisTask& asked = world.asked;
-  const double c_sense = asked.c_sense == FiveAxisTask::Sense::kReversed ? -1.0 : 1.0;
-  const double a_sense = asked.a_sense == FiveAxisTask::Sense::kReversed ? -1.0 : 1.0;
   const auto poses = poses_of(asked);
   const auto last = static_cast<double>(poses.size() * asked.balls.size() - 1);
   fit::HeadMeasurement out;
@@ -123,7 +121,8 @@ fit::HeadMeasurement readings_of(const HeadWorld& world, std::size_t index, std:
     out.balls.push_back({asked.balls[k].id, ball, Vector3d::Zero()});
     for (const auto& [step, at] : poses) {
       const std::size_t number = out.readings.size();
-      const HeadPose pose = {c_sense * at.c_rad * kDegree, a_sense * at.a_rad * kDegree};
+      const HeadPose pose = {asked.c_sign() * at.c_rad * kDegree,
+                             asked.a_sign() * at.a_rad * kDegree};
       Vector3d d = world.deviation_mm(pose, ball);
       if (noisy) {
         core::KeyedNoise noise(seed, {kNestStream, index, number});
@@ -141,13 +140,11 @@ record::Series data_of(const fit::HeadMeasurement& read, const FiveAxisTask& ask
   out.feature = feature;
   out.columns = {{"step", ""},    {"c_deg", "deg"}, {"a_deg", "deg"}, {"setup", ""},
                  {"dx_um", "um"}, {"dy_um", "um"},  {"dz_um", "um"}};
-  const double c_sense = asked.c_sense == FiveAxisTask::Sense::kReversed ? -1.0 : 1.0;
-  const double a_sense = asked.a_sense == FiveAxisTask::Sense::kReversed ? -1.0 : 1.0;
   for (const fit::HeadReading& r : read.readings) {
     out.values.insert(
         out.values.end(),
-        {static_cast<double>(r.step), c_sense * core::stated_degrees(r.pose.c_rad),
-         a_sense * core::stated_degrees(r.pose.a_rad), static_cast<double>(r.ball + 1),
+        {static_cast<double>(r.step), asked.c_sign() * core::stated_degrees(r.pose.c_rad),
+         asked.a_sign() * core::stated_degrees(r.pose.a_rad), static_cast<double>(r.ball + 1),
          r.d_mm.x() / kMicrometre, r.d_mm.y() / kMicrometre, r.d_mm.z() / kMicrometre});
   }
   return out;
@@ -234,11 +231,9 @@ core::Result<AnalysisData> simulate_five_axis(const Plan& plan, std::size_t inde
   TRY(out.truths,
       truths_of(readings_of(world, index, seed, false), asked.repeat.has_value(), feature));
   if (asked.repeat) return out;  // its errors are those that the table left
-  using Sense = FiveAxisTask::Sense;
-  out.series.push_back(curve_of(world.hidden, true, asked.c_stations_deg,
-                                asked.c_sense == Sense::kReversed ? -1.0 : 1.0, feature));
-  out.series.push_back(curve_of(world.hidden, false, asked.a_stations_deg,
-                                asked.a_sense == Sense::kReversed ? -1.0 : 1.0, feature));
+  out.series.push_back(curve_of(world.hidden, true, asked.c_stations_deg, asked.c_sign(), feature));
+  out.series.push_back(
+      curve_of(world.hidden, false, asked.a_stations_deg, asked.a_sign(), feature));
   return out;
 }
 

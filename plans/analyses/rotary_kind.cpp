@@ -2,6 +2,7 @@
 #include <array>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
+#include "plans/analyses/internal/axis_checks.h"
 #include "plans/analyses/internal/rotary_placing.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
@@ -22,27 +24,7 @@ using core::Code;
 
 constexpr std::array kRotaryForms = {record::Form::kFixtureResidual,
                                      record::Form::kFixtureResidualRms, record::Form::kAxisError};
-constexpr std::size_t kLeastStations = 3;  // with the zero pose four, as a cubic needs
 constexpr std::size_t kLeastPoses = 5;
-
-void check_stations(const std::vector<double>& stations_deg, const std::string& where,
-                    Findings& findings) {
-  if (!findings.sound(where)) return;
-  std::set<double> seen;
-  for (std::size_t i = 0; i < stations_deg.size(); ++i) {
-    if (seen.insert(stations_deg[i]).second) continue;
-    findings.meaning(
-        Code::kMeaning, item_pointer(where, i),
-        fmt::format("the station {} deg stands here twice; remove one", plain(stations_deg[i])));
-  }
-  seen.erase(0.0);
-  if (seen.size() < kLeastStations) {
-    findings.meaning(Code::kTooFewPoints, where,
-                     fmt::format("{} stations beside the zero pose do not show how the errors "
-                                 "change; at least {} are needed, 15 deg apart is usual",
-                                 seen.size(), kLeastStations));
-  }
-}
 
 void check_verification(const record::RotaryTask& plan, const std::string& where,
                         Findings& findings) {
@@ -63,18 +45,18 @@ void check_verification(const record::RotaryTask& plan, const std::string& where
 void check_balls(const record::RotaryTask& plan, const std::string& where, Findings& findings) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < plan.balls.size(); ++i) {
-    if (!findings.sound(item_pointer(where, i)) || seen.insert(plan.balls[i].id).second) continue;
-    findings.meaning(
-        Code::kMeaning, item_pointer(where, i) + "/id",
-        fmt::format("two balls are called {}; choose another", in_quotes(plan.balls[i].id)));
+    const std::string place = item_pointer(where, i);
+    if (findings.sound(place)) check_ball_id(plan.balls[i].id, seen, place, findings);
   }
 }
 
 void check_rotary_axes(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const record::RotaryTask& plan = *feature.rotary_axes;
   check_balls(plan, where + "/balls", findings);
-  check_stations(plan.alpha_stations_deg, where + "/alpha_stations_deg", findings);
-  check_stations(plan.beta_stations_deg, where + "/beta_stations_deg", findings);
+  check_axis_stations(plan.alpha_stations_deg, "the zero pose", where + "/alpha_stations_deg",
+                      findings);
+  check_axis_stations(plan.beta_stations_deg, "the zero pose", where + "/beta_stations_deg",
+                      findings);
   check_verification(plan, where + "/verification", findings);
 }
 
@@ -163,6 +145,32 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
 }
 
 }  // namespace
+
+void check_axis_stations(const std::vector<double>& stations_deg, std::string_view zero,
+                         const std::string& where, Findings& findings) {
+  constexpr std::size_t kLeastStations = 3;  // with 0 four, as a cubic needs
+  if (!findings.sound(where)) return;
+  std::set<double> seen;
+  for (std::size_t i = 0; i < stations_deg.size(); ++i) {
+    if (seen.insert(stations_deg[i]).second) continue;
+    findings.meaning(
+        Code::kMeaning, item_pointer(where, i),
+        fmt::format("the station {} deg stands here twice; remove one", plain(stations_deg[i])));
+  }
+  seen.erase(0.0);
+  if (seen.size() >= kLeastStations) return;
+  findings.meaning(Code::kTooFewPoints, where,
+                   fmt::format("{} stations beside {} do not show how the errors change; at least "
+                               "{} are needed, 15 deg apart is usual",
+                               seen.size(), zero, kLeastStations));
+}
+
+void check_ball_id(const std::string& id, std::set<std::string>& seen, const std::string& where,
+                   Findings& findings) {
+  if (seen.insert(id).second) return;
+  findings.meaning(Code::kMeaning, where + "/id",
+                   fmt::format("two balls are called {}; choose another", in_quotes(id)));
+}
 
 const AnalysisKind& rotary_kind() {
   static const AnalysisKind kind = {

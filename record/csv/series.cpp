@@ -92,9 +92,9 @@ core::Result<void> read_row(std::string_view line, const Layout& layout,
     if (!words.empty()) {
       const auto at = std::find(words.begin(), words.end(), fields[i]);
       if (at == words.end()) {
-        return core::fail(syntax_error(fmt::format("{} is {}; {} is expected", column.name,
-                                                   quoted_text(fields[i]),
-                                                   fmt::join(words, ", "))));
+        return core::fail(
+            syntax_error(fmt::format("{} is {}; {} is expected", column.name,
+                                     quoted_text(fields[i]), fmt::join(words, ", "))));
       }
       series.values[start + *layout.places[i]] = static_cast<double>(at - words.begin());
       continue;
@@ -183,7 +183,9 @@ core::Result<Series> parse_series_csv(std::string_view text, std::string_view na
   };
   TRY_DO(read_table(
       text, name, header,
-      [&](std::string_view line, std::size_t) { return read_row(line, layout, all, stated_degC, out); },
+      [&](std::string_view line, std::size_t) {
+        return read_row(line, layout, all, stated_degC, out);
+      },
       [&](bool) {
         return fmt::format(
             "the file holds no rows; a header line {} and a row a sample are expected", list);

@@ -60,6 +60,10 @@ struct FiveAxisTask {
   HeadTableTask compensation;
   std::optional<HeadInfluencesTask> uncertainty;
   std::optional<HeadRepeatTask> repeat;
+
+  /// An angle as the control counts it, times these, is right-handed.
+  [[nodiscard]] double c_sign() const { return c_sense == Sense::kReversed ? -1.0 : 1.0; }
+  [[nodiscard]] double a_sign() const { return a_sense == Sense::kReversed ? -1.0 : 1.0; }
 };
 
 RONDURE_WORDS(FiveAxisTask::Sense, {kAsCounted, "as-counted"}, {kReversed, "reversed"});

@@ -186,6 +186,11 @@ TEST(FiveAxis, DataThatProveNothingSayWhy) {
         for (int k = 4; k < 7; ++k) r[static_cast<std::size_t>(k)] *= 1000.0;
       },
       "units", "give dx_um, dy_um, dz_um in um");
+  expect_refused(
+      [](Row& r) {
+        for (int k = 4; k < 7; ++k) r[static_cast<std::size_t>(k)] *= 0.001;
+      },
+      "units", "less than the 0.500 um that one reading is uncertain by");
   expect_refused([](Row& r) { r[3] += 1.0; }, "unknown-key", "set-up 5 is none of the 4 balls");
   // The nest was set to zero at every ball, and the tool data of one are wrong by 20 um.
   expect_refused(

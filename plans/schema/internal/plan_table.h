@@ -309,8 +309,8 @@ void describe(Visitor& v, EnvironmentPlan& p) {
                  "declared. Left out: such a result is void."));
   v.number("max_drift_K", p.max_drift_K,
            above(0.0, 10.0,
-                 "Of spindle, wheel, contour, rotary_axes and five_axis: a greater change at one place during "
-                 "the measurement makes the result void."));
+                 "Of spindle, wheel, contour, rotary_axes and five_axis: a greater change at one "
+                 "place during the measurement makes the result void."));
 }
 
 template <class Visitor>
@@ -501,8 +501,8 @@ void describe(Visitor& v, FeaturePlan& p) {
       {.required = true,
        .meaning = "The surface, or an analysis: spindle (part form and axis motion from three "
                   "probes), wheel (grinding wheel, from points of its edge), contour (crank pins "
-                  "in follow grinding), rotary_axes (calibration of the fixture with balls), five_axis (axes C and A of "
-                  "a swivel head)."});
+                  "in follow grinding), rotary_axes (calibration of the fixture with balls), "
+                  "five_axis (axes C and A of a swivel head)."});
   v.text("side", p.side, {.meaning = "outside: a shaft; inside: a bore."});
   v.text(
       "letter", p.letter,

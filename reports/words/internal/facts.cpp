@@ -96,8 +96,7 @@ core::Phrase share_in_words(const evaluation::MergedPoses& merged) {
     return core::phrase(
         "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
         "have added {:.3f} um; they were solved for, but too few targets were touched in several "
-        "poses "
-        "to know how uncertain what is left of them is",
+        "poses to know how uncertain what is left of them is",
         core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()));
   }
   if (merged.joint) {
