@@ -50,6 +50,8 @@ constexpr std::array kSingleSteps = {count("travel_speed_mm_s")};
 constexpr std::array kRunResumed = {text("resumed_utc"), count("touches"), count("repeated"),
                                     thousandths("largest_difference_um"), count("limit_um")};
 constexpr std::array kPartLocatedAgain = {count("touches"), words("reason")};
+constexpr std::array kClampingChanged = {count("touches"), text("clamped"), words("answered_utc")};
+constexpr std::array kCalibrationTaken = {text("calibration"), words("void_because")};
 
 /// The only list of codes, with their names and arguments.
 struct Entry {
@@ -72,6 +74,8 @@ constexpr std::array kMessages = {
     Entry{MessageCode::kSingleSteps, "single-steps", kSingleSteps},
     Entry{MessageCode::kRunResumed, "run-resumed", kRunResumed},
     Entry{MessageCode::kPartLocatedAgain, "part-located-again", kPartLocatedAgain},
+    Entry{MessageCode::kClampingChanged, "clamping-changed", kClampingChanged},
+    Entry{MessageCode::kCalibrationTaken, "calibration-taken", kCalibrationTaken},
 };
 
 constexpr bool stand_in_order() {

@@ -27,9 +27,11 @@ enum class MessageCode {
   kSingleSteps,            ///< single-steps: an operator confirms each move
   kRunResumed,             ///< run-resumed: the last touches were repeated
   kPartLocatedAgain,       ///< part-located-again: the part had moved while the run was interrupted
+  kClampingChanged,        ///< clamping-changed: balls and part were exchanged in the fixture
+  kCalibrationTaken,       ///< calibration-taken: what later features take of the fixture's errors
 };
 /// The last code of the list.
-inline constexpr MessageCode kLastMessageCode = MessageCode::kPartLocatedAgain;
+inline constexpr MessageCode kLastMessageCode = MessageCode::kCalibrationTaken;
 
 /// Declares one argument of a code.
 struct ArgumentKind {

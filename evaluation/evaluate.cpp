@@ -12,6 +12,7 @@
 #include "core/watch.h"
 #include "evaluation/analysis.h"
 #include "evaluation/defect.h"
+#include "evaluation/handed_calibration.h"
 #include "evaluation/internal/conformance.h"
 #include "evaluation/internal/merged.h"
 #include "evaluation/internal/warnings.h"
@@ -576,8 +577,7 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   Evaluation& out = checked.evaluation;
   out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
-  const FixtureFacts facts = fixture_facts(record);
-  out.fixture = facts.use;
+  out.fixture = fixture_facts(record).use;
   // The verdict on a surface may need other features, such as a datum: all are evaluated before one
   // is judged. An analysis is judged at once: a later one may take a value of it, unless it is
   // void.
@@ -589,12 +589,19 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
     const core::Working work(evaluating(i));
     const int index = static_cast<int>(i);
     if (record::is_analysis(record.features[i].shape)) {
-      FeatureResult analysed = evaluate_analysis(record, index, out.probe, out.features);
+      // Balls are held against each other as measured, before any surface is brought to 20 degC.
+      const bool balls = record.features[i].shape == record::Shape::kRotaryAxes;
+      FeatureResult analysed = balls ? evaluate_analysis(measured, index, evaluate_probe(measured))
+                                     : evaluate_analysis(record, index, out.probe, out.features);
       decide_analysis(record, out.rule, analysed);
+      if (out.fixture && out.fixture->source == index) {
+        hold_against(analysed, taken_calibration(record, index), *out.fixture);
+      }
       out.features.push_back(std::move(analysed));
       continue;
     }
-    auto feature = evaluate_feature(record, index, out.probe, facts.kinematics);
+    auto feature =
+        evaluate_feature(record, index, out.probe, fixture_facts(record, index).kinematics);
     feature.clamping = clamping_of(record, index);
     if (auto broken = check(feature)) {
       checked.defects.push_back({*std::move(broken), std::move(feature)});
@@ -608,10 +615,17 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
     if (record::is_analysis(feature.feature.shape)) continue;
     const core::Working work(evaluating(i));
     decide(record, out.rule, out.probe, found[i], feature);
-    apply_calibration(out.fixture, feature);
+    const bool carried = out.fixture && out.fixture->source < static_cast<int>(i);
+    if (carried) apply_calibration(out.fixture, feature);
   }
   out.verdict = overall(out.features);
   return checked;
+}
+
+FeatureResult evaluate_calibration(const RunRecord& so_far, int index) {
+  RunRecord measured = so_far;
+  measured.ending = "finished";  // this feature is
+  return evaluate_analysis(measured, index, evaluate_probe(measured));
 }
 
 core::Result<Evaluation> evaluate(const RunRecord& record) {

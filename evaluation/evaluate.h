@@ -14,4 +14,8 @@ namespace rondure::evaluation {
 ///         evaluate_run() of defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
+/// Evaluates feature `index`, which calibrates the fixture, when its last ball was touched, as
+/// evaluate() does later: features after it take what it gives (rotary/result.h).
+[[nodiscard]] FeatureResult evaluate_calibration(const record::RunRecord& so_far, int index);
+
 }  // namespace rondure::evaluation

@@ -21,9 +21,10 @@ struct SimulatedMotionPlan {
   std::uint64_t seed = 1;
 };
 
-/// The calibration that a run uses.
+/// The calibration that a run uses: of a file, or of one of its own features.
 struct CalibrationPlan {
   std::string file;
+  std::string feature;  ///< Its id; those before it are measured in the nominal fixture.
   std::optional<double> max_age_days;
   std::optional<double> max_residual_um;
 };

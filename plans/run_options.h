@@ -38,6 +38,12 @@ struct NextMove {
   Eigen::Vector3d to_W_mm = Eigen::Vector3d::Zero();
 };
 
+/// What the feature that calibrates the fixture gives those after it.
+struct FoundCalibration {
+  std::string text;          ///< As fixture-calibration.json would hold it.
+  std::string void_because;  ///< Why no feature may use it; empty: it holds.
+};
+
 /// Settings of a run that are not part of its plan.
 struct RunOptions {
   std::filesystem::path directory;  ///< Absent or empty; to resume a run, its directory.
@@ -60,6 +66,12 @@ struct RunOptions {
   std::function<core::Result<void>(const NextMove&)> before_move;
   /// Asks a person to set a pose of a fixture "manual" in front of a real machine.
   std::function<core::Result<void>(const core::Pose&)> set_by_hand;
+  /// Evaluates a feature that calibrates the fixture, from what the run has recorded so far. Needed
+  /// by a plan with `fixture.calibration.feature`.
+  std::function<FoundCalibration(const record::RunRecord&, int feature)> calibrate;
+  /// Asks a person in front of a real cell to clamp something else, and returns the time of the
+  /// answer (UTC). An error (kStopped) ends the run, which can be resumed there.
+  std::function<core::Result<std::string>(const std::string& what)> change_clamping;
   bool relocate = false;     ///< When resuming: a part that has moved is located again.
   bool single_step = false;  ///< Limits travel to the plan's step_speed_mm_s.
 };

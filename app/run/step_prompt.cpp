@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/run/processor.h"
 #include "app/text/terminal.h"
 #include "core/units.h"
 
@@ -61,6 +62,17 @@ core::Result<void> ask_to_do(const std::string& what) {
     if (word == "q") break;
   }
   return core::fail_with(core::Code::kStopped, "stopped by the operator before: {}", what);
+}
+
+core::Result<std::string> ask_to_change_clamping(const std::string& what) {
+  if (auto terminal = StepPrompt::check_terminal(""); !terminal) {
+    return core::fail_with(core::Code::kStopped,
+                           "stopped, standard input is no terminal and nobody can answer; resume "
+                           "the run from one: {}",
+                           what);
+  }
+  TRY_DO(ask_to_do(what));
+  return utc_now();
 }
 
 core::Result<void> ask_to_set(const core::Pose& pose) {

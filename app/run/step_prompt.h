@@ -29,6 +29,10 @@ class StepPrompt {
 /// @return kStopped when the user refuses.
 [[nodiscard]] core::Result<void> ask_to_do(const std::string& what);
 
+/// ask_to_do() for a change of what the fixture holds. Returns the time of the answer (UTC);
+/// kStopped, too, where standard input is no terminal.
+[[nodiscard]] core::Result<std::string> ask_to_change_clamping(const std::string& what);
+
 /// ask_to_do() for a pose of a fixture that is set by hand.
 [[nodiscard]] core::Result<void> ask_to_set(const core::Pose& pose);
 

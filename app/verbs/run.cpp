@@ -20,6 +20,8 @@
 #include "app/verbs/verbs.h"
 #include "core/numbers.h"
 #include "core/result.h"
+#include "evaluation/evaluate.h"
+#include "evaluation/handed_calibration.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/doubts.h"
 #include "plans/forecast/forecast.h"
@@ -150,6 +152,13 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.stop_requested = stop_requested;
   options.relocate = arguments.relocate;
   options.set_by_hand = ask_to_set;
+  options.calibrate = [](const record::RunRecord& so_far, int feature) {
+    const auto found =
+        evaluation::handed_calibration(evaluation::evaluate_calibration(so_far, feature));
+    return plans::FoundCalibration{found.text,
+                                   found.void_because ? found.void_because->english() : ""};
+  };
+  options.change_clamping = ask_to_change_clamping;
   return options;
 }
 

@@ -89,6 +89,10 @@ class SimulatedMachine final : public Machine {
   // the readings it gave. They move nothing. When the part cannot have given such readings, the
   // error of the command is returned.
 
+  void continue_at(const Eigen::Vector3d& tip_W_mm, double time_s) {
+    position_W_mm_ = tip_W_mm;
+    time_s_ = time_s;
+  }
   [[nodiscard]] core::Result<void> continue_after(const TouchCommand& command,
                                                   const TouchReading& reading);
   /// @param last  The last reading of the scan.

@@ -23,8 +23,9 @@ constexpr double kLeastTouch_mm = 0.02e-3;
 constexpr double kFormPerSigma = 3.3;
 
 /// How the fixture moved the part: its nominal axes, with the errors of its calibration.
-fixture::Kinematics kinematics_of(const RunRecord& record, const MergedPosesSettings& said) {
-  fixture::Kinematics out = fixture_facts(record).kinematics;
+fixture::Kinematics kinematics_of(const RunRecord& record, int feature,
+                                  const MergedPosesSettings& said) {
+  fixture::Kinematics out = fixture_facts(record, feature).kinematics;
   out.axis_point_W_mm = Eigen::Vector3d::Map(said.axis_point_mm.data());
   out.axis_offset_mm = Eigen::Vector3d::Map(said.axis_offset_mm.data());
   return out;
@@ -89,7 +90,7 @@ std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Fe
   const FixtureInfluences stated = fixture_influences(record).value_or(FixtureInfluences{});
   const double shift_mm = stated.position_mm;
   const double turn_rad = stated.angle_rad;
-  const fixture::Kinematics kinematics = kinematics_of(record, said);
+  const fixture::Kinematics kinematics = kinematics_of(record, visits.front()->feature, said);
   std::vector<fit::JointPose> poses;
   double squares = 0.0;
   int freedom = 0;

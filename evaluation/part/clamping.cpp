@@ -12,14 +12,17 @@
 namespace rondure::evaluation {
 namespace {
 
-/// How often the part had been located again before a cloud: each time it stood elsewhere.
+/// How often the part had been located again, or clamped anew, before a cloud: each time it stood
+/// elsewhere.
 int located_before(const record::RunRecord& record, int pose) {
   const auto touches = touches_of(record, pose);
   if (touches.empty()) return 0;
   const auto first = static_cast<double>(touches.front()->id);
   return static_cast<int>(std::ranges::count_if(record.decisions, [&](const auto& decision) {
-    return decision.message.code == core::MessageCode::kPartLocatedAgain &&
-           decision.message.number(0) <= first;
+    const core::MessageCode code = decision.message.code;
+    const bool moved =
+        code == core::MessageCode::kPartLocatedAgain || code == core::MessageCode::kClampingChanged;
+    return moved && decision.message.number(0) <= first;
   }));
 }
 

@@ -119,6 +119,7 @@ struct FixtureUse {
   std::optional<double> expansion_1_K;     ///< Of the fixture, as the calibration declares it.
   double axis_height_mm = 0.0;             ///< Of the base-fixed axis, in the base of the fixture.
   std::optional<core::Error> invalid;      ///< Why it does not hold; results are then void.
+  int source = -1;  ///< Feature of this run that found it for those after it; -1: a file.
 };
 
 /// All results for one feature.

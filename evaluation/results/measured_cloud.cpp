@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
+#include "evaluation/results/internal/fixture_use.h"
 #include "fit/zone/center_search.h"
 #include "fixture/error_model.h"
 #include "record/tasks/settings.h"
@@ -242,9 +243,10 @@ bool is_final(const record::RunRecord& record, const record::PoseVisit& visit) {
 }
 
 bool is_complete(const record::RunRecord& record, std::size_t feature) {
-  const auto later = [&](const auto& data) { return data.feature > static_cast<int>(feature); };
-  return record.ending == "finished" || std::ranges::any_of(record.poses, later) ||
-         std::ranges::any_of(record.series, later);
+  const auto index = static_cast<int>(feature);
+  const auto later = [&](const auto& data) { return data.feature > index; };
+  return record.ending == "finished" || taken_calibration(record, index) != nullptr ||
+         std::ranges::any_of(record.poses, later) || std::ranges::any_of(record.series, later);
 }
 
 std::optional<PoseValue> value_of_pose(const record::RunRecord& record,

@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "core/utc.h"
 #include "evaluation/results/evaluation.h"
+#include "evaluation/results/measured_cloud.h"
 #include "evaluation/results/temperature_gates.h"
 #include "evaluation/rotary/internal/combined_field.h"
 #include "evaluation/rotary/internal/gates.h"
@@ -655,7 +656,7 @@ core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int 
                                            const std::optional<fit::ProbeTip>& probe,
                                            FeatureResult& result) {
   result.temperatures = temperatures_of(record, ball_touches(record, index));
-  if (record.ending != "finished") {
+  if (!is_complete(record, static_cast<std::size_t>(index))) {
     return core::fail(core::Code::kNoPoints,
                       record.failure
                           ? fmt::format("not measured to its end: {}", record.failure->what)

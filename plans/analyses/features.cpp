@@ -26,6 +26,12 @@ std::size_t feature_index(const Plan& plan, std::string_view id) {
                                   plan.features.begin());
 }
 
+std::size_t calibrating_feature(const Plan& plan) {
+  const bool named = plan.fixture && plan.fixture->calibration;
+  if (!named || plan.fixture->calibration->feature.empty()) return plan.features.size();
+  return feature_index(plan, plan.fixture->calibration->feature);
+}
+
 bool touches_anything(const Plan& plan) {
   return std::any_of(plan.features.begin(), plan.features.end(), needs_machine);
 }

@@ -21,6 +21,13 @@ namespace rondure::plans {
 [[nodiscard]] bool needs_machine(const FeaturePlan& feature);
 /// Whether the part of a plan stands still on the table: there is no fixture with axes.
 [[nodiscard]] bool is_fixed(const Plan& plan);
+/// Whether the balls of one feature and the part change places before the other is measured.
+[[nodiscard]] inline bool clamped_alike(const FeaturePlan& a, const FeaturePlan& b) {
+  return a.rotary_axes.has_value() == b.rotary_axes.has_value();
+}
+/// Index of the feature that calibrates the fixture for those after it; the number of features when
+/// there is none.
+[[nodiscard]] std::size_t calibrating_feature(const Plan& plan);
 /// Index of the feature with this id; the number of features when there is none.
 [[nodiscard]] std::size_t feature_index(const Plan& plan, std::string_view id);
 /// Whether a plan needs a machine.

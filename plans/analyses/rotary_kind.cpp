@@ -114,18 +114,20 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
                      "this key is missing: what the fixture is called; its calibration belongs to "
                      "no other");
   }
-  if (findings.is_given("/fixture/calibration")) {
+  const bool joined = findings.is_given("/fixture/calibration/feature");
+  if (findings.is_given("/fixture/calibration") && !joined) {
     findings.meaning(Code::kMeaning, "/fixture/calibration",
-                     "a run that calibrates the fixture does not use a calibration; remove it");
+                     "a run that calibrates the fixture does not use another calibration; remove "
+                     "it, or name in fixture.calibration.feature the feature that calibrates");
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (!is_touched(plan.features[i])) continue;
+    if (joined || !is_touched(plan.features[i])) continue;
     findings.meaning(
         Code::kMeaning, feature_pointer(i),
         fmt::format("{} would be measured in the fixture that this plan calibrates, and judged as "
-                    "if that fixture had no errors; calibrate with a plan of its own, then name "
-                    "its fixture-calibration.json in fixture.calibration.file",
-                    in_quotes(plan.features[i].id)));
+                    "if that fixture had no errors; calibrate first and join both with "
+                    "fixture.calibration: {{\"feature\": {}}}, or calibrate with a plan of its own",
+                    in_quotes(plan.features[i].id), in_quotes(plan.features[index].id)));
   }
   if (findings.is_given("/fixture/datum")) {
     findings.meaning(Code::kMeaning, "/fixture/datum",

@@ -71,6 +71,8 @@ class Cell {
                                                        const cmm::TouchReading& /*last*/) {
     return {};
   }
+  /// Sets the tip of a simulation to a place and its clock to a time of the interrupted run.
+  virtual void replay_stand(const Eigen::Vector3d& /*tip_W_mm*/, double /*time_s*/) {}
   /// Homes machine and fixture and turns the part to the pose of the last replayed turn. Returns
   /// the pose that the fixture reads there.
   [[nodiscard]] virtual core::Result<core::Pose> home_again() = 0;

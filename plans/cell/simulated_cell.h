@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cmm/grid.h"
 #include "cmm/simulated/machine.h"
 #include "fixture/simulated.h"
 #include "plans/cell/cell.h"
@@ -56,6 +57,9 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] core::Result<void> replay_scan(const cmm::ScanCircleCommand& command,
                                                const cmm::TouchReading& last) override {
     return machine_.continue_after(command, last);
+  }
+  void replay_stand(const Eigen::Vector3d& tip_W_mm, double time_s) override {
+    machine_.continue_at(cmm::on_grid_mm(tip_W_mm), time_s);
   }
   [[nodiscard]] core::Result<core::Pose> home_again() override;
 

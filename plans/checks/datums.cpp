@@ -127,6 +127,13 @@ std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum)
   const std::string clamping = clamping_of(plan, asked);
   const bool together = asked.source.has_value() == feature.source.has_value() &&
                         (!files || (!clamping.empty() && clamping == clamping_of(plan, feature)));
+  const std::size_t calibrated = calibrating_feature(plan);
+  if (together && !files && (datum < calibrated) != (owner < calibrated)) {
+    return fmt::format(
+        "{} and {} stand on either side of the calibration of the fixture, for which the part is "
+        "taken out; measure both in one clamping",
+        in_quotes(feature.id), in_quotes(asked.id));
+  }
   if (together) return files ? std::string() : why_in_other_poses(asked, feature);
   if (files && asked.source->file == feature.source->file) {
     return fmt::format(

@@ -9,6 +9,7 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/analyses/internal/rotary_placing.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/internal/reached_pose.h"
 
 namespace rondure::plans {
@@ -56,6 +57,11 @@ cmm::TouchReading reading_of(const record::Touch& row) {
 }
 
 core::Result<void> RunContext::check_stop() const {
+  if (replaying()) {
+    return core::fail_with(core::Code::kJournal,
+                           "the journal has no touch {}, after which the clamping was changed",
+                           next_touch);
+  }
   if (!options.stop_requested || !options.stop_requested()) return {};
   return core::fail_with(core::Code::kStopped,
                          "stopped by the operator after {} touches; all of them are kept",
@@ -143,11 +149,23 @@ core::Result<void> RunContext::come_back() {
     if (auto moved = follow(back); !moved) return moved;
     largest_mm = std::max(largest_mm, *difference_mm);
   }
+  if (auto on = replay_state(last_steps.back()); !on) return on;
+  return note_return(last_steps.size(), largest_mm);
+}
+
+core::Result<void> RunContext::come_back_to_change(double time_s) {
+  if (auto go = ask_for_homing(); !go) return go;
+  lost_place = true;
+  TRY_DO(cell->home_again());
+  cell->replay_stand(vector3(plan.machine->park_mm), time_s);
+  return note_return(0, 0.0);
+}
+
+core::Result<void> RunContext::note_return(std::size_t repeated, double largest_mm) {
   const core::Message resumed = {
       core::MessageCode::kRunResumed,
-      {options.started_utc, static_cast<double>(next_touch), static_cast<double>(last_steps.size()),
+      {options.started_utc, static_cast<double>(next_touch), static_cast<double>(repeated),
        largest_mm / core::kMicrometre, plan.machine->resume_limit_um}};
-  if (auto on = replay_state(last_steps.back()); !on) return on;
   lost_place = false;
   return journal.add(record::Decision{-1, cell->machine().time_s(), resumed});
 }
@@ -275,6 +293,35 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
   TRY_DO(journal.add(visit));
   ++next_pose;
   return visit;
+}
+
+core::Result<void> RunContext::change_clamping(int feature, const std::string& clamped,
+                                               const std::string& what) {
+  doing = "to the park position, before the clamping is changed";
+  TRY_DO(rise());
+  TRY_DO(follow({vector3(plan.machine->park_mm)}));
+  const bool by_hand = plan.fixture->reached_pose.has_value();
+  if (!by_hand && replaying()) {
+    TRY_DO(cell->replay_turn({}));
+  } else if (!by_hand) {
+    TRY_DO(ask({NextMove::Kind::kTurn, "turn the fixture to " + in_degrees({}), {}, {}}));
+    TRY_DO(cell->turn_to({}));
+  }
+  record::Decision changed{
+      feature,
+      cell->machine().time_s(),
+      {core::MessageCode::kClampingChanged, {static_cast<double>(next_touch), clamped, ""}}};
+  if (const record::Decision* known = recorded.next_decision()) {
+    TRY_DO(check_same_step(*known, changed));
+    return replaying() ? core::Result<void>{} : come_back_to_change(known->time_s);
+  }
+  if (!cell->is_simulated()) {
+    if (!options.change_clamping) {
+      return core::fail_with(core::Code::kStopped, "stopped, there is nobody to ask: {}", what);
+    }
+    TRY(changed.message.arguments.back(), options.change_clamping(what));
+  }
+  return journal.add(changed);
 }
 
 core::Result<void> RunContext::note(int feature, const core::Message& message) {

@@ -21,6 +21,7 @@
 #include "plans/run/internal/part_place.h"
 #include "plans/run/internal/qualification.h"
 #include "plans/run/internal/run_head.h"
+#include "plans/schema/json_text.h"
 #include "record/sha256.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
@@ -116,6 +117,40 @@ core::Result<void> take_series(RunContext& context, int index, const AnalysisDat
   return context.journal.add(data.series, data.truths);
 }
 
+/// Evaluates the balls and journals what the features after them take: the calibration itself, or
+/// why they will be void. They are measured in the nominal fixture where there is none.
+core::Result<void> take_calibration(RunContext& context, int index) {
+  if (!context.options.calibrate) {
+    return core::fail(core::Code::kInternal, "nobody evaluates the calibration of the fixture");
+  }
+  record::RunRecord so_far;
+  context.options.followed_by->catch_up(so_far);
+  FoundCalibration found = context.options.calibrate(so_far, index);
+  const auto usable = usable_calibration(context.plan, found.text, so_far.header.started_utc);
+  if (found.void_because.empty() && !usable) found.void_because = usable.error().what;
+  TRY_DO(context.note(index,
+                      {core::MessageCode::kCalibrationTaken, {found.text, found.void_because}}));
+  if (usable) context.cell->use(*usable);
+  return {};
+}
+
+/// Has balls or part clamped where the feature before this one was measured on the other.
+core::Result<void> have_clamped(RunContext& context, std::size_t index) {
+  const Plan& plan = context.plan;
+  const auto end = plan.features.rend();
+  const auto before = std::find_if(end - static_cast<std::ptrdiff_t>(index), end, needs_machine);
+  const FeaturePlan& feature = plan.features[index];
+  if (before == end || clamped_alike(*before, feature)) return {};
+  const std::string balls =
+      "the balls of " + in_quotes(feature.rotary_axes ? feature.id : before->id);
+  const std::string part = "the part " + in_quotes(plan.part.id);
+  const std::string& out = feature.rotary_axes ? part : balls;
+  const std::string& in = feature.rotary_axes ? balls : part;
+  return context.change_clamping(
+      static_cast<int>(index), feature.rotary_axes ? feature.id : plan.part.id,
+      fmt::format("take {} out of the fixture, clamp {} as the plan says, and step back", out, in));
+}
+
 core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Target>>& targets,
                            const std::vector<FeatureData>& data) {
   for (std::size_t i = 0; i < context.plan.features.size(); ++i) {
@@ -128,9 +163,13 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
       if (!taken) return taken;
       continue;
     }
+    TRY_DO(have_clamped(context, i));
     context.cell->mount(feature);
     if (measures_by_touch(feature)) {
       if (auto calibrated = calibrate_fixture(context, index); !calibrated) return calibrated;
+      if (i == calibrating_feature(context.plan)) {
+        TRY_DO(take_calibration(context, index));
+      }
       continue;
     }
     FeatureSession session(context, index, targets[i]);
@@ -184,6 +223,15 @@ core::Result<void> note_single_steps(RunContext& context) {
   if (!context.options.single_step || context.recorded.touch(0) != nullptr) return {};
   return context.journal.add(record::Decision{
       -1, 0.0, {core::MessageCode::kSingleSteps, {context.plan.machine->step_speed_mm_s}}});
+}
+
+/// The options of a run that reads its own rows where a feature takes what an earlier one found.
+RunOptions following(const Plan& plan, RunOptions options) {
+  const bool joined = calibrating_feature(plan) < plan.features.size();
+  if (joined && !options.followed_by) {
+    options.followed_by = std::make_shared<record::GrowingRecord>();
+  }
+  return options;
 }
 
 /// Gives observers the rows on record, and from then on each new row.
@@ -297,7 +345,8 @@ bool is_resumable(const core::Error& failure) {
   }
 }
 
-core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
+core::Result<Run> run_plan(const Plan& plan, const RunOptions& given) {
+  const RunOptions options = following(plan, given);
   TRY(const auto known, prepare_plan(plan, options, options.started_utc));
   TRY(auto cell, cell_of(plan, options, known.seed, false));
   record::RunRecord head = run_head(plan, options, known.seed);
@@ -349,7 +398,8 @@ std::vector<core::Error> differences_from_run(const record::RunRecord& run, cons
   return all_changes(run, plan, same, *known);
 }
 
-RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options, record::HeldJournal held) {
+RunOrRefusals resume_plan(const Plan& plan, const RunOptions& given, record::HeldJournal held) {
+  const RunOptions options = following(plan, given);
   const auto refuse = [](const core::Error& error) {
     return tl::unexpected(std::vector<core::Error>{error});
   };

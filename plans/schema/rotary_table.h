@@ -12,10 +12,13 @@ namespace rondure::plans {
 template <class Visitor>
 void describe(Visitor& v, CalibrationPlan& p) {
   v.text("file", p.file,
-         {.required = true,
-          .empty_allowed = false,
+         {.empty_allowed = false,
           .meaning = "fixture-calibration.json of a run that calibrated this fixture, relative to "
-                     "the plan."});
+                     "the plan. This or `feature`."});
+  v.text("feature", p.feature,
+         {.empty_allowed = false,
+          .meaning = "Id of the feature of this plan that calibrates the fixture for those after "
+                     "it."});
   v.number("max_age_days", p.max_age_days,
            range(0.0, 36'500.0, "An older calibration is refused, whatever it says of itself."));
   v.number("max_residual_um", p.max_residual_um,

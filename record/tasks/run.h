@@ -57,6 +57,8 @@ struct FixtureSettings {
   std::optional<double> max_age_days;             ///< Limit on its calibration.
   std::optional<double> max_residual_um;          ///< Limit on its calibration.
   std::optional<std::string> calibration;  ///< The file, whole; none: the fixture is nominal.
+  /// Id of the feature that calibrates it for those after it; the run takes note of what they take.
+  std::optional<std::string> calibrated_by;
 };
 
 template <class Visitor>
@@ -101,6 +103,7 @@ void describe(Visitor& v, FixtureSettings& p) {
   v.number("max_age_days", p.max_age_days, range(0.0, 1e6, "Of the calibration."));
   v.number("max_residual_um", p.max_residual_um, range(0.0, 1e6, "Of the calibration."));
   v.text("calibration", p.calibration, {.meaning = "Its file, whole."});
+  v.text("calibrated_by", p.calibrated_by, {.meaning = "The feature of this run that does it."});
 }
 
 }  // namespace rondure::record

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/analysis_result.h"
+#include "evaluation/handed_calibration.h"
 #include "evaluation/part/find.h"
 #include "record/checksums.h"
 #include "record/files.h"
@@ -29,17 +29,12 @@ constexpr const char* kCalibrationFile = "fixture-calibration.json";
 
 /// The calibration of the fixture; after a failed calibration, a text that no run accepts.
 std::string calibration_of(const evaluation::Evaluation& evaluation) {
+  const evaluation::FeatureResult* source = nullptr;
   for (const evaluation::FeatureResult& feature : evaluation.features) {
-    if (!feature.analysis) continue;
-    const auto* const found = std::get_if<evaluation::RotaryResult>(&feature.analysis->found);
-    if (found == nullptr) continue;
-    if (found->withheld) {
-      return "{\"format\": \"none\", \"note\": \"the calibration does not hold, see "
-             "report.json\"}\n";
-    }
-    return fixture::calibration_text(found->calibration);
+    const bool later = source != nullptr && source->analysis;
+    if (feature.feature.shape == record::Shape::kRotaryAxes && !later) source = &feature;
   }
-  return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
+  return evaluation::handed_calibration(source ? *source : evaluation::FeatureResult()).text;
 }
 
 constexpr const char* kResultsFile = "results.csv";

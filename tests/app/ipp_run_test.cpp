@@ -15,6 +15,7 @@
 
 #include "tests/app/cutting_proxy.h"
 #include "tests/app/files.h"
+#include "tests/app/on_terminal.h"
 #include "tests/app/program.h"
 #include "wire/tcp_line.h"
 
@@ -23,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -45,10 +47,10 @@ class Simulator {
  public:
   /// @param speed  Simulated seconds in a second; "inf": motions take no time.
   explicit Simulator(std::uint16_t port = free_port(), const std::string& speed = "inf",
-                     const char* plan = kPlan)
+                     const char* plan = kPlan, const std::string& profile = "as-specified")
       : port_(port),
-        program_(
-            {"simulate-cmm", example(plan), "--port", std::to_string(port), "--speed", speed}) {
+        program_({"simulate-cmm", example(plan), "--port", std::to_string(port), "--speed", speed,
+                  "--profile", profile}) {
     EXPECT_TRUE(wait_for_port(port_));
   }
   ~Simulator() {
@@ -241,7 +243,8 @@ TEST(IppRun, JudgesTheTwentyCallOutsOfADrawingAsTheRunInOneProcess) {
 }
 
 TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
-  for (const char* name : {"03_calibrate_fixture.json", "03_inspect_calibrated.json"}) {
+  for (const char* name : {"03_calibrate_fixture.json", "03_inspect_calibrated.json",
+                           "18_calibrate_and_inspect.json"}) {
     SCOPED_TRACE(name);
     const TemporaryFolder folder;
     fs::copy(example("03_calibration"), folder / "03_calibration");
@@ -267,6 +270,53 @@ TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
                 reports[1]["features"][f]["characteristics"]);
     }
   }
+}
+
+/// A server that does not say it is simulated stands for a real machine: people change what it
+/// holds, here by another server at its place.
+TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
+  const char* const name = "18_calibrate_and_inspect.json";
+  const TemporaryFolder folder;
+  const std::uint16_t port = free_port();
+  write_wire_plan(folder / "plan.json", port, "ippdme", name);
+  json plan = json::parse(read(folder / "plan.json"));
+  plan["environment"]["assumed_degC"] = 20.1;  // this server measures none
+  write(folder / "plan.json", plan.dump());
+  json part = json::parse(read(example(name)));
+  part["features"].erase(0);
+  part["fixture"].erase("calibration");
+  write(folder / "part.json", part.dump());
+  const std::vector<std::string> resumed = {"run",  folder / "run", "--resume", "--archive",
+                                            "none", "--format",     "json"};
+  {
+    const Simulator balls(port, "inf", name, "as-recorded");
+    const Outcome alone = rondure({"run", folder / "plan.json", "--out", folder / "run",
+                                   "--archive", "none", "--format", "json"});
+    EXPECT_EQ(alone.status, 3) << alone.out;
+    EXPECT_THAT(alone.err, AllOf(HasSubstr("nobody can answer"),
+                                 HasSubstr("clamp the part \"SP-50-80\" as the plan says"),
+                                 HasSubstr("to resume it after its last touch")));
+    EXPECT_EQ(journal_of(folder / "run").decisions.back().message.code,
+              core::MessageCode::kCalibrationTaken);
+    OnTerminal asked(resumed);
+    ASSERT_TRUE(asked.wait_for("clamp the part")) << asked.shown();
+    asked.type("q\n");
+    EXPECT_EQ(asked.finish(), 3) << asked.shown();
+    OnTerminal answered(resumed);
+    ASSERT_TRUE(answered.wait_for("clamp the part")) << answered.shown();
+    answered.type("\n");
+    EXPECT_EQ(answered.finish(), 3) << "the part is not there yet: " << answered.shown();
+  }
+  const Simulator changed(port, "inf", (folder / "part.json").c_str(), "as-recorded");
+  const Outcome ended = rondure(resumed);
+  EXPECT_EQ(ended.status, 0) << ended.err << ended.out;
+  const auto run = journal_of(folder / "run");
+  const auto change = std::find_if(run.decisions.begin(), run.decisions.end(), [](const auto& d) {
+    return d.message.code == core::MessageCode::kClampingChanged;
+  });
+  ASSERT_NE(change, run.decisions.end());
+  EXPECT_THAT(change->message.text(2), ::testing::EndsWith("Z"));
+  EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
 }
 
 TEST(IppRun, AServedWorldMeasuresTheNextPartAsTheFirst) {

@@ -34,7 +34,7 @@ std::vector<Message> all_messages() {
 }
 
 /// Their English sentences.
-constexpr std::array<std::string_view, 13> kEnglish = {
+constexpr std::array<std::string_view, 15> kEnglish = {
     "part located in pose (12.0000, 13.0000) deg: its axis is level at (14.0000, "
     "15.0000) deg",
     "pose (12.0000, 13.0000) deg: zone of the cloud 14.000 um; turning to (15.0000, "
@@ -52,12 +52,13 @@ constexpr std::array<std::string_view, 13> kEnglish = {
     "search value; that pose is measured anew",
     "pose (12.0000, 13.0000) deg: 14 of 15 targets can be reached",
     "base of the fixture, or of a part without one: shifted by (12.0000, 13.0000, 14.0000) mm, "
-    "turned by "
-    "(15.00000, 16.00000, 17.00000) deg, largest residual 18.000 um",
+    "turned by (15.00000, 16.00000, 17.00000) deg, largest residual 18.000 um",
     "single-step mode: travel at 12 mm/s at most, moves confirmed by the operator",
     "resumed on not declared after 12 touches; the last 13 repeated, largest "
     "difference 14.000 um, limit 15 um",
-    "part located again behind 12 touches: not declared"};
+    "part located again behind 12 touches: not declared",
+    "not declared is clamped after 12 touches, confirmed on not declared",
+    "the features that follow are void, the fixture is taken as nominal: not declared"};
 
 TEST(MessageWords, AreTheEnglishSentenceOfEveryCode) {
   const std::vector<Message> messages = all_messages();

@@ -1,5 +1,6 @@
 #include "evaluation/interval/internal/declared.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/units.h"
@@ -107,7 +108,8 @@ FixtureInfluences influences_of(const record::FixtureInfluencesTask& said) {
 std::optional<CalibrationInfluences> calibration_influences(const record::RunRecord& record,
                                                             const FeatureResult& result) {
   if (result.feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
-  const FixtureFacts facts = fixture_facts(record);
+  const auto own = std::ranges::find(record.features, result.feature.id, &record::Feature::id);
+  const FixtureFacts facts = fixture_facts(record, static_cast<int>(own - record.features.begin()));
   if (!facts.calibration || !facts.use || facts.use->invalid) return std::nullopt;
   const FixtureUse& use = *facts.use;
   CalibrationInfluences out;

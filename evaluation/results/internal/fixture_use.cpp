@@ -1,5 +1,6 @@
 #include "evaluation/results/internal/fixture_use.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -67,7 +68,7 @@ std::optional<Gate> growth_gate(const FixtureUse& use, const FeatureResult& resu
 
 }  // namespace
 
-FixtureFacts fixture_facts(const record::RunRecord& record) {
+FixtureFacts fixture_facts(const record::RunRecord& record, int feature) {
   FixtureFacts out;
   const auto said = record::task_of<record::FixtureSettings>(record.settings, "fixture/");
   FixtureUse use;
@@ -78,9 +79,25 @@ FixtureFacts fixture_facts(const record::RunRecord& record) {
   }
   out.kinematics.axis_point_W_mm = Eigen::Vector3d::Map(said->axis_point_mm.data());
   out.kinematics.axis_offset_mm = Eigen::Vector3d::Map(said->axis_offset_mm.data());
-  if (!said->calibration) return out;
-  const auto calibration =
-      fixture::parse_calibration(*said->calibration, "fixture-calibration.json");
+  const bool of_file = said->calibration && !said->calibrated_by;
+  const std::string* text = of_file ? &*said->calibration : nullptr;
+  if (said->calibrated_by) {
+    const auto by = std::ranges::find(record.features, *said->calibrated_by, &record::Feature::id);
+    if (by != record.features.end() && by->shape == record::Shape::kRotaryAxes) {
+      use.source = static_cast<int>(by - record.features.begin());
+      if (feature <= use.source) return out;
+      text = taken_calibration(record, use.source);
+    }
+    if (text == nullptr) {
+      use.invalid = core::error_of(
+          core::Code::kCalibration,
+          core::phrase("the run has no calibration of the fixture by {}", *said->calibrated_by));
+      out.use = std::move(use);
+      return out;
+    }
+  }
+  if (text == nullptr) return out;
+  const auto calibration = fixture::parse_calibration(*text, "fixture-calibration.json");
   if (!calibration) {
     use.invalid = calibration.error();
     out.use = std::move(use);
@@ -101,10 +118,22 @@ FixtureFacts fixture_facts(const record::RunRecord& record) {
   if (auto holds = fixture::check_calibration(*calibration, demand_of(record, *said)); !holds) {
     use.invalid = holds.error();
   }
+  if (use.invalid && said->calibrated_by) {  // the run went on in the nominal fixture
+    out.use = std::move(use);
+    return out;
+  }
   out.kinematics = fixture::compensated(out.kinematics, *calibration);
   out.use = std::move(use);
   out.calibration = *calibration;
   return out;
+}
+
+const std::string* taken_calibration(const record::RunRecord& record, int source) {
+  for (const record::Decision& decision : record.decisions) {
+    const bool taken = decision.message.code == core::MessageCode::kCalibrationTaken;
+    if (taken && decision.feature == source) return &decision.message.text(0);
+  }
+  return nullptr;
 }
 
 void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& result) {

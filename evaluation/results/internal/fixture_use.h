@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -15,10 +16,15 @@ struct FixtureFacts {
   std::optional<fixture::Calibration> calibration;  ///< As the record holds it, whole.
 };
 
-/// Reads axes and calibration from the settings of the record and checks again whether the run may
-/// use the calibration: fixture::check_calibration() at the start of the run. A pure function of
-/// the record.
-[[nodiscard]] FixtureFacts fixture_facts(const record::RunRecord& record);
+/// Reads axes and calibration from the settings of the record, or the calibration that a feature of
+/// the run found and those after it took, and checks again whether the run may use it:
+/// fixture::check_calibration() at the start of the run. A pure function of the record.
+/// @param feature  Index of the feature that the fixture carried; by default, after all.
+[[nodiscard]] FixtureFacts fixture_facts(const record::RunRecord& record,
+                                         int feature = std::numeric_limits<int>::max());
+
+/// What the run took as its calibration from feature `source`; null where it did not come to that.
+[[nodiscard]] const std::string* taken_calibration(const record::RunRecord& record, int source);
 
 /// Makes the characteristics of a touched feature void when the calibration does not hold, and
 /// checks how far temperature has moved the axes since: a gate of the feature.

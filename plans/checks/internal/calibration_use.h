@@ -19,12 +19,19 @@ struct UsedCalibration {
   std::string text;
 };
 
-/// Reads `fixture.calibration` and checks that this plan may use it.
+/// Reads the file of `fixture.calibration` and checks that this plan may use it.
 /// @param run_utc  Start of the run; empty: age and expiry are not checked.
-/// @return Nothing without the key; kFile, and the errors of fixture::parse_calibration() and
+/// @return Nothing without a file; kFile, and the errors of fixture::parse_calibration() and
 ///         fixture::check_calibration(), with the pointer of the key.
 [[nodiscard]] core::Result<std::optional<UsedCalibration>> used_calibration(
     const Plan& plan, std::string_view run_utc);
+
+/// The calibration that a feature of the run found, for those after it.
+/// @param text  As fixture-calibration.json would hold it.
+/// @return  Errors of fixture::parse_calibration() and fixture::check_calibration().
+[[nodiscard]] core::Result<fixture::Calibration> usable_calibration(const Plan& plan,
+                                                                    std::string_view text,
+                                                                    std::string_view run_utc);
 
 /// The settings of the fixture in the journal, for the whole run: its nominal axes, its travel and,
 /// if there is one, the calibration itself ("fixture/calibration") with the plan's requirements on

@@ -39,7 +39,11 @@ RecordedRun::RecordedRun(record::RunRecord run) : run_(std::move(run)) {
 }
 
 bool RecordedRun::replaying(std::int64_t next_touch) const {
-  return run_.ending == "finished" || next_touch < machine_touches_end_;
+  if (run_.ending == "finished" || next_touch < machine_touches_end_) return true;
+  // What was touched last has been taken out since: nothing may move toward it.
+  return std::any_of(
+      run_.decisions.begin() + static_cast<std::ptrdiff_t>(next_decision_), run_.decisions.end(),
+      [](const auto& d) { return d.message.code == core::MessageCode::kClampingChanged; });
 }
 
 const record::Touch* RecordedRun::touch(std::int64_t id) const {

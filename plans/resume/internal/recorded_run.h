@@ -21,7 +21,8 @@ class RecordedRun {
   RecordedRun() = default;
   explicit RecordedRun(record::RunRecord run);
 
-  /// Whether the machine stands still because recorded touches are being replayed.
+  /// Whether the machine stands still because recorded touches, or a change of the clamping after
+  /// them, are being replayed.
   /// @param next_touch  Number of the next touch.
   [[nodiscard]] bool replaying(std::int64_t next_touch) const;
   /// The recorded touch of that number, or nullptr.

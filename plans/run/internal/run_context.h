@@ -89,9 +89,20 @@ struct RunContext {
   /// when it is turned to a recorded pose and does not read the recorded angles.
   [[nodiscard]] core::Result<record::PoseVisit> turn(int feature, const core::Pose& commanded);
   [[nodiscard]] core::Result<void> note(int feature, const core::Message& message);
+  /// Has something else clamped before a feature: parks the tip, turns the fixture to its zero
+  /// pose, asks, and journals the answer. A simulated cell answers itself. kStopped without an
+  /// answer.
+  /// @param clamped  Name for the journal.
+  /// @param what     What is asked.
+  [[nodiscard]] core::Result<void> change_clamping(int feature, const std::string& clamped,
+                                                   const std::string& what);
 
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
+  /// Journals that the run goes on; the place of the machine is known again.
+  [[nodiscard]] core::Result<void> note_return(std::size_t repeated, double largest_mm);
+  /// come_back() where the last step was a change of the clamping: nothing is there to repeat.
+  [[nodiscard]] core::Result<void> come_back_to_change(double time_s);
   [[nodiscard]] core::Result<record::Touch> replay(TouchStep step, const record::Touch& known);
   /// The error for a part that has moved: kLocation, with relocation_due set if the part may be
   /// located again. The tip is at park height.

@@ -82,6 +82,22 @@ std::optional<std::string> in_words(const Message& m) {
                           trf("part located again behind {} touches: {}", count_in(m, 0), *reason))
                     : std::nullopt;
     }
+    case MessageCode::kClampingChanged:
+      if (m.text(2).empty()) {
+        return trf("{} is clamped after {} touches, by the simulation", m.text(1), count_in(m, 0));
+      }
+      return trf("{} is clamped after {} touches, confirmed on {}", m.text(1), count_in(m, 0),
+                 m.text(2));
+    case MessageCode::kCalibrationTaken: {
+      if (m.text(1).empty()) {
+        return tr("its calibration of the fixture holds for the features that follow");
+      }
+      const auto reason = in_words(core::Phrase(m.text(1)));
+      return reason ? std::optional(trf("the features that follow are void, the fixture is taken "
+                                        "as nominal: {}",
+                                        *reason))
+                    : std::nullopt;
+    }
   }
   return std::nullopt;
 }
