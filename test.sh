@@ -22,11 +22,13 @@ fi
 . .ci/packages.sh
 rooms="core fit wire record fixture cmm plans evaluation reports web app usb house benchmarks fuzz browser package"
 
-# Not run under the sanitizers: figures of many trials, and runs of the whole program that take long; what these do,
-# the tests of plans, record and reports do within one process.
+# Not run under the sanitizers: figures of many trials, what is held against the clock, and runs of the whole program that
+# take long; what these do, the tests of plans, record and reports do within one process.
 unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\."
 unsanitized+="|EveryFlippedByteIsTold|PlantedShafts|PlanVerb\\.(Proposes|SaysWhatLimits|Predicts)"
-unsanitized+="|app\\.(Killed|SmallDisk|FullDisk|Resume|Watch|Language|HardPlan)"
+unsanitized+="|FixedPart\\.BesideItsPlace|DrawingDatums\\.OfPerfect|WheelInterval\\.NoiseIsNoLoss|FilteredBelowTheCutOff"
+unsanitized+="|SpindleInterval\\.HasTheEnds|FiveAxis\\.(Reversed|ReadingsOf)|WheelRadiusFlow|KeptTrials"
+unsanitized+="|app\\.(Waiting\\.SaysNothing|Killed|SmallDisk|FullDisk|Resume|Watch|Language|HardPlan)"
 
 usage() {
   sed -n '1,/^set /s/^#  \( .*\)/\1/p' test.sh
@@ -122,7 +124,7 @@ fi
 case "$mode" in
   --sanitizers)
     build asan ON all
-    echo "Not run under the sanitizers (figures of many trials, and long runs of the program):" "${unsanitized//\\/}"
+    echo "Not run under the sanitizers (figures of many trials, times, and long runs of the program):" "${unsanitized//\\/}"
     exec ctest --preset asan -E "$unsanitized"
     ;;
   all | --full)

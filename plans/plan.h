@@ -250,9 +250,10 @@ struct SourcePlan {
   record::PointsAre points = record::PointsAre::kTipCentres;
   std::optional<record::MeshUse> mesh;       ///< Of a file of triangles; none: refused.
   std::optional<record::LayersFrom> layers;  ///< Of points; none: the column, where there is one.
-  std::string feature;       ///< Only the rows whose column `feature` says this; empty: all rows.
-  std::string clamping;      ///< Files of one name were measured in one clamping.
-  std::string measured_utc;  ///< When the data were measured; may be empty.
+  std::string feature;  ///< Only the rows whose column `feature` says this; empty: all rows.
+  std::optional<record::UntakenRows> others;  ///< Rows no feature takes; none: refused.
+  std::string clamping;                       ///< Files of one name were measured in one clamping.
+  std::string measured_utc;                   ///< When the data were measured; may be empty.
   std::optional<double> valid_for_days;       ///< How long they stand; needs `measured_utc`.
   std::optional<record::SectionPlane> plane;  ///< Of a circle.
 };

@@ -120,23 +120,16 @@ std::string further_poses(const plans::Plan& plan, const plans::Forecast& foreca
   return "A part that sits beside its nominal place needs poses more than these:\n" + out;
 }
 
-/// What of the tool is kept clear; without a fixture also whether anything is known to hold the
-/// part.
+/// What of the tool is kept clear.
 std::string tool_line(const plans::Plan& plan) {
   const plans::ProbePlan& probe = *plan.probe;
-  const std::string holder =
-      plans::is_fixed(plan) && !plan.part.held
-          ? "Holder: no part.held, so clamps and jaws are not checked; keep the tip clear of them\n"
-          : "";
   if (probe.stylus_length_mm <= 0.0) {
     return fmt::format("Tool: ball {:g} mm; no stylus_length_mm, so only the ball is kept clear\n",
-                       probe.tip_diameter_mm) +
-           holder;
+                       probe.tip_diameter_mm);
   }
   return fmt::format("Tool: ball {:g} mm, shaft {:g} x {:g} mm, holder {:g} mm\n",
                      probe.tip_diameter_mm, probe.stylus_diameter_mm, probe.stylus_length_mm,
-                     probe.holder_diameter_mm) +
-         holder;
+                     probe.holder_diameter_mm);
 }
 
 ordered_json stage_json(const plans::Plan& plan, const ForecastStage& stage) {
@@ -161,10 +154,15 @@ std::string clock_text(double time_s) {
   return fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
+std::string holder_line(const plans::Plan& plan) {
+  if (!plans::is_fixed(plan) || plan.part.held) return {};
+  return "Holder: no part.held, so clamps and jaws are not checked; keep the tip clear of them\n";
+}
+
 std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forecast) {
   std::string out = fmt::format("{}, revision {}\n", plan.plan.name, plan.plan.revision);
   if (forecast.stages.empty()) return out + "All points come from files: nothing would move.\n";
-  out += tool_line(plan);
+  out += tool_line(plan) + holder_line(plan);
   out += fmt::format("Speeds: {:g} mm/s between touches, {:g} mm/s in the search\n\n",
                      plan.machine->travel_speed_mm_s, plan.machine->touch_speed_mm_s);
   out += fmt::format("  {:<16} {:<18} {:>15} {:>7} {:>9} {:>8}\n", "stage", "feature",

@@ -40,7 +40,10 @@ std::string file_from(const std::string& file, const fs::path& folder) {
 
 Json source_of(const FitArguments& arguments, const fs::path& folder) {
   Json out = {{"file", file_from(arguments.file, folder)}};
-  if (!arguments.points.feature.empty()) out["feature"] = arguments.points.feature;
+  if (!arguments.points.feature.empty()) {
+    out["feature"] = arguments.points.feature;
+    out["others"] = name_of(record::UntakenRows::kLeftOut);
+  }
   if (arguments.tip_diameter_mm) out["tip_diameter_mm"] = *arguments.tip_diameter_mm;
   for (std::size_t i = 0; i < arguments.points.columns.size(); ++i) {
     out["columns"].push_back({{"column", std::string(1, static_cast<char>('x' + i))},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/text/forecast.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "evaluation/prediction/predict.h"
@@ -73,13 +74,13 @@ namespace {
 
 /// What the reader of points took for what; the plan is valid, so that it reads every file.
 void say_what_was_read(const plans::Plan& plan) {
-  for (const plans::FeaturePlan& feature : plan.features) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const plans::FeaturePlan& feature = plan.features[i];
     if (!feature.source || record::is_analysis(feature.type)) continue;
     const auto bytes =
         record::read_file(plan.folder / feature.source->file, record::kMostPointsBytes);
     if (!bytes) continue;
-    const auto table =
-        record::read_points(*bytes, feature.source->file, plans::points_options(*feature.source));
+    const auto table = plans::points_of(plan, i, *bytes);
     if (table && !table->read.empty())
       say_line(fmt::format("feature {}: {}: {}", feature.id, feature.source->file, table->read));
   }
@@ -112,6 +113,7 @@ int validate(const ValidateArguments& arguments) {
                        plan->features.size() == 1 ? "" : "s"));
   say_what_was_read(*plan);
   say_undeclared(*plan);
+  say(holder_line(*plan));
   tell_doubts(plans::doubts_of(*plan));
   return kAllWell;
 }

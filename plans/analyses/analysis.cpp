@@ -88,8 +88,8 @@ void check_sections(const AnalysisKind& kind, const std::string& where, Findings
   }
   for (const std::string_view key :
        {"/nominal", "/sampling", "/pose_search", "/source/tip_diameter_mm", "/source/feature",
-        "/source/clamping", "/source/unit", "/source/layers", "/source/mesh", "/source/points",
-        "/letter", "/exclude"}) {
+        "/source/others", "/source/clamping", "/source/unit", "/source/layers", "/source/mesh",
+        "/source/points", "/letter", "/exclude"}) {
     if (!findings.is_given(where + std::string(key))) continue;
     findings.meaning(
         Code::kMeaning, where + std::string(key),

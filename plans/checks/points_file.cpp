@@ -99,10 +99,21 @@ void check_columns(const SourcePlan& source, const std::string& where, Findings&
                    "in the head line, or the number of the column, from 1");
 }
 
-/// Refuses rows that no feature of the plan takes: a misspelt name is a defect left out. Said once
-/// a file, at the first feature that takes rows of it.
-void check_other_rows(const Plan& plan, std::size_t index,
-                      const std::vector<record::OtherRows>& others, Findings& findings) {
+/// How the points of a source are to be read.
+record::PointsOptions points_options(const SourcePlan& source) {
+  record::PointsOptions out{source.feature, {}, source.unit, source.layers};
+  for (const std::string_view name : {"x", "y", "z"}) {
+    for (const ColumnPlan& column : source.columns) {
+      if (column.column == name) out.columns.push_back(column.in_file);
+    }
+  }
+  return out;
+}
+
+/// Names the rows that no feature of the plan takes; empty: all are taken. Said once a file, at the
+/// first feature that takes rows of it.
+std::string untaken_rows(const Plan& plan, std::size_t index,
+                         const std::vector<record::OtherRows>& others) {
   const auto path = [](const FeaturePlan& f) {
     return std::filesystem::path(f.source->file).lexically_normal();
   };
@@ -115,30 +126,26 @@ void check_other_rows(const Plan& plan, std::size_t index,
     for (std::size_t k = 0; k < plan.features.size(); ++k) {
       const FeaturePlan& other = plan.features[k];
       if (!other.source || path(other) != path(own)) continue;
-      if (k < index && !other.source->feature.empty()) return;
+      if (k < index && !other.source->feature.empty()) return {};
       taken = taken || other.source->feature == rows.feature;
     }
     if (taken || ++lost > kMostNamed) continue;
     names += fmt::format("{}{} ({} rows from line {} on)", names.empty() ? "" : ", ",
                          in_quotes(rows.feature), rows.count, rows.first_line);
   }
-  if (lost == 0) return;
   if (lost > kMostNamed) names += fmt::format(" and {} more", lost - kMostNamed);
-  findings.meaning(
-      Code::kMeaning, feature_pointer(index) + "/source/feature",
-      fmt::format("the file {} has rows that no feature of the plan takes: {}; correct the names, "
-                  "which count letter by letter, plan a feature for them, or take them out",
-                  in_quotes(own.source->file), names));
+  return names;
 }
 
 }  // namespace
 
-record::PointsOptions points_options(const SourcePlan& source) {
-  record::PointsOptions out{source.feature, {}, source.unit, source.layers};
-  for (const std::string_view name : {"x", "y", "z"}) {
-    for (const ColumnPlan& column : source.columns) {
-      if (column.column == name) out.columns.push_back(column.in_file);
-    }
+core::Result<record::PointTable> points_of(const Plan& plan, std::size_t index,
+                                           std::string_view bytes) {
+  const SourcePlan& source = *plan.features[index].source;
+  TRY(auto out, record::read_points(bytes, source.file, points_options(source)));
+  if (!source.others) return out;
+  if (const std::string rows = untaken_rows(plan, index, out.others); !rows.empty()) {
+    out.read += "; left out: " + rows;
   }
   return out;
 }
@@ -172,7 +179,7 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
   const auto bytes = read_data_file(plan.folder / file, file);
   if (!bytes) return findings.meaning(bytes.error().code, where, bytes.error().what);
   check_columns(*feature.source, feature_pointer(index) + "/source/columns", findings);
-  const auto table = record::read_points(*bytes, file, points_options(*feature.source));
+  const auto table = points_of(plan, index, *bytes);
   if (!table) {
     const core::Error& error = table.error();
     const bool of_key = error.where == file;  // no line of the file
@@ -190,7 +197,14 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
                                  "\"mesh\": \"accepted\"",
                                  in_quotes(file)));
   }
-  check_other_rows(plan, index, table->others, findings);
+  const std::string untaken = untaken_rows(plan, index, table->others);
+  if (!untaken.empty() && !feature.source->others) {  // a misspelt name is a defect left out
+    findings.meaning(Code::kMeaning, feature_pointer(index) + "/source/feature",
+                     fmt::format("the file {} has rows that no feature of the plan takes: {}; "
+                                 "correct the names, which count letter by letter, plan a feature "
+                                 "for them, take them out, or say \"others\": \"left-out\"",
+                                 in_quotes(file), untaken));
+  }
   const bool circle = feature.type == record::Shape::kCircle;
   if (!circle && table->dimensions != 3) {
     return findings.meaning(Code::kMeaning, where,

@@ -68,7 +68,7 @@ struct FeatureData {
 core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
   const std::string& name = plan.features[index].source->file;
   TRY(const auto bytes, record::read_file(plan.folder / name, record::kMostPointsBytes));
-  TRY(auto table, record::read_points(bytes, name, points_options(*plan.features[index].source)));
+  TRY(auto table, points_of(plan, index, bytes));
   return FeatureData{record::sha256_hex(bytes), std::move(table), {}};
 }
 

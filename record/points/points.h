@@ -29,6 +29,10 @@ RONDURE_WORDS(PointsAre, {kTipCentres, "tip-centres"}, {kSurface, "surface"});
 enum class MeshUse { kAccepted };
 RONDURE_WORDS(MeshUse, {kAccepted, "accepted"});
 
+/// What a plan says of rows of a file that none of its features takes.
+enum class UntakenRows { kLeftOut };
+RONDURE_WORDS(UntakenRows, {kLeftOut, "left-out"});
+
 /// What is known of a points file beforehand. What is left out, the file shows, or it is refused.
 struct PointsOptions {
   std::string feature;                    ///< Rows to take; empty: the file has one feature.

@@ -8,6 +8,7 @@
 #include "evaluation/evaluate.h"
 #include "evaluation/part/place.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
@@ -396,6 +397,8 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   }
   const std::string origin = asked.strategy == record::Strategy::kPointsFile
                                  ? tr("points from a file")
+                             : evaluation::stands_still(asked)
+                                 ? tr("touched where it stands, without a fixture")
                                  : trf("pose search: {}", tr(record::name_of(asked.strategy)));
   std::string html =
       fmt::format(R"(<section><h2>{}</h2><p class="note">{}</p>)", feature_title(asked),

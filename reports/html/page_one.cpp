@@ -323,7 +323,16 @@ std::string measured_in_words(const record::RunRecord& record,
 }
 
 std::string not_seen_in_words(const evaluation::Evaluation& evaluation) {
-  std::string html = tr("the surface between the points");
+  const auto axes = [](const evaluation::FeatureResult& feature) {
+    return feature.feature.shape == record::Shape::kRotaryAxes ||
+           feature.feature.shape == record::Shape::kFiveAxis;
+  };
+  const auto of_axes = std::ranges::count_if(evaluation.features, axes);
+  std::string html;
+  if (std::ssize(evaluation.features) > of_axes) html = tr("the surface between the points");
+  if (of_axes > 0) {
+    html += (html.empty() ? "" : tr("; ")) + tr("the errors of the axes between the stations");
+  }
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     const auto left_out =
         std::ranges::count(feature.cloud, true, &evaluation::CloudPoint::left_out);

@@ -163,7 +163,7 @@ TEST(Explain, KnowsTheInfluences) {
 
 /// Collects the names of influences and the codes that a report prints.
 void collect_names(const nlohmann::json& node, std::set<std::string>& out) {
-  for (const char* list : {"budget", "influences", "warnings", "decisions"}) {
+  for (const char* list : {"budget", "influences", "warnings", "decisions", "gates"}) {
     if (!node.is_object() || !node.contains(list)) continue;
     for (const auto& item : node.at(list)) {
       for (const char* name : {"name", "influence", "code"}) {

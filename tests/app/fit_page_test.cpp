@@ -55,6 +55,23 @@ class FitToAPage : public ::testing::Test {
   fs::path run_ = folder_ / "run";
 };
 
+// A file of several features: the person has named one, and the others are named as left out.
+TEST_F(FitToAPage, OfOneFeatureOfAFileNamesTheOthers) {
+  const fs::path shaft = source_dir() / "tests/data/shaft_drawing/shaft.csv";
+  const fs::path plan = folder_ / "plan.json";
+  const Outcome outcome = rondure({"fit", "cylinder", shaft, "--feature", "A", "--tolerance-um",
+                                   "20", "--out", run_, "--save-plan", plan});
+  EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  const Outcome valid = rondure({"validate", plan});
+  EXPECT_EQ(valid.status, 0) << valid.err;
+  EXPECT_THAT(valid.out, HasSubstr("; left out: \"B\" ("));
+  json strict = json::parse(read(plan));
+  strict["features"][0]["source"].erase("others");
+  write(plan, strict.dump());
+  EXPECT_THAT(rondure({"validate", plan}).err,
+              HasSubstr("has rows that no feature of the plan takes: \"B\""));
+}
+
 TEST_F(FitToAPage, IsARunThatVerifiesAndSigns) {
   const Outcome outcome = rondure(
       {"fit", "cylinder", points_, "--tolerance-um", "2.5", "--serial", "0042", "--out", run_});

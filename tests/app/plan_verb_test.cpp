@@ -102,6 +102,21 @@ TEST(PlanVerb, RefusesWithValidateAndRunASphereThatHidesAnother) {
   EXPECT_FALSE(std::filesystem::exists(folder / "run"));
 }
 
+TEST(PlanVerb, SaysWithValidateWhereNothingIsKnownOfWhatHoldsThePart) {
+  auto plan = example_plan("17_cmm_without_fixture");
+  const TemporaryFolder folder;
+  for (const bool known : {true, false}) {
+    if (!known) plan["part"].erase("held");
+    write(folder / "plan.json", plan.dump());
+    for (const char* verb : {"validate", "plan"}) {
+      const Outcome told = rondure({verb, folder / "plan.json"});
+      EXPECT_EQ(told.status, 0) << told.err;
+      EXPECT_EQ(told.out.find("clamps and jaws are not checked") == std::string::npos, known)
+          << told.out;
+    }
+  }
+}
+
 TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
   const Outcome told = rondure({"plan", example("09_axle_points_file.json")});
   EXPECT_EQ(told.status, 0) << told.err;

@@ -112,7 +112,7 @@ TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
       fmt::format("/features/0/source/feature: the file \"shaft.csv\" has rows that no feature "
                   "of the plan takes: {} (2 rows from line {} on), {} (1 rows from line {} "
                   "on); correct the names, which count letter by letter, plan a feature for "
-                  "them, or take them out [meaning]\n",
+                  "them, take them out, or say \"others\": \"left-out\" [meaning]\n",
                   in_quotes("c"), lines + 1, in_quotes("C c"), lines + 3));
   std::filesystem::remove_all(folder);
 }

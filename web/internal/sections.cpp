@@ -50,6 +50,10 @@ const std::string& id_of(const record::RunRecord& record, const record::PoseVisi
   return record.features[static_cast<std::size_t>(visit.feature)].id;
 }
 
+bool stands_still(const record::RunRecord& record, const record::PoseVisit& visit) {
+  return evaluation::stands_still(record.features[static_cast<std::size_t>(visit.feature)]);
+}
+
 std::string angles_of(const core::Pose& pose) {
   return fmt::format("alpha {}°, beta {}°", deg(pose.alpha_rad), deg(pose.beta_rad));
 }
@@ -110,6 +114,9 @@ std::string live_doing(const record::RunRecord& record, const LiveNow& now) {
   const bool locating = !record.touches.empty() && record.touches.back().pose == now.pose->id &&
                         record.touches.back().purpose == record::Touch::Purpose::kLocate;
   const std::string feature = isolated(id_of(record, *now.pose));
+  if (stands_still(record, *now.pose)) {
+    return locating ? trf("Locating {}", feature) : trf("Measuring {}", feature);
+  }
   const std::size_t number = number_of(record, *now.pose);
   return locating ? trf("Locating {}, pose {}", feature, number)
                   : trf("Measuring {}, pose {}", feature, number);
@@ -123,10 +130,7 @@ std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
   }
   html += fmt::format(R"(<h2 class="doing">{}</h2><dl class="keys">)", live_doing(record, now));
   html += touches_entry(record, now) + time_entries(now);
-  const auto stands = [&] {
-    return evaluation::stands_still(record.features[static_cast<std::size_t>(now.pose->feature)]);
-  };
-  if (now.pose != nullptr && !stands()) {
+  if (now.pose != nullptr && !stands_still(record, *now.pose)) {
     html += entry(tr("Pose"), with_note(std::to_string(number_of(record, *now.pose)),
                                         angles_of(now.pose->reached)));
   }

@@ -29,6 +29,7 @@ constexpr double kSpotCandidate = 3.3;  // standard deviations
 constexpr double kNoUnresolved = 0.35;  // probability that all form is resolved
 constexpr int kVariances = 48;          // steps of the unresolved variance
 constexpr int kNoiseSteps = 15;         // for noise that is not known exactly
+constexpr double kNegligible = -40.0;  // logarithm of the odds of a variance, against the likeliest
 constexpr double kOverlap = 0.3;       // overlap of two columns above which they are drawn together
 constexpr double kModeOverlap = 0.05;  // squared overlap of a column with a systematic error
 constexpr double kSpectrumRest = 0.05;  // no surface consists of a few declared terms alone
@@ -107,7 +108,11 @@ VarianceOdds variance_odds(const VarianceTerms& terms, double squares_mm2, doubl
     }
   }
   double sum = 0.0;
-  for (VarianceOdd& one : out) sum += one.probability_1 = std::exp(one.probability_1 - highest);
+  for (VarianceOdd& one : out) {
+    const double below = one.probability_1 - highest;
+    one.probability_1 = below > kNegligible ? std::exp(below) : 0.0;
+    sum += one.probability_1;
+  }
   for (VarianceOdd& one : out) one.probability_1 /= sum;
   return out;
 }
@@ -130,6 +135,7 @@ FormModel::FormModel(const FormCloud& cloud, const ErrorModel& errors, const For
   correlate(cloud, errors);
   find_bands();
   find_joint();
+  find_seen();
   first_state();
 }
 
@@ -378,6 +384,18 @@ void FormModel::find_joint() {
   }
 }
 
+void FormModel::find_seen() {
+  const Index rigid = columns_.rigid().cols();
+  if (!declared_ || all_.cols() - rigid <= y_.size()) return;
+  SeenSpectrum& out = seen_.emplace();
+  out.free = core::full_q(columns_.rigid()).rightCols(y_.size() - rigid);
+  out.columns = out.free.transpose() * all_.rightCols(all_.cols() - rigid);
+  const auto systematic = out.columns.leftCols(base_ - rigid);
+  const auto form = out.columns.rightCols(all_.cols() - base_);
+  out.systematic = systematic * systematic.transpose();
+  out.form = form * form.transpose();
+}
+
 void FormModel::first_state() {
   const double n = static_cast<double>(y_.size());
   coefficients_ = VectorXd::Zero(all_.cols());
@@ -613,6 +631,29 @@ void FormChain::draw_together() {
   coefficients_(used) = after;
 }
 
+/// Draws all columns of a declared spectrum at the cost of a system of as many equations as points:
+/// a form drawn beforehand takes up what it leaves of the deviations.
+/// Source: A. Bhattacharya, A. Chakraborty, B. Mallick, Biometrika 103 (2016) 985-991.
+void FormChain::draw_seen() {
+  const SeenSpectrum& seen = *model_.seen_;
+  const Index rigid = model_.columns_.rigid().cols();
+  const double size = size_mm2_.front();
+  const double sigma = std::sqrt(variance_mm2_);
+  auto columns = coefficients_.tail(seen.columns.cols());
+  VectorXd variances = VectorXd::Constant(columns.size(), size);
+  variances.head(model_.base_ - rigid).setOnes();
+  for (Index j = 0; j < columns.size(); ++j) columns[j] = std::sqrt(variances[j]) * noise_.normal();
+  VectorXd left = seen.free.transpose() * y_ - seen.columns * columns;
+  for (double& value : left) value -= sigma * noise_.normal();
+  MatrixXd covariance = seen.systematic + size * seen.form;
+  covariance.diagonal().array() += variance_mm2_;
+  columns += variances.cwiseProduct(seen.columns.transpose() * core::solve_llt(covariance, left));
+  const VectorXd rest = y_ - model_.all_.rightCols(columns.size()) * columns;
+  const double n = static_cast<double>(y_.size());
+  coefficients_.head(rigid) = model_.columns_.rigid().transpose() * rest / n;
+  for (double& value : coefficients_.head(rigid)) value += sigma / std::sqrt(n) * noise_.normal();
+}
+
 double FormChain::least_size(const FormBand& band) const {
   if (model_.declared_) {
     return 2.0 * variance_mm2_ / static_cast<double>(y_.size()) /
@@ -685,11 +726,15 @@ void FormChain::predict() {
 void FormChain::sweep() {
   draw_variances();
   if (sweeps_ >= kSpotSweep) draw_spots();
-  draw_rigid();
-  for (std::size_t g = 0; g < on_.size(); ++g) {
-    if (!model_.joint_all_ || !model_.bands_[model_.groups_[g].band].always) draw_group(g);
+  if (model_.seen_) {
+    draw_seen();
+  } else {
+    draw_rigid();
+    for (std::size_t g = 0; g < on_.size(); ++g) {
+      if (!model_.joint_all_ || !model_.bands_[model_.groups_[g].band].always) draw_group(g);
+    }
+    draw_together();
   }
-  draw_together();
   draw_bands();
   predict();
   ++sweeps_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,6 +64,15 @@ struct KeptGroup {
   double extra_mm2 = 0.0;  ///< Variance that correlated noise gives its coefficients.
 };
 
+/// What the points see of a declared spectrum, free of position, size and tilt: covariances of as
+/// many numbers as there are points, however many columns the spectrum has.
+struct SeenSpectrum {
+  Eigen::MatrixXd free;        ///< Orthonormal columns: values at the points without a motion.
+  Eigen::MatrixXd columns;     ///< Systematic errors, then form.
+  Eigen::MatrixXd systematic;  ///< Covariance that the systematic errors give.
+  Eigen::MatrixXd form;        ///< Covariance that a form of size 1 gives.
+};
+
 /// The form model of docs/uncertainty.md on one cloud: the state before the first draw. All values
 /// are weighted, so that every point has the same variance.
 class FormModel {
@@ -91,6 +101,7 @@ class FormModel {
   void correlate(const FormCloud& cloud, const ErrorModel& errors);
   void find_bands();
   void find_joint();
+  void find_seen();
   void first_state();
   [[nodiscard]] bool orthogonal() const { return gram_.size() == 0; }
 
@@ -118,8 +129,9 @@ class FormModel {
   Eigen::VectorXd square_;      ///< Sum of squares of each column.
   Eigen::MatrixXd gram_;        ///< Empty where the columns are orthogonal.
   bool joint_all_ = false;
-  std::vector<bool> joint_;      ///< Columns that are drawn together.
-  double spectrum_power_ = 0.0;  ///< Mean square of a declared spectrum of size 1.
+  std::vector<bool> joint_;           ///< Columns that are drawn together.
+  double spectrum_power_ = 0.0;       ///< Mean square of a declared spectrum of size 1.
+  std::optional<SeenSpectrum> seen_;  ///< Of a declared spectrum with more columns than points.
   // First state.
   Eigen::VectorXd coefficients_;
   std::vector<bool> on_;
@@ -155,6 +167,7 @@ class FormChain {
   void draw_rigid();
   void draw_group(std::size_t g);
   void draw_together();
+  void draw_seen();
   void draw_bands();
   void predict();
   void draw_form();

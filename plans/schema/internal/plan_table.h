@@ -474,6 +474,9 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("feature", p.feature,
          {.meaning = "Takes only rows whose column feature says this. All features of a file were "
                      "measured in one clamping."});
+  v.text("others", p.others,
+         {.meaning = "left-out: rows of the file that no feature of the plan takes are left out, "
+                     "and the report names them. Left out: refused."});
   v.text("clamping", p.clamping,
          {.meaning = "Name of the clamping, in one coordinate system. A datum in another file "
                      "needs the same name in both."});
