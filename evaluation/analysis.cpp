@@ -211,10 +211,10 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
 }
 
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-                     FeatureResult& result) {
+                     FeatureResult& result, bool with_intervals) {
   const std::vector<record::Characteristic>& asked = result.feature.characteristics;
   std::vector<UncertaintyStatus> intervals(asked.size(), UncertaintyStatus::none({}));
-  if (result.analysis) {
+  if (result.analysis && with_intervals) {
     intervals = intervals_of(*result.analysis, asked, uncertainty_options(record));
   }
   for (std::size_t c = 0; c < asked.size(); ++c) {

@@ -44,7 +44,8 @@ struct AnalysisResult;  // analysis_result.h
 /// is void without a result or a value, with a value of a void feature, outside the temperature
 /// limits, where the value proves nothing, when the run did not finish, or when its rule needs an
 /// interval and there is none.
+/// @param with_intervals  False where only the values are wanted.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
-                     FeatureResult& result);
+                     FeatureResult& result, bool with_intervals = true);
 
 }  // namespace rondure::evaluation

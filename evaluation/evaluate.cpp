@@ -15,6 +15,7 @@
 #include "evaluation/handed_calibration.h"
 #include "evaluation/internal/conformance.h"
 #include "evaluation/internal/merged.h"
+#include "evaluation/internal/truth.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
 #include "evaluation/part/internal/clamping.h"
@@ -568,9 +569,9 @@ FeatureResult without_values(const Defect& defect) {
   return out;
 }
 
-}  // namespace
-
-CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
+/// @param intervals  False: only the values are wanted.
+CheckedEvaluation evaluate_all(const RunRecord& measured, const InvariantCheck& check,
+                               bool intervals) {
   const std::optional<RunRecord> at_20 = compensated(measured);
   const RunRecord& record = at_20 ? *at_20 : measured;
   CheckedEvaluation checked;
@@ -593,7 +594,7 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
       const bool balls = record.features[i].shape == record::Shape::kRotaryAxes;
       FeatureResult analysed = balls ? evaluate_analysis(measured, index, evaluate_probe(measured))
                                      : evaluate_analysis(record, index, out.probe, out.features);
-      decide_analysis(record, out.rule, analysed);
+      decide_analysis(record, out.rule, analysed, intervals);
       if (out.fixture && out.fixture->source == index) {
         hold_against(analysed, taken_calibration(record, index), *out.fixture);
       }
@@ -620,6 +621,16 @@ CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantChe
   }
   out.verdict = overall(out.features);
   return checked;
+}
+
+}  // namespace
+
+CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
+  CheckedEvaluation out = evaluate_all(measured, check, true);
+  if (const auto exact = without_errors(measured)) {
+    keep_truths(measured, evaluate_all(*exact, check, false).evaluation, out.evaluation);
+  }
+  return out;
 }
 
 FeatureResult evaluate_calibration(const RunRecord& so_far, int index) {

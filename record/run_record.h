@@ -247,7 +247,8 @@ struct SeriesColumn {
 
 /// Rows of numbers recorded together by probes or a controller, in the units of the columns.
 struct Series {
-  /// kTruth: the hidden truth of a simulation; reports show it, evaluation never reads it.
+  /// kTruth: the hidden truth of a simulation, which results are held against. One with the name
+  /// and columns of data is these without errors of measurement.
   enum class Role { kData, kTruth };
   int feature = 0;  ///< Index into RunRecord::features.
   std::string name = "data";
@@ -262,6 +263,10 @@ struct Series {
   [[nodiscard]] std::optional<std::vector<double>> column(std::string_view wanted) const;
 };
 
+/// The series of a simulated feature that says where its touches would have met the part without
+/// errors, the fixture at its nominal axes: touch, x_mm, y_mm, z_mm.
+inline constexpr const char* kTrueTips = "true tips";
+
 RONDURE_WORDS(Series::Role, {kData, "data"}, {kTruth, "truth"});
 
 /// A number of the hidden truth of a simulated analysis.
@@ -269,13 +274,6 @@ struct TruthValue {
   int feature = 0;
   std::string name;  ///< Name with unit, e.g. "RONt_um".
   double value = 0.0;
-};
-
-/// The hidden truth of a simulation, written by the simulated cell. Reports show it beside the
-/// result; evaluation never reads it.
-struct SimulationTruth {
-  int feature = 0;
-  double cylt_mm = 0.0;  ///< Minimum zone of the noise-free tip centres of the final cloud.
 };
 
 /// A number of the evaluation as the run stored it; `rondure verify` compares it.
@@ -296,7 +294,6 @@ struct RunRecord {
   std::vector<Touch> touches;  ///< By id, without checks.
   std::vector<Touch> checks;   ///< Repeated touches of a resumed run, in order.
   std::vector<Decision> decisions;
-  std::vector<SimulationTruth> truths;
   std::vector<Series> series;            ///< In the order of recording.
   std::vector<TruthValue> truth_values;  ///< Hidden truth of analyses.
   std::vector<StoredResult> results;

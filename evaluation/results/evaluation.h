@@ -98,6 +98,9 @@ struct CharacteristicResult {
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
   /// How find() came to the value; null for values of other origin.
   std::shared_ptr<const Finding> finding = {};
+  /// What each judged value, or the value, is without errors of measurement at the same touches;
+  /// only of a simulation.
+  std::vector<double> truths_mm = {};
 
   /// The value as measured, without its qualifying words: for computing, not for writing.
   [[nodiscard]] std::optional<double> value_mm() const {

@@ -222,14 +222,4 @@ const PoseValue* final_pose_of(const FeatureResult& feature) {
   return found == feature.poses.end() ? nullptr : &*found;
 }
 
-const record::SimulationTruth* truth_of(const record::RunRecord& record, std::size_t index) {
-  // A part that was located again while its final cloud was repeated has two truths: use the later
-  // one.
-  const record::SimulationTruth* last = nullptr;
-  for (const record::SimulationTruth& truth : record.truths) {
-    if (truth.feature >= 0 && static_cast<std::size_t>(truth.feature) == index) last = &truth;
-  }
-  return last;
-}
-
 }  // namespace rondure::evaluation

@@ -77,8 +77,4 @@ struct OneSided {
 /// The final pose, or nothing when no pose is marked.
 [[nodiscard]] const PoseValue* final_pose_of(const FeatureResult& feature);
 
-/// Hidden truth of the simulation for feature `index`, or nothing.
-[[nodiscard]] const record::SimulationTruth* truth_of(const record::RunRecord& record,
-                                                      std::size_t index);
-
 }  // namespace rondure::evaluation

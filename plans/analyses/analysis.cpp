@@ -161,15 +161,26 @@ const AnalysisKind* analysis_kind(record::Shape shape) {
 core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index, std::uint64_t seed) {
   const AnalysisKind& kind = *analysis_kind(plan.features[index].type);
   if (has_files(plan.features[index])) return read_files(plan, index, kind);
-  auto simulated = kind.simulate(plan, index, seed);
-  // Only a plan with limits asks for the temperature; the data of others stay as they were.
-  if (!simulated || !plan.environment) return simulated;
-  for (record::Series& series : simulated->series) {
-    if (series.role == record::Series::Role::kData) {
-      add_temperature(plan.simulation->temperature_degC, series);
+  const auto simulate = [&](const Plan& from) -> core::Result<AnalysisData> {
+    TRY(auto out, kind.simulate(from, index, seed));
+    // Only a plan with limits asks for the temperature; the data of others stay as they were.
+    for (record::Series& series : out.series) {
+      if (plan.environment && series.role == record::Series::Role::kData) {
+        add_temperature(plan.simulation->temperature_degC, series);
+      }
     }
+    return out;
+  };
+  TRY(auto out, simulate(plan));
+  Plan exact = plan;
+  kind.without_errors(*exact.simulation);
+  TRY(auto truth, simulate(exact));
+  for (record::Series& series : truth.series) {
+    if (series.role != record::Series::Role::kData) continue;
+    series.role = record::Series::Role::kTruth;
+    out.series.push_back(std::move(series));
   }
-  return simulated;
+  return out;
 }
 
 void check_analysis(const Plan& plan, std::size_t index, Findings& findings) {

@@ -47,8 +47,11 @@ struct AnalysisKind {
   void (*check)(const FeaturePlan& feature, const std::string& where, Findings& findings);
   /// @param seed  Seed of all noise. The data depend only on plan and seed.
   core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed);
+  /// Takes the errors of measurement out of its part of a simulation, so that simulate() gives what
+  /// the result is held against. Null only where `simulate` is.
+  void (*without_errors)(SimulationPlan& simulation);
   /// For an analysis of touches: checks its cell. Null for an analysis of series; when it is set,
-  /// is_simulated and simulate are null.
+  /// is_simulated, simulate and without_errors are null.
   void (*check_cell)(const Plan& plan, std::size_t index, Findings& findings) = nullptr;
 };
 

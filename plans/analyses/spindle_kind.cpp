@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,10 +7,8 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/geometry/swing_arm.h"
-#include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/probe_layout.h"
 #include "plans/analyses/analysis.h"
-#include "plans/analyses/features.h"
 #include "plans/analyses/internal/simulated_wheel.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/spindle_table.h"
@@ -181,66 +177,21 @@ record::Series readings(const ProbedWorld& world, int feature, std::uint64_t see
   return out;
 }
 
-fit::CircleReference circle_of(record::Reference reference) {
-  switch (reference) {
-    case record::Reference::kLeastSquares:
-      return fit::CircleReference::kLs;
-    case record::Reference::kMinimumCircumscribed:
-      return fit::CircleReference::kMc;
-    case record::Reference::kMaximumInscribed:
-      return fit::CircleReference::kMi;
-    case record::Reference::kMinimumZone:
-      break;
-  }
-  return fit::CircleReference::kMz;
-}
-
-/// What the roundness characteristics of the true profile are, filtered as the values are:
-/// "RONt_um" for the characteristic "RONt".
-std::vector<record::TruthValue> true_roundness(
-    std::span<const record::Characteristic> characteristics, int feature, const SpindleTask& plan,
-    std::span<const double> angles_rad, std::span<const double> profile_mm) {
-  std::vector<record::TruthValue> out;
-  for (const record::Characteristic& asked : characteristics) {
-    const bool rms = asked.form == record::Form::kRoundnessRms;
-    if (!rms && asked.form != record::Form::kRoundness) continue;
-    fit::RoundnessOptions options;
-    options.references = {rms ? fit::CircleReference::kLs : circle_of(asked.reference)};
-    options.highest_harmonic = 0;
-    options.filter.filter = plan.filter == SpindleTask::Filter::kNone
-                                ? fit::ProfileFilter::kNone
-                                : fit::ProfileFilter::kGaussian;
-    options.filter.cutoff_upr = plan.cutoff_upr;
-    const auto found = fit::evaluate_profile(angles_rad, profile_mm, options);
-    if (!found || found->values.empty()) continue;  // only a comparison: the run continues
-    const fit::Roundness& value = found->values.front();
-    out.push_back({feature, asked.id + "_um",
-                   core::micrometres(rms ? value.parameters->rms_mm : value.total_mm)});
-  }
-  return out;
-}
-
 /// Adds the true profile over the part and the true motion over the work, each at equal angles.
-void add_truth(const ProbedWorld& world, int feature, const SpindleTask& plan,
-               std::span<const record::Characteristic> characteristics, AnalysisData& out) {
+void add_truth(const ProbedWorld& world, int feature, const SpindleTask& plan, AnalysisData& out) {
   record::Series truth;
   truth.feature = feature;
   truth.name = "truth";
   truth.role = record::Series::Role::kTruth;
   truth.columns = {{"angle_deg", "deg"}, {"profile_um", "um"}, {"RX_um", "um"}, {"RY_um", "um"}};
-  std::vector<double> angles_rad;
-  std::vector<double> profile_mm;
   for (int n = 0; n < plan.samples; ++n) {
     const double angle_deg = 360.0 * n / plan.samples;
     const double angle = angle_deg * kDegree;
     const double form = sum_of(world.hidden.profile, angle);
     truth.values.insert(truth.values.end(), {angle_deg, form, sum_of(world.hidden.motion_x, angle),
                                              sum_of(world.hidden.motion_y, angle)});
-    angles_rad.push_back(angle);
-    profile_mm.push_back(form * core::kMicrometre);
   }
   out.series.push_back(std::move(truth));
-  out.truths = true_roundness(characteristics, feature, plan, angles_rad, profile_mm);
 }
 
 core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
@@ -261,7 +212,7 @@ core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
   const auto feature = static_cast<int>(index);
   AnalysisData out;
   out.series.push_back(readings(world, feature, seed));
-  add_truth(world, feature, asked, characteristics_of(plan, plan.features[index]), out);
+  add_truth(world, feature, asked, out);
   return out;
 }
 
@@ -276,7 +227,13 @@ const AnalysisKind& spindle_kind() {
       .settings = settings_of_section<&FeaturePlan::spindle>,
       .files = [](const FeaturePlan& feature) { return source_file(feature, kProbeColumns); },
       .check = check_spindle,
-      .simulate = simulate_spindle};
+      .simulate = simulate_spindle,
+      .without_errors =
+          [](SimulationPlan& simulation) {
+            SimulatedSpindlePlan& hidden = *simulation.spindle;
+            hidden.probe_noise_um = hidden.p2_error_deg = hidden.p3_error_deg = 0.0;
+            hidden.probe_offset_um = hidden.probe_gain_error = {};
+          }};
   return kKind;
 }
 

@@ -77,11 +77,9 @@ class Cell {
   /// the pose that the fixture reads there.
   [[nodiscard]] virtual core::Result<core::Pose> home_again() = 0;
 
-  /// Noise-free tip centre of the last touch, if this program simulates the cell. For the truth
-  /// that a simulation shows beside its result.
-  [[nodiscard]] virtual std::optional<Eigen::Vector3d> true_tip_W_mm() const = 0;
-  /// Noise-free tip centres of the last scan; empty for a real cell.
-  [[nodiscard]] virtual std::vector<Eigen::Vector3d> true_scan_W_mm() const { return {}; }
+  /// Tip centres of the last touch, or of all points of the last scan, without errors; empty unless
+  /// this program simulates the cell. For the truth that a simulation shows beside its result.
+  [[nodiscard]] virtual std::vector<Eigen::Vector3d> true_tips_W_mm() const { return {}; }
   /// The true errors of an axis of the fixture, if this program simulates it; see
   /// SimulatedFixture::true_errors().
   [[nodiscard]] virtual std::optional<fixture::AxisErrors> true_errors(bool /*carried*/,

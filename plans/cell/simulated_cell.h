@@ -67,13 +67,10 @@ class SimulatedCell final : public Cell {
   /// then has the noise of that number.
   void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
 
-  [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
-    return machine_.true_tip_W_mm();
-  }
   [[nodiscard]] std::optional<Eigen::Isometry3d> true_body_to_machine() const override {
     return true_X_WF_ * fixture_.true_body_to_machine();
   }
-  [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
+  [[nodiscard]] std::vector<Eigen::Vector3d> true_tips_W_mm() const override {
     return machine_.true_tips_W_mm();
   }
   [[nodiscard]] std::optional<fixture::AxisErrors> true_errors(bool carried,

@@ -130,7 +130,6 @@ class NominalSession final : public PoseSession {
     }
     return measure(commanded);
   }
-  core::Result<void> end_merged() override { return {}; }
 
   core::Result<Cloud> measure(const core::Pose& commanded) override {
     TRY(const auto targets, measured_targets());

@@ -86,6 +86,7 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   record::Touch row = step.row;
   take_reading(reading, row);
   TRY_DO(journal.add(row));
+  note_truth({&row, 1});
   ++next_touch;
   progress.touches = static_cast<std::size_t>(next_touch);
   progress.time_s = row.time_s;
@@ -93,9 +94,40 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   return row;
 }
 
+void RunContext::note_truth(std::span<const record::Touch> rows) {
+  const std::vector<Eigen::Vector3d> tips = cell->true_tips_W_mm();
+  if (tips.size() != rows.size()) return;
+  Eigen::Isometry3d X_WW = Eigen::Isometry3d::Identity();
+  // Of balls the errors of the fixture are what is measured.
+  const bool carried =
+      rows.front().pose >= 0 &&
+      !measures_by_touch(plan.features[static_cast<std::size_t>(last_visit.feature)]);
+  if (const auto X_WB = cell->true_body_to_machine(); X_WB && carried) {
+    fixture::Kinematics nominal = cell->kinematics();
+    nominal.alpha_motion = nominal.beta_motion = nullptr;
+    X_WW = fixture::body_to_machine(nominal, last_visit.reached) * X_WB->inverse();
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Vector3d tip = X_WW * tips[i];
+    true_tips.insert(true_tips.end(), {static_cast<double>(rows[i].id), tip.x(), tip.y(), tip.z()});
+  }
+}
+
+core::Result<void> RunContext::keep_truth(int feature) {
+  record::Series out{feature,
+                     record::kTrueTips,
+                     record::Series::Role::kTruth,
+                     {{"touch", ""}, {"x_mm", "mm"}, {"y_mm", "mm"}, {"z_mm", "mm"}},
+                     std::move(true_tips)};
+  true_tips.clear();
+  if (out.values.empty() || recorded.knows_truth(feature)) return {};
+  return journal.add({&out, 1}, {});
+}
+
 core::Result<record::Touch> RunContext::replay(TouchStep step, const record::Touch& known) {
   TRY_DO(check_same_step(known, step.row));
   TRY_DO(cell->replay_touch(step.command, reading_of(known)));
+  note_truth({&known, 1});
   ++next_touch;
   step.row = known;
   TRY_DO(keep_replayed(std::move(step)));
@@ -284,15 +316,15 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
       TRY_DO(check_reading(*known, *reached, resolution_rad()));
     }
     ++next_pose;
-    return *known;
+    return last_visit = *known;
   }
   TRY_DO(check_station_reached(plan, static_cast<std::size_t>(feature), commanded, *reached,
                                resolution_rad()));
-  const record::PoseVisit visit{next_pose, feature, commanded,
-                                *reached,  false,   cell->machine().time_s()};
-  TRY_DO(journal.add(visit));
+  const record::PoseVisit next{next_pose, feature, commanded,
+                               *reached,  false,   cell->machine().time_s()};
+  TRY_DO(journal.add(next));
   ++next_pose;
-  return visit;
+  return last_visit = next;
 }
 
 core::Result<void> RunContext::change_clamping(int feature, const std::string& clamped,

@@ -9,7 +9,6 @@
 #include "plans/analyses/features.h"
 #include "plans/analyses/internal/rotary_placing.h"
 #include "plans/cell/internal/open_cell.h"
-#include "plans/cell/truth.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/checks/laboratory.h"
@@ -166,7 +165,8 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
     TRY_DO(have_clamped(context, i));
     context.cell->mount(feature);
     if (measures_by_touch(feature)) {
-      if (auto calibrated = calibrate_fixture(context, index); !calibrated) return calibrated;
+      TRY_DO(calibrate_fixture(context, index));
+      TRY_DO(context.keep_truth(index));
       if (i == calibrating_feature(context.plan)) {
         TRY_DO(take_calibration(context, index));
       }
@@ -176,17 +176,9 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
     if (auto searched = search_pose(session, feature); !searched) {
       return core::fail(searched.error().at(fmt::format("/features/{}", i)));
     }
+    TRY_DO(context.keep_truth(index));
   }
   return {};
-}
-
-/// Keeps what the characteristics of a simulated part truly are.
-core::Result<void> keep_true_values(RunContext& context, std::uint64_t seed) {
-  const bool simulated = context.cell != nullptr && context.cell->is_simulated();
-  if (!simulated || context.recorded.knows_true_values()) return {};
-  const record::RunRecord head = run_head(context.plan, context.options, seed);
-  const std::vector<record::TruthValue> values = truths_of(context.plan, head.features);
-  return values.empty() ? core::Result<void>{} : context.journal.add({}, values);
 }
 
 /// References machine and fixture and qualifies the probe.
@@ -297,7 +289,6 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   auto done = touching ? note_single_steps(context) : core::Result<void>{};
   if (done && touching) done = prepare(context);
   if (done) done = inspect(context, known.targets, known.data);
-  if (done) done = keep_true_values(context, known.seed);
   if (!done) run.failure = done.error();
   const std::string ending = done                                        ? "finished"
                              : run.failure->code == core::Code::kStopped ? "stopped"

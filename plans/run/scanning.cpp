@@ -68,6 +68,7 @@ core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   std::vector<record::Touch> rows = rows_of(step, tips_of(readings, &cmm::TouchReading::tip_W_mm));
   for (std::size_t i = 0; i < rows.size(); ++i) take_reading(readings[i], rows[i]);
   TRY_DO(journal.add(rows));
+  note_truth(rows);
   next_touch += static_cast<std::int64_t>(rows.size());
   progress.touches = static_cast<std::size_t>(next_touch);
   if (!rows.empty()) progress.time_s = rows.back().time_s;
@@ -106,6 +107,7 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
   TRY_DO(replay_state(first));
+  note_truth(known);
   next_touch += static_cast<std::int64_t>(known.size());
   TRY_DO(keep_replayed(std::move(first)));
   return known;
@@ -160,9 +162,6 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
       return known ? core::fail(rows.error()) : fault_at(start, rows.error());
     }
     for (const record::Touch& row : *rows) layers[path.order()[k]].push_back(row.tip_mm);
-    if (repeat_ > 0) return {};
-    const auto truth = context_.cell->true_scan_W_mm();
-    truth_.insert(truth_.end(), truth.begin(), truth.end());
     return {};
   };
   TRY_DO(visit(path, record::Touch::Purpose::kMeasure, true, scan));

@@ -58,7 +58,6 @@ class Journal {
   [[nodiscard]] core::Result<void> add(std::span<const Touch> touches);
   [[nodiscard]] core::Result<void> add(const PoseVisit& pose);
   [[nodiscard]] core::Result<void> add(const Decision& decision);
-  [[nodiscard]] core::Result<void> add(const SimulationTruth& truth);
   /// Adds the series of one feature with the numbers of its hidden truth, in one transaction.
   /// kJournal also for an invalid series: a value that is not finite, or values that do not fill
   /// the columns.

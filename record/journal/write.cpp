@@ -75,14 +75,6 @@ core::Result<void> Journal::add(const Decision& decision) {
   return written;
 }
 
-core::Result<void> Journal::add(const SimulationTruth& truth) {
-  return impl_->write("the truth of the simulation", [&] {
-    impl_->statements->truth = truth;
-    impl_->statements->insert_truth.execute(true);
-    impl_->chain->append_inserted("truth", truth.feature, truth.cylt_mm);
-  });
-}
-
 core::Result<void> Journal::add(std::span<const Series> series,
                                 std::span<const TruthValue> truths) {
   if (series.empty() && truths.empty()) return {};

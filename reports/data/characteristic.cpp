@@ -8,6 +8,7 @@
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/gates.h"
 #include "reports/words/internal/limits.h"
+#include "reports/words/internal/truths.h"
 
 namespace rondure::reports {
 namespace {
@@ -142,6 +143,14 @@ void add_indication(const evaluation::CharacteristicResult& result, Json& json) 
   if (result.finding) json["finding"] = finding_json(*result.finding, evaluation::unit_of(asked));
 }
 
+Json truth_json(const HeldAgainstTruth& one) {
+  return {{"name", one.name},
+          {"found_um", in_um(one.found_mm())},
+          {"truth_um", in_um(one.truth_mm)},
+          {"difference_um", in_um(one.difference_mm())},
+          {"difference_over_u", optional_json(one.difference_over_u())}};
+}
+
 Json characteristic_json(const record::Feature& feature,
                          const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
@@ -166,6 +175,8 @@ Json characteristic_json(const record::Feature& feature,
                                               : Json(nullptr)},
                {"decision", decision_json(found, result)}};
   add_indication(result, json);
+  const auto truths = held_against_truth(result);
+  if (!truths.empty()) json["simulation"] = list_json(truths, truth_json);
   if (evaluation::unit_of(asked) != core::ValueUnit::kUrad) return json;
   json["unit"] = name_of(core::ValueUnit::kUrad);
   return of_angle(json);

@@ -365,10 +365,6 @@ Json event_json(const record::Decision& decision) {
   return json;
 }
 
-Json truth_json(const record::SimulationTruth& truth) {
-  return {{"feature", truth.feature}, {"cylt_um", in_um(truth.cylt_mm)}};
-}
-
 bool any_interval(const evaluation::Evaluation& evaluation) {
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     for (const evaluation::CharacteristicResult& c : feature.characteristics) {
@@ -401,7 +397,7 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
   json["fixture_calibration"] = fixture_json(evaluation.fixture);
   json["features"] = list_json(evaluation.features, feature_json);
   json["decisions"] = list_json(record.decisions, event_json);
-  json["simulation"] = list_json(record.truths, truth_json);
+  json["simulation"] = Json::array();
   for (const record::TruthValue& truth : record.truth_values) {
     json["simulation"].push_back({{"feature", truth.feature}, {truth.name, truth.value}});
   }

@@ -13,6 +13,7 @@
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/internal/facts.h"
+#include "reports/words/internal/truths.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -231,12 +232,33 @@ std::string truth_box(const std::string& text) {
                      tr(". This is not part of the measurement: evaluation never reads it."));
 }
 
-std::string truth_text(const record::SimulationTruth* truth,
-                       const std::optional<evaluation::Zone>& zone, record::Shape shape) {
-  if (truth == nullptr) return {};
-  std::string text = fmt::format("{} {} µm", evaluation::symbol_of(shape), um(truth->cylt_mm));
-  if (zone) text += trf("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
-  return text;
+/// "µm", "µrad", "mm".
+std::string symbol_of(core::ValueUnit unit) {
+  std::string out(core::name_of(unit));
+  if (out.starts_with('u')) out.replace(0, 1, "µ");
+  return out;
+}
+
+/// What the judged values are without errors of measurement; empty where that is not known.
+std::string truth_table(const evaluation::FeatureResult& feature) {
+  TableRows rows;
+  for (const HeldAgainstTruth& one : held_against_truth(feature)) {
+    const auto over_u = one.difference_over_u();
+    rows.push_back({isolated(one.name), symbol_of(one.found.unit()),
+                    one.found.in_digits(one.found_mm()), one.found.in_digits(one.truth_mm),
+                    fmt::format("{} {}", signed_um(one.difference_mm()),
+                                symbol_of(core::unit_of_difference(one.found.unit()))),
+                    over_u ? fixed(*over_u, 1) : "–"});
+  }
+  if (rows.empty()) return {};
+  return fmt::format("<h3>{}</h3>", tr("Held against the truth of the simulation")) +
+         note(tr("The truth is what the same touches or readings give without errors of machine, "
+                 "probe, fixture and temperature. No verdict uses it.")) +
+         scrolling(table("", "llrrrr",
+                         spoken_caption(tr("Held against the truth of the simulation")),
+                         {tr("Call-out"), tr("unit"), tr("found"), tr("truth"), tr("difference"),
+                          tr("difference over u")},
+                         rows));
 }
 
 /// Hidden truth of an analysis: the numbers from which its series were simulated.
@@ -295,7 +317,7 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                      std::ranges::all_of(feature.characteristics, conforms);
   const std::string gates = gates_section(feature);
   return html + (quiet ? std::string() : drawings) + (passed ? std::string() : gates) +
-         truth_box(truth_text(record, index)) +
+         truth_box(truth_text(record, index)) + truth_table(feature) +
          folded(quiet ? tr("Drawings, call-outs that conform, conditions")
                       : tr("Call-outs that conform, conditions"),
                 callouts_section(feature, record, false) + (quiet ? drawings : std::string()) +
@@ -419,9 +441,7 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   if (drawn.zone && !drawn_above) html += deviation_map(drawn.feature, *drawn.zone, drawn.places);
   if (zone) html += fmt::format(R"(<div class="screen-only">{}</div>)", solid_view(feature, *zone));
   if (feature.merged) html += merged_section(*feature.merged);
-  const std::string truth = truth_text(evaluation::truth_of(record, index), zone, asked.shape);
-  std::string more = key_numbers(feature, zone) +
-                     truth_box(truth.empty() ? truth_text(record, index) : truth) +
+  std::string more = key_numbers(feature, zone) + truth_table(all) +
                      callouts_section(feature, record, false) + gates_section(feature) +
                      harmonics_section(feature);
   if (!feature.merged && !feature.poses.empty()) {

@@ -21,6 +21,7 @@
 #include "reports/words/callouts.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/gates.h"
+#include "reports/words/internal/truths.h"
 
 namespace rondure::reports {
 namespace {
@@ -470,16 +471,16 @@ void add_one_sided(std::string& out, const evaluation::FeatureResult& feature) {
   if (!text.empty()) add_wrapped(out, "  " + tr("one-sided"), text);
 }
 
-void add_truth(std::string& out, const record::SimulationTruth* truth,
-               const evaluation::FeatureResult& feature) {
-  if (truth == nullptr) return;
-  std::string text =
-      fmt::format("{} {} um", evaluation::symbol_of(feature.feature.shape), um(truth->cylt_mm));
-  if (const auto zone = zone_of(feature)) {
-    text += trf(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
+/// "held against the truth  CYLt 8: truth 8.202 um, difference +0.052 um, 0.3 u".
+void add_truth(std::string& out, const evaluation::FeatureResult& feature) {
+  for (const HeldAgainstTruth& one : held_against_truth(feature)) {
+    std::string text = trf("{}: truth {} {}, difference {} {}", printable(one.name),
+                           one.found.in_digits(one.truth_mm), core::name_of(one.found.unit()),
+                           signed_um(one.difference_mm()),
+                           core::name_of(core::unit_of_difference(one.found.unit())));
+    if (const auto over_u = one.difference_over_u()) text += fmt::format(", {:.1f} u", *over_u);
+    add_wrapped(out, "  " + tr("simulated"), text);
   }
-  add_wrapped(out, "  " + tr("hidden truth"),
-              trf("{} (of the simulation, not of the measurement)", text));
 }
 
 /// "spool: outside cylinder, 4 x 7 points", "journal: spindle, 3 revolutions".
@@ -554,7 +555,7 @@ void add_details(std::string& out, const record::RunRecord& record, std::size_t 
   add_gates(out, feature);
   add_zone(out, feature);
   add_one_sided(out, feature);
-  add_truth(out, evaluation::truth_of(record, index), feature);
+  add_truth(out, feature);
   for (const core::Error& warning : feature.warnings) {
     const auto stands = [&](const evaluation::CharacteristicResult& result) {
       return result.characteristic.id == warning.where;

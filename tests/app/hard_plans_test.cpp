@@ -30,7 +30,9 @@ struct HardRun {
     return report().at("/features/0/characteristics/0/value_um"_json_pointer).get<double>();
   }
   [[nodiscard]] double truth_um() const {
-    return journal_of(folder / "run").truths.at(0).cylt_mm * 1e3;
+    return report()
+        .at("/features/0/characteristics/0/simulation/0/truth_um"_json_pointer)
+        .get<double>();
   }
 };
 

@@ -40,7 +40,8 @@ TEST(MergedRun, SolvedTogetherTheErrorsOfTheFixtureAreTakenOut) {
               1);
     const json report = report_of(run);
     const json merged = report.at("/features/0/merged"_json_pointer);
-    const double truth_um = report.at("/simulation/0/cylt_um"_json_pointer);
+    const double truth_um =
+        report.at("/features/0/characteristics/0/simulation/0/truth_um"_json_pointer);
     const double joint_um = report.at("/features/0/mz/deviation_um"_json_pointer);
     const double naive_um = merged.at("kinematics_cylt_um");
     EXPECT_NEAR(joint_um, merged.at("joint_cylt_um"), 1e-6);

@@ -104,13 +104,13 @@ TEST(PoseSearchFigures, HoldOnRandomParts) {
 
 // The hidden truth that a simulated run shows comes from noise-free touches; with the noise off it
 // must be what was measured, but for the grid of 1e-10 mm on which a machine reads.
-TEST(SimulationTruth, AgreesWithTheMeasuredZoneWhenTheProbeIsPerfect) {
+TEST(HiddenTruth, AgreesWithTheMeasuredZoneWhenTheProbeIsPerfect) {
   for (std::uint64_t seed = 301; seed <= 305; ++seed) {
     SCOPED_TRACE(seed);
     const auto run = test::inspect(test::random_plan(seed, "guided", 0.05));
-    ASSERT_EQ(run.record.truths.size(), 1U);
-    EXPECT_NEAR(run.record.truths.front().cylt_mm,
-                run.evaluation.features.front().mz_cylinder->width_mm(), 2e-10);
+    const auto& truth = run.evaluation.features.front().characteristics.front().truths_mm;
+    ASSERT_EQ(truth.size(), 1U);
+    EXPECT_NEAR(truth.front(), run.evaluation.features.front().mz_cylinder->width_mm(), 2e-10);
   }
 }
 

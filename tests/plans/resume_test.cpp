@@ -73,17 +73,6 @@ std::vector<int> touches_to_stop_at(std::size_t all) {
   return out;
 }
 
-TEST(RecordedRun, KnowsTheTrueValuesOfThePartApartFromThoseOfAnalyses) {
-  record::RunRecord run;
-  run.features.resize(2);
-  run.features[0].shape = record::Shape::kSpindle;
-  run.features[1].shape = record::Shape::kCylinder;
-  run.truth_values = {{0, "profile_peak_to_valley_um", 12.3}};
-  EXPECT_FALSE(RecordedRun(run).knows_true_values()) << "those of the part come at the end";
-  run.truth_values.push_back({1, "diameter_mm", 50.0});
-  EXPECT_TRUE(RecordedRun(run).knows_true_values());
-}
-
 TEST(ResumeDecisions, AreTheSameInOtherWordsAndNotWithOtherNumbers) {
   using core::MessageCode;
   const auto decided = [](MessageCode code, std::vector<core::Argument> arguments) {
@@ -249,10 +238,9 @@ TEST(ResumeRelocates, APartThatHasMovedAndMeasuresItsCloudAnew) {
     EXPECT_EQ(record.ending, "finished");
     EXPECT_EQ(final_touches(record), 5U * 28U);
     EXPECT_GT(record.touches.size(), whole.record.touches.size());
-    const auto marked =
-        std::count_if(record.poses.begin(), record.poses.end(),
-                      [](const record::PoseVisit& visit) { return visit.final_cloud; });
-    EXPECT_EQ(static_cast<std::ptrdiff_t>(record.truths.size()), marked) << "one of each placement";
+    const record::Series* const truth = record.truth_series_of(0, record::kTrueTips);
+    ASSERT_NE(truth, nullptr);
+    EXPECT_EQ(truth->rows(), record.touches.size()) << "of each placement";
     EXPECT_TRUE(std::any_of(
         record.decisions.begin(), record.decisions.end(), [&](const record::Decision& d) {
           return d.feature == -1 && d.message.code == core::MessageCode::kPartLocatedAgain &&

@@ -67,7 +67,9 @@ TEST(Scanning, GivesTheCloudThatTouchesGive) {
     ASSERT_EQ(a[i].layer, b[i].layer);
     ASSERT_EQ(a[i].point, b[i].point);
   }
-  EXPECT_NEAR(scanned.record.truths.front().cylt_mm, zone_mm(scanned), 2e-10);
+  const auto& truth = scanned.evaluation.features.front().characteristics.front().truths_mm;
+  ASSERT_EQ(truth.size(), 1U);
+  EXPECT_NEAR(truth.front(), zone_mm(scanned), 2e-10);
   EXPECT_NE(scanned.evaluation.features.front()
                 .characteristics.front()
                 .value->operator_text()
@@ -215,7 +217,9 @@ TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {
       ASSERT_EQ(record.touches[i].time_s, whole.touches[i].time_s) << i;
       ASSERT_EQ(record.touches[i].approach, whole.touches[i].approach) << i;
     }
-    EXPECT_EQ(record.truths.front().cylt_mm, whole.truths.front().cylt_mm);
+    ASSERT_NE(record.truth_series_of(0, record::kTrueTips), nullptr);
+    EXPECT_EQ(record.truth_series_of(0, record::kTrueTips)->values,
+              whole.truth_series_of(0, record::kTrueTips)->values);
     EXPECT_FALSE(record.checks.empty());
   }
   fs::remove_all(root);

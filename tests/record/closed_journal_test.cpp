@@ -144,7 +144,7 @@ TEST_F(OpenJournal, WithAnythingThatNoJournalHasIsRefusedByName) {
       {"create trigger lift after insert on touch begin update touch set tip_x_mm = tip_x_mm * "
        "0.99 "
        "where id = new.id; end",
-       "it holds the trigger \"lift\" on table \"touch\", which no journal of version 7 has"},
+       "it holds the trigger \"lift\" on table \"touch\", which no journal of version 8 has"},
       {"create view seen as select * from touch", "it holds the view \"seen\""},
       {"create index fast on touch (time_s)", "it holds the index \"fast\" on table \"touch\""},
       {"create table note (id integer primary key)", "it holds the table \"note\""},

@@ -62,7 +62,6 @@ TEST_F(JournalDamage, OfEachTableIsFoundByItsDigest) {
       {"pose", "update pose set final_cloud = 1 - final_cloud where id = 2"},
       {"touch", "update touch set tip_z_mm = 1.0000000000000002 where id = 17"},
       {"decision", "update decision set arguments = '{\"reason\":\".\"}' where id = 2"},
-      {"truth", "update truth set cylt_mm = 1e-300"},
       {"result", "update result set value = 7.42 where id = 0"},
       {"touch",
        "update seal set sha256 = '0' || substr(sha256, 2) || 'x' where table_name = 'touch'"},
@@ -119,7 +118,6 @@ TEST_F(JournalDamage, ContradictionsAreNamed) {
       {"update header set temperature_max_degC = 1e100", "header.temperature_degC holds 1e+100"},
       {"update artefact set radius_mm = 1e100", "artefact holds 1e+100"},
       {"update decision set time_s = 1e100", "decision.time_s holds 1e+100"},
-      {"update truth set cylt_mm = 1e100", "truth.cylt_mm holds 1e+100"},
       {"delete from header", "table header is empty"},
       {"delete from artefact", "table artefact is empty"},
       {"drop table touch", "no table touch"},
@@ -140,15 +138,15 @@ TEST_F(JournalDamage, ContradictionsAreNamed) {
       {"update harmonic_limit set characteristic = 99", "harmonic_limit names characteristic 99"},
       {"update truth_value set feature = -1", "table truth_value names feature -1"},
       {"update setting set feature = -2 where id = 1", "table setting names feature -2"},
-      {"pragma user_version = 8",
-       "its tables have version 8, this program reads version 7 alone, signed or not; read it with "
+      {"pragma user_version = 9",
+       "its tables have version 9, this program reads version 8 alone, signed or not; read it with "
        "the program that wrote it"},
-      {"pragma user_version = 0", "version 0, this program reads version 7 alone"},
-      {"pragma user_version = 6",
-       "its tables have version 6, this program reads version 7 alone, signed or not; Rondure "
+      {"pragma user_version = 0", "version 0, this program reads version 8 alone"},
+      {"pragma user_version = 7",
+       "its tables have version 7, this program reads version 8 alone, signed or not; Rondure "
        "0.1.0 "
        "reads versions 1 to 4, commit eac6925f of Rondure 0.2.0 versions 1 to 7"},
-      {"pragma user_version = 1; drop table chain", "version 1, this program reads version 7"},
+      {"pragma user_version = 1; drop table chain", "version 1, this program reads version 8"},
       {"drop table chain", "no table chain"},
       {"pragma application_id = 5", "no journal of Rondure"},
   };

@@ -222,9 +222,9 @@ TEST(Journal, EndsOnceAndTakesNothingAfterTheSeal) {
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error().code, core::Code::kJournal);
   ASSERT_TRUE(journal.seal({}));
-  for (const auto& late : {journal.add(touch_number(1)), journal.add(PoseVisit{}),
-                           journal.add(Decision{}), journal.add(SimulationTruth{}),
-                           journal.mark_final(0), journal.end("", nullptr), journal.seal({})}) {
+  for (const auto& late :
+       {journal.add(touch_number(1)), journal.add(PoseVisit{}), journal.add(Decision{}),
+        journal.mark_final(0), journal.end("", nullptr), journal.seal({})}) {
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().code, core::Code::kJournal);
   }
@@ -257,7 +257,7 @@ TEST(Journal, ReadsAJournalInAPlaceWithoutWriting) {
 TEST(Journal, TheDocumentShowsTheTablesAsTheyAre) {
   const auto document = read_file(fs::path(RONDURE_SOURCE_DIR) / "docs/developer/journal.md");
   ASSERT_TRUE(document) << document.error().what;
-  EXPECT_EQ(all_tables().size(), 19U);
+  EXPECT_EQ(all_tables().size(), 18U);
   for (const Table& table : all_tables()) EXPECT_THAT(*document, HasSubstr(table.sql));
   std::size_t shown = 0;  // no other table among them
   for (std::size_t at = document->find("\ncreate table"); at != std::string::npos;

@@ -242,7 +242,6 @@ RunRecord sample_run(std::uint64_t seed, int touches) {
     return core::Message{core::MessageCode::kLevelPoseUnreachable, {n.text()}};
   };
   r.decisions = {{-1, n.real(), message()}, {0, n.real(), message()}};
-  r.truths = {{0, n.real()}};
   r.results = {{"/features/0/mz/deviation_um", n.real()}, {n.text(), n.real()}};
   r.ending = "failed: the probe met nothing";
   if (n.whole(2) == 1) r.failure = core::Error{core::Code::kNoTouch, n.text(), n.text()};
@@ -274,7 +273,6 @@ core::Result<void> write_run(const fs::path& directory, const RunRecord& record)
     step(journal->add(*touch));
   }
   for (const Decision& decision : record.decisions) step(journal->add(decision));
-  for (const SimulationTruth& truth : record.truths) step(journal->add(truth));
   step(journal->add(record.series, record.truth_values));
   step(journal->end(record.ending, record.failure ? &*record.failure : nullptr));
   if (record.sealed) step(journal->seal(record.results));
@@ -317,7 +315,6 @@ std::string every_bit(const RunRecord& record) {
     bits << d.feature << d.time_s << std::string(core::message_name(d.message.code))
          << arguments_json(d.message);
   }
-  for (const SimulationTruth& t : record.truths) bits << t.feature << t.cylt_mm;
   for (const Series& s : record.series) {
     bits << s.feature << s.name << static_cast<int>(s.role) << s.columns.size() << s.values.size();
     for (const SeriesColumn& c : s.columns) bits << c.name << c.unit;

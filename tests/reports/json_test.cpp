@@ -38,8 +38,18 @@ TEST(Json, PublishedPointersHoldTheNumbersInTheUnitOfTheirKey) {
   EXPECT_TRUE(at<bool>(document, "/features/0/poses/2/final"));
   EXPECT_EQ(at<double>(document, "/features/0/characteristics/0/tolerance_um"), 10.0);
   EXPECT_NEAR(at<double>(document, "/probe/form_um"), 0.9, 1e-12);
-  EXPECT_NEAR(at<double>(document, "/simulation/0/cylt_um"), 8.251, 1e-9);
   EXPECT_EQ(document["features"][0]["cloud"].size(), 28U);
+}
+
+TEST(Json, AValueStandsBesideItsTruth) {
+  Case made = cylinder_case(4, 7, 3);
+  EXPECT_FALSE(document_of(made)["features"][0]["characteristics"][0].contains("simulation"));
+  auto& result = made.evaluation.features.front().characteristics.front();
+  result.truths_mm = {result.value->quoted_mm() - 0.049e-3};
+  const ordered_json document = document_of(made);
+  const ordered_json& row = document["features"][0]["characteristics"][0]["simulation"][0];
+  EXPECT_NEAR(row["difference_um"], 0.049, 1e-9);
+  EXPECT_NEAR(row["truth_um"], row["found_um"].get<double>() - 0.049, 1e-9);
 }
 
 TEST(Json, ContactsNameTheirPointOfTheCloud) {

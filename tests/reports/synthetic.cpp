@@ -188,7 +188,6 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   made.record.ending = "finished";
   made.record.artefact = {12.5, 1.5, 0.005, 0.003};
   made.record.features.push_back(land(layers, points_per_layer));
-  made.record.truths.push_back({0, 0.008251});
   made.record.decisions = {
       {-1, 41.2, {core::MessageCode::kSingleSteps, {10.0}}},
       {0, 118.4, {core::MessageCode::kPartLocated, {0.0, 0.0, 1.2031, -0.848}}},

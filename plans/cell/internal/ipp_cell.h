@@ -64,8 +64,6 @@ class IppCell final : public Cell {
   }
   [[nodiscard]] core::Result<core::Pose> home_again() override;
 
-  [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override { return {}; }
-
  private:
   IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
           std::unique_ptr<fixture::Fixture> driven);

@@ -64,9 +64,8 @@ const record::Decision* RecordedRun::next_decision() {
   return nullptr;
 }
 
-std::ptrdiff_t RecordedRun::truths_of(int feature) const {
-  return std::count_if(run_.truths.begin(), run_.truths.end(),
-                       [&](const auto& truth) { return truth.feature == feature; });
+bool RecordedRun::knows_truth(int feature) const {
+  return run_.truth_series_of(feature, record::kTrueTips) != nullptr;
 }
 
 bool RecordedRun::relocated_after(std::int64_t touches) const {
@@ -91,15 +90,6 @@ const core::Message* RecordedRun::decided(core::MessageCode code) const {
       run_.decisions.begin(), run_.decisions.end(),
       [&](const record::Decision& d) { return d.feature < 0 && d.message.code == code; });
   return found == run_.decisions.end() ? nullptr : &found->message;
-}
-
-bool RecordedRun::knows_true_values() const {
-  // Those of an analysis come with its series, maybe long before the run was interrupted.
-  return std::any_of(run_.truth_values.begin(), run_.truth_values.end(),
-                     [&](const record::TruthValue& value) {
-                       const auto feature = static_cast<std::size_t>(value.feature);
-                       return !record::is_analysis(run_.features[feature].shape);
-                     });
 }
 
 bool RecordedRun::knows_series(int feature) const {

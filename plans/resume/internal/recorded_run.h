@@ -32,8 +32,8 @@ class RecordedRun {
   /// The next decision, or nullptr. Skips decisions about the whole run, which are about earlier
   /// interruptions.
   [[nodiscard]] const record::Decision* next_decision();
-  /// Hidden truths of a feature in the journal: one for each of its final clouds.
-  [[nodiscard]] std::ptrdiff_t truths_of(int feature) const;
+  /// Whether the hidden truth of a touched feature is in the journal.
+  [[nodiscard]] bool knows_truth(int feature) const;
   /// Whether the part was located again after that many touches.
   [[nodiscard]] bool relocated_after(std::int64_t touches) const;
   /// Whether a feature continued after the current step without a touch, by a decision or a turn.
@@ -44,8 +44,6 @@ class RecordedRun {
   [[nodiscard]] const core::Message* decided(core::MessageCode code) const;
   /// Whether the series of a feature are in the journal; either all of them are, or none.
   [[nodiscard]] bool knows_series(int feature) const;
-  /// Whether the true values of the characteristics are in the journal; all of them are, or none.
-  [[nodiscard]] bool knows_true_values() const;
   /// The number of the next check: -1, -2, ...
   [[nodiscard]] std::int64_t next_check() const;
 

@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/merged_reach.h"
 
@@ -226,7 +224,6 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::turn_and_touch(
     const core::Pose& commanded) {
   for (;;) {
     TRY_DO(turn(commanded, reach_targets()));
-    truth_.clear();
     auto tips = measure_cloud();
     if (tips || !context_.relocation_due || merging()) return tips;
     TRY_DO(locate_again());
@@ -249,19 +246,6 @@ core::Result<Cloud> FeatureSession::measure_reachable(const core::Pose& commande
   return measure(commanded);
 }
 
-void FeatureSession::keep_merged_truth() {
-  const auto X_WB = context_.cell->true_body_to_machine();
-  if (!X_WB) return;
-  for (const Eigen::Vector3d& tip : truth_) merged_truth_B_.emplace_back(X_WB->inverse() * tip);
-}
-
-core::Result<void> FeatureSession::end_merged() {
-  if (merged_truth_B_.empty() || context_.recorded.truths_of(index_) > 0) return {};
-  const auto zone = fit::min_zone_cylinder(merged_truth_B_, Eigen::Vector3d::UnitZ());
-  if (!zone) return {};  // only a comparison: the run continues
-  return context_.journal.add(record::SimulationTruth{index_, zone->width_mm()});
-}
-
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
@@ -282,25 +266,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   if (known == nullptr || !known->final_cloud) {
     if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
   }
-  if (merging()) {
-    keep_merged_truth();
-    return {};
-  }
-  // What stands in a window is no part of the surface: its zone would be of a keyway.
-  if (truth_.empty() || !feature_.exclude.empty()) return {};
-  // Only a comparison for simulations: if it cannot be evaluated, the run continues.
-  std::optional<double> zone_mm;
-  if (!geometry_.surface->is_round()) return {};
-  if (feature_.type == record::Shape::kCircle) {
-    const auto frame = fit::across(expected_axis());
-    std::vector<Eigen::Vector2d> section;
-    for (const Eigen::Vector3d& tip : truth_) section.emplace_back(frame.transpose() * tip);
-    if (const auto zone = fit::min_zone_circle(section)) zone_mm = zone->width_mm();
-  } else if (const auto zone = fit::min_zone_cylinder(truth_, expected_axis())) {
-    zone_mm = zone->width_mm();
-  }
-  if (!zone_mm || ++truths_ <= context_.recorded.truths_of(index_)) return {};
-  return context_.journal.add(record::SimulationTruth{index_, *zone_mm});
+  return {};
 }
 
 void FeatureSession::follow_axis(const fit::Axis& axis_W) {
@@ -400,7 +366,6 @@ core::Result<void> FeatureSession::visit(const CloudPath& path, record::Touch::P
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     const std::vector<Target>& targets, record::Touch::Purpose purpose) {
   TRY(const auto path, lay(targets, reached_));
-  const bool shows_truth = purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
   std::vector<Eigen::Vector3d> tips(targets.size());
   const auto touch = [&](const TouchStep& step, std::size_t k) -> core::Result<void> {
     const auto touched = context_.touch(step);
@@ -409,9 +374,6 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
                                  : fault_at(path.target(k), touched.error());
     }
     TRY_DO(check_place(path.target(k), step, touched->tip_mm));
-    if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
-      truth_.push_back(*truth);
-    }
     tips[path.order()[k]] = touched->tip_mm;
     return {};
   };

@@ -23,7 +23,6 @@ class FeatureSession final : public PoseSession {
 
   [[nodiscard]] core::Result<Cloud> measure(const core::Pose& commanded) override;
   [[nodiscard]] core::Result<Cloud> measure_reachable(const core::Pose& commanded) override;
-  [[nodiscard]] core::Result<void> end_merged() override;
   [[nodiscard]] core::Result<void> repeat(int times) override;
   [[nodiscard]] core::Result<void> keep_as_final() override;
   [[nodiscard]] core::Result<fit::Axis> locate(const core::Pose& commanded) override;
@@ -40,8 +39,6 @@ class FeatureSession final : public PoseSession {
  private:
   /// Whether the cloud comes from several poses: it cannot be restarted in one of them.
   [[nodiscard]] bool merging() const { return !all_targets_.empty(); }
-  /// Stores the truth of the current pose's part of such a cloud.
-  void keep_merged_truth();
   /// Turns to a pose and touches one cloud; repeats both after each relocation.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> turn_and_touch(
       const core::Pose& commanded);
@@ -109,11 +106,7 @@ class FeatureSession final : public PoseSession {
   int pose_id_ = -1;
   int repeat_ = 0;
   int visits_ = 0;
-  std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
-  std::ptrdiff_t truths_ = 0;           ///< Number of final clouds with a truth so far.
-  std::vector<Target> all_targets_;     ///< For a cloud from several poses; otherwise empty.
-  /// Noise-free tips of that cloud, in the true body frame.
-  std::vector<Eigen::Vector3d> merged_truth_B_;
+  std::vector<Target> all_targets_;  ///< For a cloud from several poses; otherwise empty.
 };
 
 }  // namespace rondure::plans

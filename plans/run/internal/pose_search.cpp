@@ -187,7 +187,7 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
     if (!noted) return noted;
     if (auto done = finish(session, feature); !done) return done;
   }
-  return session.end_merged();
+  return {};
 }
 
 }  // namespace

@@ -31,8 +31,6 @@ class PoseSession {
   /// Turns to a pose and measures the reachable targets there: a part of a cloud from several
   /// poses. kUnreachable, with nothing moved, for fewer than 4 of them.
   [[nodiscard]] virtual core::Result<Cloud> measure_reachable(const core::Pose& commanded) = 0;
-  /// Ends a cloud from several poses; all its parts are evaluated.
-  [[nodiscard]] virtual core::Result<void> end_merged() = 0;
   /// Measures `times` more clouds in the current pose.
   [[nodiscard]] virtual core::Result<void> repeat(int times) = 0;
   /// Marks the cloud of the current pose, with its repeats, for evaluation.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,11 +52,13 @@ struct RunContext {
   Progress progress = {};
   RecordedRun recorded = {};
   std::vector<TouchStep> last_steps = {};  ///< The last replayed touches of the current cloud.
-  bool retreating = false;      ///< The operator refused a motion: retreat without asking.
-  std::string doing = {};       ///< Purpose of the next motions, in words.
-  bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
-  bool aligned = false;         ///< The part was located as a whole, features need not be.
-  bool part_met = false;        ///< A touch has met the part where the plan has it.
+  bool retreating = false;             ///< The operator refused a motion: retreat without asking.
+  std::string doing = {};              ///< Purpose of the next motions, in words.
+  bool relocation_due = false;         ///< The part has moved: locate it, measure the cloud anew.
+  bool aligned = false;                ///< The part was located as a whole, features need not be.
+  bool part_met = false;               ///< A touch has met the part where the plan has it.
+  record::PoseVisit last_visit = {};   ///< In which the touches are made.
+  std::vector<double> true_tips = {};  ///< Touch, x, y, z: see keep_truth().
   bool lost_place = false;  ///< An interruption was not resolved: only a person may move the tip.
 
   /// Largest distance of the part from where it is expected.
@@ -74,6 +77,8 @@ struct RunContext {
   /// touch() for a whole scan: all its points are journalled in one transaction before the next
   /// command. When a run is resumed after it, its first point is touched for comparison.
   [[nodiscard]] core::Result<std::vector<record::Touch>> scan(ScanStep step);
+  /// Journals the hidden truth of the touches since the last feature; of a real cell there is none.
+  [[nodiscard]] core::Result<void> keep_truth(int feature);
   /// Homes machine and fixture, goes to the last recorded touches and repeats them: kLocation, with
   /// difference and limit, when one has moved; kMachine when the fixture does not read the recorded
   /// pose. The tip is then at the last of these touches.
@@ -99,6 +104,8 @@ struct RunContext {
 
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
+  /// Adds where tips without errors would have stood, the part carried by the nominal axes.
+  void note_truth(std::span<const record::Touch> rows);
   /// Journals that the run goes on; the place of the machine is known again.
   [[nodiscard]] core::Result<void> note_return(std::size_t repeated, double largest_mm);
   /// come_back() where the last step was a change of the clamping: nothing is there to repeat.

@@ -244,18 +244,6 @@ void read_decisions(soci::session& sql, RunRecord& record) {
   }
 }
 
-void read_truths(soci::session& sql, RunRecord& record) {
-  SimulationTruth row;
-  soci::statement rows = (sql.prepare << "select feature, cylt_mm from truth order by id",
-                          into(row.feature), into(row.cylt_mm));
-  rows.execute();
-  while (rows.fetch()) {
-    (void)feature_at(record, row.feature, "truth");
-    require_number("truth.cylt_mm", row.cylt_mm);
-    record.truths.push_back(row);
-  }
-}
-
 void read_results(soci::session& sql, RunRecord& record) {
   StoredResult row;
   soci::statement rows = (sql.prepare << "select name, value from result order by id",
@@ -331,7 +319,6 @@ ReadJournal read_tables(soci::session& sql) {
   read_poses(sql, journal.record);
   read_touches(sql, journal.record);
   read_decisions(sql, journal.record);
-  read_truths(sql, journal.record);
   read_series_tables(sql, journal.record);
   read_results(sql, journal.record);
   journal.record.sealed = is_sealed(sql);

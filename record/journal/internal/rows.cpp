@@ -94,8 +94,6 @@ Statements::Statements(soci::session& sql)
                                       "values (:f, :t, :c, :a)",
                        use(decision.feature), use(decision.time_s), use(decision_code),
                        use(decision_arguments))),
-      insert_truth((sql.prepare << "insert into truth (feature, cylt_mm) values (:f, :c)",
-                    use(truth.feature), use(truth.cylt_mm))),
       update_final(
           (sql.prepare << "update pose set final_cloud = 1 where id = :id", use(marked_pose))) {}
 

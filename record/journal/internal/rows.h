@@ -24,12 +24,10 @@ struct Statements {
   Decision decision;
   std::string decision_code;
   std::string decision_arguments;
-  SimulationTruth truth;
   int marked_pose = 0;
   soci::statement insert_touch;
   soci::statement insert_pose;
   soci::statement insert_decision;
-  soci::statement insert_truth;
   soci::statement update_final;
 
   explicit Statements(soci::session& sql);

@@ -57,7 +57,6 @@ const std::vector<Table>& known_tables() {
             "any, tip_y_mm any, tip_z_mm any, approach_x any, approach_y any, approach_z any, "
             "temperature_degC any?, time_s any, scale_temperature_degC any?"),
       table("decision", "feature integer, time_s any, code text, arguments text"),
-      table("truth", "feature integer, cylt_mm any"),
       table("result", "name text, value any"),
       table("setting", "feature integer, name text, number any?, text text"),
       table("harmonic_limit",

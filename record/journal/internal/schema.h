@@ -13,7 +13,7 @@ namespace rondure::record {
 /// "Rond" in SQLite's header: this database is a journal of Rondure.
 inline constexpr std::int64_t kApplicationId = 0x526f6e64;
 /// Version of the tables below, the only one that is read.
-inline constexpr std::int64_t kSchemaVersion = 7;
+inline constexpr std::int64_t kSchemaVersion = 8;
 
 /// One table of the journal.
 struct Table {

@@ -1,4 +1,4 @@
-#include "plans/cell/internal/least_greatest.h"
+#include "tests/plans/least_greatest.h"
 
 #include <algorithm>
 #include <cmath>

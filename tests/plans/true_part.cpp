@@ -1,4 +1,4 @@
-#include "plans/cell/truth.h"
+#include "tests/plans/true_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@
 #include "core/units.h"
 #include "plans/analyses/features.h"
 #include "plans/cell/internal/hidden_errors.h"
-#include "plans/cell/internal/least_greatest.h"
 #include "plans/path/sampling.h"
 #include "plans/path/surface_chart.h"
+#include "tests/plans/least_greatest.h"
 
 namespace rondure::plans {
 namespace {
