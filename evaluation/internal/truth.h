@@ -1,20 +1,23 @@
 #pragma once
 
-#include <optional>
+#include <functional>
 
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
 
-/// The record that the same run of a simulation would have made without errors of machine, probe,
-/// fixture and temperature: the same touches, where they truly met the part, and no declared
-/// uncertainty. Its values are what those of the run are held against.
-/// @return Nothing where the record holds no hidden truth.
-[[nodiscard]] std::optional<record::RunRecord> without_errors(const record::RunRecord& measured);
+/// The values of a record, without intervals.
+using ValuesOf = std::function<Evaluation(const record::RunRecord&)>;
 
-/// Writes the values of a record without errors beside those of the run. A feature whose hidden
-/// truth is not on record, or one with a datum of that kind, gets none.
-void keep_truths(const record::RunRecord& measured, const Evaluation& truth, Evaluation& out);
+/// Writes beside the values of a simulated run what they are without errors of machine, probe,
+/// fixture and temperature: the same evaluation of the same touches, where they truly met the part,
+/// and of series as probes without errors record them. What a calibration leaves is that of the
+/// calibration as found: for it the poses of both axes alone are read without errors.
+///
+/// A feature whose hidden truth is not on record gets none, nor does one with a datum of that kind.
+/// A real run has none. Cost: that of the values once more, with a calibration twice.
+void hold_against_truth(const record::RunRecord& measured, const ValuesOf& values_of,
+                        Evaluation& out);
 
 }  // namespace rondure::evaluation

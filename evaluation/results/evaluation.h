@@ -157,6 +157,7 @@ struct FeatureResult {
   std::optional<Temperatures> temperatures;        ///< During the final cloud; none: not known.
   std::shared_ptr<const MergedPoses> merged;       ///< Only for the strategy "merged".
   std::shared_ptr<const AnalysisResult> analysis;  ///< Only for a feature whose data are series.
+  std::shared_ptr<const AnalysisResult> exact;  ///< `analysis` of a simulation without its errors.
   std::vector<Gate> gates;  ///< Of an analysis, and of the fixture: all that were checked.
   /// All values above are at 20 degC; none: as measured.
   std::optional<ThermalCorrection> thermal;

@@ -161,8 +161,8 @@ const AnalysisKind* analysis_kind(record::Shape shape) {
 core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index, std::uint64_t seed) {
   const AnalysisKind& kind = *analysis_kind(plan.features[index].type);
   if (has_files(plan.features[index])) return read_files(plan, index, kind);
-  const auto simulate = [&](const Plan& from) -> core::Result<AnalysisData> {
-    TRY(auto out, kind.simulate(from, index, seed));
+  const auto simulate = [&](bool errors) -> core::Result<AnalysisData> {
+    TRY(auto out, kind.simulate(plan, index, seed, errors));
     // Only a plan with limits asks for the temperature; the data of others stay as they were.
     for (record::Series& series : out.series) {
       if (plan.environment && series.role == record::Series::Role::kData) {
@@ -171,10 +171,8 @@ core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index, st
     }
     return out;
   };
-  TRY(auto out, simulate(plan));
-  Plan exact = plan;
-  kind.without_errors(*exact.simulation);
-  TRY(auto truth, simulate(exact));
+  TRY(auto out, simulate(true));
+  TRY(auto truth, simulate(false));
   for (record::Series& series : truth.series) {
     if (series.role != record::Series::Role::kData) continue;
     series.role = record::Series::Role::kTruth;

@@ -45,13 +45,14 @@ struct AnalysisKind {
   std::vector<SeriesFile> (*files)(const FeaturePlan& feature);
   /// Checks relations between keys; called only when the section and its keys are valid.
   void (*check)(const FeaturePlan& feature, const std::string& where, Findings& findings);
-  /// @param seed  Seed of all noise. The data depend only on plan and seed.
-  core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed);
-  /// Takes the errors of measurement out of its part of a simulation, so that simulate() gives what
-  /// the result is held against. Null only where `simulate` is.
-  void (*without_errors)(SimulationPlan& simulation);
+  /// @param seed    Seed of all noise. The data depend only on plan and seed.
+  /// @param errors  False: the data that probes and gauges without errors would have recorded of
+  /// the
+  ///                same work, which the result is held against.
+  core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed,
+                                         bool errors);
   /// For an analysis of touches: checks its cell. Null for an analysis of series; when it is set,
-  /// is_simulated, simulate and without_errors are null.
+  /// is_simulated and simulate are null.
   void (*check_cell)(const Plan& plan, std::size_t index, Findings& findings) = nullptr;
 };
 

@@ -128,10 +128,11 @@ double range_of(const std::vector<double>& values) {
 
 }  // namespace
 
-core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
-                                            std::uint64_t seed) {
+core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index, std::uint64_t seed,
+                                            bool errors) {
   const ContourTask& asked = *plan.features[index].contour;
-  const SimulatedContourPlan& hidden = *plan.simulation->contour;
+  SimulatedContourPlan hidden = *plan.simulation->contour;
+  if (!errors) hidden.c_noise_mdeg = hidden.x_noise_um = hidden.roughness_um = 0.0;
   fit::CrankGeometry geometry = {asked.crank_radius_mm, asked.wheel_radius_mm, asked.pin_radius_mm};
   if (asked.wheel_radius_from) {
     geometry.wheel_radius_mm = named_wheel(plan, *asked.wheel_radius_from).true_mm;

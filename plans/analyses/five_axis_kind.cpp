@@ -129,11 +129,7 @@ const AnalysisKind& five_axis_kind() {
       .settings = settings_of_section<&FeaturePlan::five_axis>,
       .files = [](const FeaturePlan& feature) { return source_file(feature, kNestColumns); },
       .check = check_five_axis,
-      .simulate = simulate_five_axis,
-      .without_errors =
-          [](SimulationPlan& simulation) {
-            simulation.five_axis->noise_um = simulation.five_axis->drift_um = 0.0;
-          }};
+      .simulate = simulate_five_axis};
   return kKind;
 }
 

@@ -175,31 +175,7 @@ record::Series curve_of(const SimulatedFiveAxisPlan& hidden, bool of_c,
   return out;
 }
 
-/// What the evaluation finds in the readings without noise: the truth of each of its values.
-core::Result<std::vector<record::TruthValue>> truths_of(const fit::HeadMeasurement& exact,
-                                                        bool repeat, int feature) {
-  TRY(const auto study, fit::identify_head(exact));
-  std::vector<record::TruthValue> out;
-  const auto add = [&](const char* name, double value) { out.push_back({feature, name, value}); };
-  if (study.c.offset) {
-    add("XOC_um", study.c.offset->d_mm.x() / kMicrometre);
-    add("YOC_um", study.c.offset->d_mm.y() / kMicrometre);
-    add("AOC_urad", study.c.offset->e_rad.x() / kMicroradian);
-    add("BOC_urad", study.c.offset->e_rad.y() / kMicroradian);
-  }
-  if (study.a.offset) {
-    add("YOA_um", study.a.offset->d_mm.y() / kMicrometre);
-    add("ZOA_um", study.a.offset->d_mm.z() / kMicrometre);
-    add("BOA_urad", study.a.offset->e_rad.y() / kMicroradian);
-    add("COA_urad", study.a.offset->e_rad.z() / kMicroradian);
-  }
-  add("before_rms_um", study.before.rms_mm / kMicrometre);
-  add("left_rms_um", (repeat ? study.before : study.left).rms_mm / kMicrometre);
-  add("left_largest_um", (repeat ? study.before : study.left).max_mm / kMicrometre);
-  return out;
-}
-
-/// The table that an earlier feature gives.
+/// The table that an earlier feature gives, with the errors of its readings.
 core::Result<LoadedTable> table_of(const Plan& plan, const std::string& id, std::uint64_t seed) {
   const auto found = std::ranges::find(plan.features, id, &FeaturePlan::id);
   const auto index = static_cast<std::size_t>(found - plan.features.begin());
@@ -219,7 +195,7 @@ core::Result<LoadedTable> table_of(const Plan& plan, const std::string& id, std:
 }  // namespace
 
 core::Result<AnalysisData> simulate_five_axis(const Plan& plan, std::size_t index,
-                                              std::uint64_t seed) {
+                                              std::uint64_t seed, bool errors) {
   const FiveAxisTask& asked = *plan.features[index].five_axis;
   HeadWorld world{asked, *plan.simulation->five_axis};
   if (asked.repeat) {
@@ -227,9 +203,7 @@ core::Result<AnalysisData> simulate_five_axis(const Plan& plan, std::size_t inde
   }
   const auto feature = static_cast<int>(index);
   AnalysisData out;
-  out.series.push_back(data_of(readings_of(world, index, seed, true), asked, feature));
-  TRY(out.truths,
-      truths_of(readings_of(world, index, seed, false), asked.repeat.has_value(), feature));
+  out.series.push_back(data_of(readings_of(world, index, seed, errors), asked, feature));
   if (asked.repeat) return out;  // its errors are those that the table left
   out.series.push_back(curve_of(world.hidden, true, asked.c_stations_deg, asked.c_sign(), feature));
   out.series.push_back(

@@ -184,7 +184,6 @@ const AnalysisKind& rotary_kind() {
       .files = [](const FeaturePlan&) { return std::vector<SeriesFile>{}; },
       .check = check_rotary_axes,
       .simulate = nullptr,
-      .without_errors = nullptr,
       .check_cell = check_cell};
   return kind;
 }

@@ -194,10 +194,14 @@ void add_truth(const ProbedWorld& world, int feature, const SpindleTask& plan, A
   out.series.push_back(std::move(truth));
 }
 
-core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
-                                            std::uint64_t seed) {
+core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index, std::uint64_t seed,
+                                            bool errors) {
   const SpindleTask& asked = *plan.features[index].spindle;
-  const SimulatedSpindlePlan& hidden = *plan.simulation->spindle;
+  SimulatedSpindlePlan hidden = *plan.simulation->spindle;
+  if (!errors) {
+    hidden.probe_noise_um = hidden.p2_error_deg = hidden.p3_error_deg = 0.0;
+    hidden.probe_offset_um = hidden.probe_gain_error = {};
+  }
   TRY(const auto layout, layout_of(asked));
   ProbedWorld world{hidden, arm_of(asked), layout.angles_rad()};
   if (asked.wheel_radius_from) {
@@ -227,13 +231,7 @@ const AnalysisKind& spindle_kind() {
       .settings = settings_of_section<&FeaturePlan::spindle>,
       .files = [](const FeaturePlan& feature) { return source_file(feature, kProbeColumns); },
       .check = check_spindle,
-      .simulate = simulate_spindle,
-      .without_errors =
-          [](SimulationPlan& simulation) {
-            SimulatedSpindlePlan& hidden = *simulation.spindle;
-            hidden.probe_noise_um = hidden.p2_error_deg = hidden.p3_error_deg = 0.0;
-            hidden.probe_offset_um = hidden.probe_gain_error = {};
-          }};
+      .simulate = simulate_spindle};
   return kKind;
 }
 

@@ -211,8 +211,11 @@ record::Series edge_points(const SimulatedWheel& body, const Reach& reach, bool 
   return out;
 }
 
-core::Result<AnalysisData> simulate_wheel(const Plan& plan, std::size_t index, std::uint64_t seed) {
-  const SimulatedWheel body{*plan.simulation->wheel};
+core::Result<AnalysisData> simulate_wheel(const Plan& plan, std::size_t index, std::uint64_t seed,
+                                          bool errors) {
+  SimulatedWheelPlan hidden = *plan.simulation->wheel;
+  if (!errors) hidden.noise_um = 0.0;
+  const SimulatedWheel body{hidden};
   const Reach reach = reach_of(body);
   const auto feature = static_cast<int>(index);
   const bool envelope = plan.features[index].wheel->mode == WheelTask::Mode::kEnvelope;
@@ -248,8 +251,7 @@ const AnalysisKind& wheel_kind() {
       .settings = settings_of_section<&FeaturePlan::wheel>,
       .files = [](const FeaturePlan& feature) { return source_file(feature, kEdgeColumns); },
       .check = check_wheel,
-      .simulate = simulate_wheel,
-      .without_errors = [](SimulationPlan& simulation) { simulation.wheel->noise_um = 0.0; }};
+      .simulate = simulate_wheel};
   return kKind;
 }
 

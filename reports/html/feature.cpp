@@ -301,8 +301,15 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
   html += messages(feature) + callouts_section(feature, record, true);
   std::string drawings;
   if (feature.analysis) {
-    const auto write = [&](const auto& found) {
-      return analysis_part(found, record, static_cast<int>(index));
+    const auto number = static_cast<int>(index);
+    const auto write = [&]<class Found>(const Found& found) {
+      const Found* const exact =
+          feature.exact ? std::get_if<Found>(&feature.exact->found) : nullptr;
+      if constexpr (requires { analysis_part(found, record, number, exact); }) {
+        return analysis_part(found, record, number, exact);
+      } else {
+        return analysis_part(found, record, number);
+      }
     };
     drawings = std::visit(write, feature.analysis->found);
   }

@@ -1,6 +1,7 @@
+#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,29 +21,28 @@ using core::kMicrometre;
 using core::um;
 using evaluation::FiveAxisResult;
 
-std::optional<double> truth_named(const record::RunRecord& record, int feature,
-                                  std::string_view name) {
-  for (const record::TruthValue& truth : record.truth_values) {
-    if (truth.feature == feature && truth.name == name) return truth.value;
-  }
-  return std::nullopt;
-}
-
 /// Found, truth of a simulation, and their difference over u.
-std::string location_table(const FiveAxisResult& facts, const record::RunRecord& record,
-                           int feature) {
+/// @param exact  What a simulation gives without errors of measurement; null: no simulation.
+std::string location_table(const FiveAxisResult& facts, const FiveAxisResult* exact) {
+  const auto truths =
+      exact == nullptr ? std::vector<evaluation::HeadLocation>() : locations_of(*exact);
   TableRows rows;
   for (const evaluation::HeadLocation& one : locations_of(facts)) {
     const bool angle = record::is_angle(one.error);
-    const std::string name(record::name_of(one.error));
     const double found = one.value_mm / kMicrometre;
     const double u = one.u_mm / kMicrometre;
-    std::vector<std::string> cells = {name, angle ? "µrad" : "µm", fixed(found, angle ? 1 : 2),
+    std::vector<std::string> cells = {std::string(record::name_of(one.error)),
+                                      angle ? "µrad" : "µm", fixed(found, angle ? 1 : 2),
                                       fixed(u, angle ? 1 : 2)};
-    const auto truth = truth_named(record, feature, name + (angle ? "_urad" : "_um"));
-    cells.push_back(truth ? fixed(*truth, angle ? 1 : 2) : "–");
-    cells.push_back(truth ? fixed(found - *truth, angle ? 1 : 2) : "–");
-    cells.push_back(truth && u > 0.0 ? fixed((found - *truth) / u, 1) : "–");
+    const auto truth = std::ranges::find(truths, one.error, &evaluation::HeadLocation::error);
+    if (truth == truths.end()) {
+      cells.insert(cells.end(), 3, "–");
+    } else {
+      const double off = found - truth->value_mm / kMicrometre;
+      cells.push_back(fixed(found - off, angle ? 1 : 2));
+      cells.push_back(fixed(off, angle ? 1 : 2));
+      cells.push_back(u > 0.0 ? fixed(off / u, 1) : "–");
+    }
     rows.push_back(cells);
   }
   return scrolling(table("", "llrrrrr", spoken_caption(tr("Location of the axes")),
@@ -51,20 +51,13 @@ std::string location_table(const FiveAxisResult& facts, const record::RunRecord&
                          rows));
 }
 
-std::string key_numbers(const FiveAxisResult& facts, const record::RunRecord& record, int feature) {
-  const auto with_truth = [&](const char* name, std::string text) {
-    const auto truth = truth_named(record, feature, name);
-    return truth ? text + "; " + trf("truth {} µm", fixed(*truth, 2)) : text;
-  };
+std::string key_numbers(const FiveAxisResult& facts) {
   std::string html = R"(<dl class="keys">)";
-  html += entry(
-      tr("Left at combined poses"),
-      with_note(
-          trf("{} µm rms", um(facts.left().rms_mm)),
-          with_truth("left_rms_um",
-                     trf("{} µm at most; {} µm rms expected", um(facts.left().max_mm),
-                         um(facts.gain ? facts.gain->forecast_mm : facts.study.expected_mm)))),
-      "lead");
+  html += entry(tr("Left at combined poses"),
+                with_note(trf("{} µm rms", um(facts.left().rms_mm)),
+                          trf("{} µm at most; {} µm rms expected", um(facts.left().max_mm),
+                              um(facts.gain ? facts.gain->forecast_mm : facts.study.expected_mm))),
+                "lead");
   if (const auto& gain = facts.gain) {
     html += entry(tr("Without the table"),
                   with_note(trf("{} µm rms", um(gain->before.rms_mm)),
@@ -73,8 +66,7 @@ std::string key_numbers(const FiveAxisResult& facts, const record::RunRecord& re
   } else {
     html += entry(tr("Before compensation"),
                   with_note(trf("{} µm rms", um(facts.study.before.rms_mm)),
-                            with_truth("before_rms_um",
-                                       trf("{} µm at most", um(facts.study.before.max_mm)))));
+                            trf("{} µm at most", um(facts.study.before.max_mm))));
   }
   html += entry(tr("Readings"),
                 with_note(trf("{} of {} set-ups", facts.readings, facts.task.balls.size()),
@@ -88,12 +80,11 @@ std::string key_numbers(const FiveAxisResult& facts, const record::RunRecord& re
 
 }  // namespace
 
-std::string analysis_part(const FiveAxisResult& facts, const record::RunRecord& record,
-                          int feature) {
+std::string analysis_part(const FiveAxisResult& facts, const record::RunRecord& record, int feature,
+                          const FiveAxisResult* exact) {
   std::string html = (facts.gain ? std::string() : residual_chart(facts.combined)) +
-                     as_read_note() + key_numbers(facts, record, feature) + words_of_rotary();
-  html += fmt::format("<h3>{}</h3>{}", tr("Location of the axes"),
-                      location_table(facts, record, feature));
+                     as_read_note() + key_numbers(facts) + words_of_rotary();
+  html += fmt::format("<h3>{}</h3>{}", tr("Location of the axes"), location_table(facts, exact));
   html += note(
       tr("ISO 230-7, from the fit over the stations, relative to the tool data of the first ball "
          "and to the slides as they move. Truth: the same fit of the readings without noise. "

@@ -47,8 +47,10 @@ namespace rondure::reports {
                                         const record::RunRecord& record, int feature);
 [[nodiscard]] std::string analysis_part(const evaluation::RotaryResult& facts,
                                         const record::RunRecord& record, int feature);
+/// @param exact  What a simulation gives without errors of measurement; null: no simulation.
 [[nodiscard]] std::string analysis_part(const evaluation::FiveAxisResult& facts,
-                                        const record::RunRecord& record, int feature);
+                                        const record::RunRecord& record, int feature,
+                                        const evaluation::FiveAxisResult* exact);
 /// Stands above the key numbers of an analysis: which of them are as read.
 [[nodiscard]] std::string as_read_note();
 /// All intervals in one table, the influences and the rule with its statements; empty without any.

@@ -45,6 +45,13 @@ TEST_F(CalibratedFixture, LeavesAtMostNineTenthsOfAMicrometre) {
   std::cout << found.at("verification").dump(1) << "\n";
   EXPECT_GT(found.at("/verification/before_rms_um"_json_pointer), 10.0);
   EXPECT_LE(found.at("/verification/rms_um"_json_pointer), 0.9);
+  // What this calibration leaves without the noise of the balls that show it; an exact one leaves
+  // 0.01 um.
+  for (const json& asked : report.at("/features/0/characteristics"_json_pointer)) {
+    const json& held = asked.at("simulation").at(0);
+    EXPECT_GT(held.at("truth_um"), 0.5 * held.at("found_um").get<double>());
+    EXPECT_LT(held.at("truth_um"), held.at("found_um"));
+  }
   const Outcome verified = rondure({"verify", run()});
   EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr(kFile));

@@ -204,6 +204,7 @@ TEST(PoseJoint, WhatOverlapTouchesAndNoiseDoToIt) {
   Study ends;
   ends.ends = true;
   ends.layers = 7;
+  ends.overlap_share = 0.34;  // q = -1/3, 0, 1/3
   studies.emplace_back("two ends, 3 layers of 7 shared", ends);
   for (const auto& [name, study] : studies) {
     SCOPED_TRACE(name);
@@ -213,7 +214,7 @@ TEST(PoseJoint, WhatOverlapTouchesAndNoiseDoToIt) {
                100.0 * errors.joint_95, 100.0 * errors.covered, errors.condition);
     EXPECT_LT(errors.joint_median, 0.25);
     EXPECT_LT(5.0 * errors.joint_median, errors.naive_median);
-    if (study.overlap_deg == 0.0) {  // seams alone are shared: none is stated
+    if (study.overlap_deg < 30.0) {  // less than a fifth is shared: none is stated
       EXPECT_EQ(errors.covered, 0.0);
     } else if (test::full()) {
       EXPECT_GT(errors.covered, 0.80);

@@ -82,12 +82,7 @@ const AnalysisKind& contour_kind() {
                                          .settings = settings_of_section<&FeaturePlan::contour>,
                                          .files = contour_files,
                                          .check = check_contour,
-                                         .simulate = simulate_contour,
-                                         .without_errors = [](SimulationPlan& simulation) {
-                                           SimulatedContourPlan& hidden = *simulation.contour;
-                                           hidden.c_noise_mdeg = hidden.x_noise_um =
-                                               hidden.roughness_um = 0.0;
-                                         }};
+                                         .simulate = simulate_contour};
   return kKind;
 }
 

@@ -11,6 +11,6 @@ namespace rondure::plans {
 /// positions with their non-following part, and main journals with that part alone.
 /// @return The data, or the errors of wheel_path().
 [[nodiscard]] core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
-                                                          std::uint64_t seed);
+                                                          std::uint64_t seed, bool errors);
 
 }  // namespace rondure::plans

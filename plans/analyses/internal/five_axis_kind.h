@@ -15,6 +15,6 @@ inline constexpr std::array<std::string_view, 4> kHeadSteps = {"reference", "C",
 
 /// AnalysisKind::simulate of the type five_axis.
 [[nodiscard]] core::Result<AnalysisData> simulate_five_axis(const Plan& plan, std::size_t index,
-                                                            std::uint64_t seed);
+                                                            std::uint64_t seed, bool errors);
 
 }  // namespace rondure::plans
