@@ -84,6 +84,7 @@ core::Result<void> close_sealed(const record::ReadJournal& read, const fs::path&
 /// Archives a sealed run with its reports, which may have died before that step.
 int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
                     const EvaluatedRun& evaluated) {
+  evaluated.trials.keep();  // the last of its files: a run may have died before it
   if (archive_run(archive, directory, evaluated.record, evaluated.evaluation)) {
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",

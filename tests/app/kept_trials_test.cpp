@@ -60,6 +60,22 @@ TEST_F(KeptTrials, AreTakenByReportAndCompareAndChangedByNeither) {
   EXPECT_EQ(rondure({"verify", run_}).status, 0);
 }
 
+// A run may die between its last report and them.
+TEST_F(KeptTrials, AreMadeUpForByResume) {
+  const std::string before = trials();
+  fs::remove(run_ / "trials.bin");
+  const std::string sums = read(run_ / "SHA256SUMS");
+  const std::size_t name = sums.find("trials.bin");
+  ASSERT_NE(name, std::string::npos);
+  const std::size_t line = sums.rfind('\n', name) + 1;
+  write(run_ / "SHA256SUMS", sums.substr(0, line) + sums.substr(sums.find('\n', name) + 1));
+  const fs::path plan = fs::path(RONDURE_SOURCE_DIR) / "plans/examples/01_spool_simulated.json";
+  const Outcome outcome = rondure({"run", plan, "--out", run_, "--resume"});
+  EXPECT_LE(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(trials(), before);
+  EXPECT_EQ(rondure({"verify", run_}).status, 0);
+}
+
 // A form value of 1 m would change the verdict.
 TEST_F(KeptTrials, ThatSomebodyForgedAreFoundByEveryVerb) {
   const std::string good = trials();
