@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "core/watch.h"
 #include "evaluation/harmonic_mask.h"
+#include "evaluation/internal/file_digits.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/part/contacts.h"
 #include "evaluation/part/find.h"
@@ -417,6 +418,14 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
   out.risks = worst->risks;
 }
 
+/// A length as an error of a value: of an angle in mrad, over the size of the surface.
+double as_value(const FeatureResult& result, const StatedValue& value, double length_mm) {
+  if (value.unit() != core::ValueUnit::kUrad) return length_mm;
+  Eigen::AlignedBox3d box;
+  for (const CloudPoint& point : result.cloud) box.extend(point.tip_mm);
+  return 1e3 * length_mm / box.diagonal().norm();
+}
+
 /// An interval that is narrower than the probing form that the run itself showed counts only what
 /// was declared: where no probing form is declared, no verdict rests on it.
 void hold_against_probe(const Circumstances& by, const FeatureResult& result,
@@ -431,13 +440,7 @@ void hold_against_probe(const Circumstances& by, const FeatureResult& result,
     return;
   }
   const double span_mm = by.probe->form_mm;
-  double half_mm = 0.5 * span_mm;
-  if (out.value->unit() == core::ValueUnit::kUrad) {  // in mrad, over the size of the surface
-    Eigen::AlignedBox3d box;
-    for (const CloudPoint& point : result.cloud) box.extend(point.tip_mm);
-    half_mm *= 1e3 / box.diagonal().norm();
-  }
-  if (known->expanded_mm() >= half_mm) return;
+  if (known->expanded_mm() >= as_value(result, *out.value, 0.5 * span_mm)) return;
   out.verdict = Verdict::kUndecided;
   out.outcome.reset();
   out.risks.reset();
@@ -452,6 +455,42 @@ void hold_against_probe(const Circumstances& by, const FeatureResult& result,
       core::name_of(core::unit_of_difference(out.value->unit())),
       core::as_it_is(
           fmt::format(R"("uncertainty": {{"probe": {{"form_limit_um": {:g}}}}})", limit_um)));
+}
+
+/// Rounding in a file can hide form or make it: a verdict stands only where it is the same with the
+/// value moved by as much to either side. Two points, each moved by half a diagonal of its step.
+void hold_against_digits(const Circumstances& by, const FeatureResult& result,
+                         CharacteristicResult& out) {
+  constexpr double kShare = 0.05;  // of the limits: less is a matter of the last digit
+  const bool decided = out.verdict == Verdict::kConforms || out.verdict == Verdict::kDoesNotConform;
+  if (!decided || result.feature.strategy != record::Strategy::kPointsFile ||
+      out.characteristic.form == Form::kHarmonicLimits) {
+    return;
+  }
+  const double step_mm = step_of_file_mm(by.record, result.feature.id);
+  const double move_mm = as_value(result, *out.value, std::sqrt(2.0) * step_mm);
+  const Limits limits = limits_of(out.characteristic);
+  const bool one_limit = !limits.upper_mm || !limits.lower_mm;
+  const double allowed_mm = !one_limit ? *limits.upper_mm - *limits.lower_mm
+                            : out.characteristic.form == Form::kDiameter
+                                ? 0.0
+                                : out.characteristic.tolerance_mm.value_or(0.0);
+  if (move_mm <= kShare * allowed_mm) return;
+  for (const double by_mm : {-move_mm, move_mm}) {
+    CharacteristicResult moved = out;
+    moved.value = out.value->moved_to(out.value->value_mm() + by_mm);
+    apply(by.rule, moved);
+    if (moved.verdict == out.verdict) continue;
+    out.verdict = Verdict::kUndecided;
+    out.outcome.reset();
+    out.risks.reset();
+    out.reason = core::phrase(
+        "the file writes its coordinates in steps of {:.4g} um, which can move the value by {} {}: "
+        "the limit is nearer; export more digits",
+        micrometres(step_mm), core::um(move_mm),
+        core::name_of(core::unit_of_difference(out.value->unit())));
+    return;
+  }
 }
 
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
@@ -593,6 +632,7 @@ void decide(const record::RunRecord& record, const core::Result<DecisionRule>& r
       judge(by, result, out);
     }
     hold_against_probe(by, result, out);
+    hold_against_digits(by, result, out);
     result.characteristics.push_back(std::move(out));
   }
 }
