@@ -9,6 +9,7 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/results/finding.h"
+#include "evaluation/rotary/internal/combined_field.h"
 #include "record/tasks/surface.h"
 
 namespace rondure::evaluation {
@@ -120,6 +121,17 @@ bool is_left(record::Form form) {
   return form != record::Form::kLocation && form != record::Form::kAxisError;
 }
 
+/// What a calibration as found leaves where these poses are read without errors. Its balls are
+/// known as well as it measured them: that is no error of the axes.
+std::vector<double> left_values(const FeatureResult& exact, record::Form form) {
+  const auto* const rotary = std::get_if<RotaryResult>(&exact.analysis->found);
+  const auto left =
+      moved_by(rotary != nullptr ? rotary->combined
+                                 : std::get<FiveAxisResult>(exact.analysis->found).combined);
+  const bool rms = form == record::Form::kFixtureResidualRms || form == record::Form::kLeftRms;
+  return {rms ? left.rms_mm : left.max_mm};
+}
+
 }  // namespace
 
 void hold_against_truth(const RunRecord& measured, const ValuesOf& values_of, Evaluation& out) {
@@ -137,13 +149,14 @@ void hold_against_truth(const RunRecord& measured, const ValuesOf& values_of, Ev
     for (std::size_t c = 0; c < here.characteristics.size(); ++c) {
       CharacteristicResult& result = here.characteristics[c];
       const bool left = calibration && is_left(result.characteristic.form);
-      const auto& there = (left ? residuals : exact)->features[f].characteristics;
+      const FeatureResult& there = (left ? residuals : exact)->features[f];
       const bool all_known =
           !result.finding || std::ranges::all_of(result.finding->datums, [&](const auto& datum) {
             return std::ranges::all_of(datum.features, known);
           });
-      if (!all_known || c >= there.size()) continue;
-      std::vector<double> values = compared_values(there[c]);
+      if (!all_known || c >= there.characteristics.size()) continue;
+      std::vector<double> values = compared_values(there.characteristics[c]);
+      if (left && !values.empty()) values = left_values(there, result.characteristic.form);
       if (values.size() == compared_values(result).size()) result.truths_mm = std::move(values);
     }
   }

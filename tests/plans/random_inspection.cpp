@@ -106,6 +106,7 @@ Inspection inspect(const plans::Plan& plan) {
   plans::RunOptions options;
   options.directory = directory;
   options.run_id = "test";
+  options.started_utc = "2026-11-29T10:00:00Z";
   Inspection out;
   {
     const auto run = plans::run_plan(plan, options);

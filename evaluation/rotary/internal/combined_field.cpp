@@ -6,6 +6,7 @@
 
 #include "core/decompositions.h"
 #include "evaluation/uncertainty/curve_trials.h"
+#include "fit/geometry/registration.h"
 #include "fit/rotary/errors.h"
 
 namespace rondure::evaluation {
@@ -147,6 +148,27 @@ CombinedField::Residual CombinedField::per_noise() const {
       out.max_mm = noise_mm_ * std::sqrt(leverage);
     }
   }
+  return out;
+}
+
+CombinedField::Residual moved_by(std::span<const CombinedPose> poses) {
+  CombinedField::Residual out;
+  double squares = 0.0;
+  double points = 0.0;
+  for (const CombinedPose& pose : poses) {
+    std::vector<Vector3d> found;
+    for (std::size_t i = 0; i < pose.at_mm.size(); ++i) {
+      found.emplace_back(pose.at_mm[i] + pose.residual_mm[i]);
+    }
+    const auto moved = fit::rigid_registration(pose.at_mm, found);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Vector3d by = (moved ? moved->motion * pose.at_mm[i] : found[i]) - pose.at_mm[i];
+      squares += by.squaredNorm();
+      points += 1.0;
+      out.max_mm = std::max(out.max_mm, by.norm());
+    }
+  }
+  out.rms_mm = std::sqrt(squares / std::max(1.0, points));
   return out;
 }
 

@@ -52,6 +52,11 @@ class CombinedField {
   std::vector<double> cumulative_;  ///< Posterior of the scales, 0..1.
 };
 
+/// What the poses show of the errors of prediction: the rigid motion of the balls of each, as found
+/// by registration. The rest of a residual is how far the balls themselves are known. Three balls
+/// in line, or fewer, show all they have.
+[[nodiscard]] CombinedField::Residual moved_by(std::span<const CombinedPose> poses);
+
 /// The residual in every trial, and its change with the noise of the balls.
 struct ResidualTrials {
   std::vector<double> rms_mm;

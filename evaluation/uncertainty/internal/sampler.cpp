@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "core/decompositions.h"
@@ -32,6 +33,7 @@ constexpr int kNoiseSteps = 15;         // for noise that is not known exactly
 constexpr double kNegligible = -40.0;  // logarithm of the odds of a variance, against the likeliest
 constexpr double kOverlap = 0.3;       // overlap of two columns above which they are drawn together
 constexpr double kModeOverlap = 0.05;  // squared overlap of a column with a systematic error
+constexpr double kCommon = 4.0;        // alpha of a form that four of five parts have
 constexpr double kSpectrumRest = 0.05;  // no surface consists of a few declared terms alone
 constexpr double kMostValues = 4e7;     // values in the matrix of columns: 320 MB
 
@@ -133,7 +135,7 @@ FormModel::FormModel(const FormCloud& cloud, const ErrorModel& errors, const For
   screen();
   assemble();
   correlate(cloud, errors);
-  find_bands();
+  find_bands(cloud.kind);
   find_joint();
   find_seen();
   first_state();
@@ -307,7 +309,7 @@ void FormModel::correlate(const FormCloud& cloud, const ErrorModel& errors) {
   }
 }
 
-void FormModel::find_bands() {
+void FormModel::find_bands(FormKind kind) {
   const double n = static_cast<double>(y_.size());
   if (declared_) {
     const Index width = all_.cols() - base_;
@@ -318,16 +320,21 @@ void FormModel::find_bands() {
     bands_.push_back(band);
     return;
   }
-  std::map<std::pair<int, int>, std::size_t> places;
+  std::map<std::tuple<int, int, int>, std::size_t> places;
   const auto band_of = [&](const FormGroup& group) {
+    const bool common = kind == FormKind::kCylindricity && group.harmonic < 2 && group.degree <= 2;
+    const int alone = common ? 1 + 3 * group.harmonic + group.degree : 0;
     const auto [place, fresh] =
-        places.try_emplace({group.octave, group.degree_class}, bands_.size());
+        places.try_emplace({group.octave, group.degree_class, alone}, bands_.size());
     if (fresh) {
       FormBand band;
       // A form of few groups is as likely as one of many. With 1 in the lowest octaves half of a
       // band is present beforehand, and noise is taken for form where its groups are in truth none.
-      band.rareness = std::max(0.1, std::min(0.5, std::exp2(1.0 - group.octave))) *
-                      (group.degree_class < 2 ? 1.0 : 0.3);
+      // Taper, barrel and bow are the forms that parts have, whatever lobes are absent: a median
+      // line shows nothing else, and noise of its size must not be taken for a straight one.
+      band.rareness = common ? kCommon
+                             : std::max(0.1, std::min(0.5, std::exp2(1.0 - group.octave))) *
+                                   (group.degree_class < 2 ? 1.0 : 0.3);
       bands_.push_back(band);
     }
     return place->second;

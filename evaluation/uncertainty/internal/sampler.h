@@ -99,7 +99,7 @@ class FormModel {
   void screen();
   void assemble();
   void correlate(const FormCloud& cloud, const ErrorModel& errors);
-  void find_bands();
+  void find_bands(FormKind kind);
   void find_joint();
   void find_seen();
   void first_state();
