@@ -94,17 +94,17 @@ def table(product, of_tests, ran, units, cases):
     model = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo") if l.startswith("model name")), "unknown")
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout.strip()
     out = [f"{model}, {os.cpu_count()} cores; commit {commit}; {datetime.date.today()}; `.ci/times.py`.", "",
-           "| from nothing, release | processor s | wall s |", "|---|--:|--:|"]
+           "from nothing, release | processor s | wall s", "---|--:|--:"]
     for what, (used, wall) in (("build of the program", product), ("build of the tests", of_tests),
                                (f"{len(cases)} tests", ran)):
-        out.append(f"| {what} | {used:.0f} | {wall:.0f} |")
-    out += ["", "| room | compile, s | compile its tests, s | run its tests, s |", "|---|--:|--:|--:|"]
+        out.append(f"{what} | {used:.0f} | {wall:.0f}")
+    out += ["", "room | compile, s | compile its tests, s | run its tests, s", "---|--:|--:|--:"]
     rooms = ROOMS + sorted(set(tests_by_room) - set(ROOMS))
     for room in rooms:
-        out.append(f"| {room} | {by_room[room]:.1f} | {by_room['tests of ' + room]:.1f} | {tests_by_room[room]:.1f} |")
-    out.append(f"| precompiled headers; shared by tests | {by_room['precompiled headers']:.1f} | {by_room['shared by tests']:.1f} | |")
-    out += ["", "| heaviest units | s | MB |", "|---|--:|--:|"]
-    out += [f"| `{short(unit)}` | {seconds:.1f} | {megabytes} |" for seconds, megabytes, unit in units[:5]]
+        out.append(f"{room} | {by_room[room]:.1f} | {by_room['tests of ' + room]:.1f} | {tests_by_room[room]:.1f}")
+    out.append(f"precompiled headers; shared by tests | {by_room['precompiled headers']:.1f} | {by_room['shared by tests']:.1f} |")
+    out += ["", "heaviest units | s | MB", "---|--:|--:"]
+    out += [f"`{short(unit)}` | {seconds:.1f} | {megabytes}" for seconds, megabytes, unit in units[:5]]
     return "\n".join(out) + "\n"
 
 

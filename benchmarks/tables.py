@@ -22,7 +22,7 @@ SHOWN = {12, 20, 24, 100, 1000, 10000, 100000, 1000000}  # numbers of points; th
 
 
 def time_table(runs):
-    lines = ["| shape | points | order | T us | T / S1 |", "|---|---|---|---|---|"]
+    lines = ["shape | points | order | T us | T / S1", "---|---|---|---|---"]
     for shape in ("cylinder", "circle"):
         for (points, variant), names in rows_by_size(runs, f"mz/{shape}").items():
             if points not in SHOWN:
@@ -31,7 +31,7 @@ def time_table(runs):
             ratios = [runs.ratio(name, "s1" + name[2:]) for name in names]
             ratios = [value for value in ratios if value]
             ratio = f"{median(ratios):.3g}" if ratios else "-"
-            lines.append(f"| {shape} | {points} | {variant} | {time / 1e3:.4g} | {ratio} |")
+            lines.append(f"{shape} | {points} | {variant} | {time / 1e3:.4g} | {ratio}")
     return lines
 
 
@@ -43,15 +43,15 @@ PEERS = [("nlopt-slsqp/cylinder", "mz/cylinder"), ("nlopt-nelder-mead/cylinder",
 
 def peer_table(runs):
     """Each peer at its least and its greatest number of points."""
-    lines = ["| peer | points | T us | peer / ours | worst excess |", "|---|---|---|---|---|"]
+    lines = ["peer | points | T us | peer / ours | worst excess", "---|---|---|---|---"]
     for peer, ours in PEERS:
         sizes = list(rows_by_size(runs, peer).items())
         for (points, _), names in sizes[:1] + sizes[1:][-1:]:
             ratio = runs.ratio(names[0], ours + names[0][len(peer):])
             excess = runs.worst(names[0], "excess")
-            lines.append(f"| {peer} | {points} | {runs.time_ns(names[0]) / 1e3:.4g} | "
+            lines.append(f"{peer} | {points} | {runs.time_ns(names[0]) / 1e3:.4g} | "
                          f"{f'{ratio:.4g}' if ratio else '-'} | "
-                         f"{'-' if excess is None else f'{excess:.2g}'} |")
+                         f"{'-' if excess is None else f'{excess:.2g}'}")
     return lines
 
 

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/contour/internal/trials.h"
+#include "evaluation/correction/internal/barred.h"
 #include "evaluation/interval/internal/declared.h"
 
 namespace rondure::evaluation {
@@ -27,16 +28,6 @@ double closed_at(std::span<const double> curve, double angle_rad) {
   const auto i = static_cast<std::size_t>(below) % curve.size();
   const double share = place - below;
   return (1.0 - share) * curve[i] + share * curve[(i + 1) % curve.size()];
-}
-
-/// Why nothing of the feature may reach a machine.
-std::optional<core::Phrase> barred(const FeatureResult& result) {
-  if (result.failure) return result.failure->said();
-  const auto voids = std::ranges::find_if(
-      result.gates, [](const Gate& gate) { return gate.outcome == Gate::Outcome::kVoids; });
-  if (voids != result.gates.end()) return voids->reason;
-  if (!result.analysis) return core::phrase("the feature has no result");
-  return std::nullopt;
 }
 
 std::optional<core::Phrase> barred(const ContourResult& facts) {

@@ -48,8 +48,8 @@ core::Result<fit::WheelSurface> surface_of(const GroundSurfaceTask& task) {
   return out->less(task.removal_x_mm, std::move(depth));
 }
 
-fit::WheelPathOptions path_options(const GroundSurfaceTask& task,
-                                   const fit::WheelSurface& surface) {
+fit::WheelPathOptions path_options(const WheelTask& wheel, const fit::WheelSurface& surface) {
+  const GroundSurfaceTask& task = *wheel.surface;
   fit::WheelPathOptions out;
   out.from_mm = task.from_mm;
   out.to_mm = task.to_mm;
@@ -61,6 +61,10 @@ fit::WheelPathOptions path_options(const GroundSurfaceTask& task,
     out.surface_from_mm = whole->first;
     out.surface_to_mm = whole->second;
   }
+  if (!wheel.program) return out;
+  out.lowest_point = wheel.program->lowest_point == record::Switch::kOn;
+  if (wheel.program->surface_from_mm) out.surface_from_mm = wheel.program->surface_from_mm;
+  if (wheel.program->surface_to_mm) out.surface_to_mm = wheel.program->surface_to_mm;
   return out;
 }
 
@@ -68,7 +72,7 @@ core::Result<std::optional<fit::WheelPathTask>> path_task(const WheelTask& wheel
   if (!wheel.surface) return std::nullopt;
   const GroundSurfaceTask& task = *wheel.surface;
   TRY(auto surface, surface_of(task));
-  const auto options = path_options(task, surface);
+  const auto options = path_options(wheel, surface);
   fit::WheelPathTask out{std::move(surface), options, fit::RadiusChoice::kMean,
                          task.repeatability_um * kMicrometre, task.touch_off_mm};
   if (task.radius == GroundSurfaceTask::Radius::kEffective) {

@@ -131,10 +131,31 @@ void check_surface(const GroundSurfaceTask& s, const Checker& checker) {
   }
 }
 
+void check_program(const WheelTask& plan, const Checker& checker) {
+  if (!plan.surface) {
+    checker.missing("surface", "a program grinds a surface");
+    return;
+  }
+  const record::WheelProgramTask& program = *plan.program;
+  const double from_mm = program.surface_from_mm.value_or(plan.surface->from_mm);
+  const double to_mm = program.surface_to_mm.value_or(plan.surface->to_mm);
+  if (from_mm > plan.surface->from_mm) {
+    checker.contradiction("program/surface_from_mm",
+                          fmt::format("is {} mm: the contacts begin before it, at {} mm", from_mm,
+                                      plan.surface->from_mm));
+  }
+  if (to_mm < plan.surface->to_mm) {
+    checker.contradiction(
+        "program/surface_to_mm",
+        fmt::format("is {} mm: the contacts end beyond it, at {} mm", to_mm, plan.surface->to_mm));
+  }
+}
+
 void check_wheel(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const Checker checker{where, findings};
   check_axis(feature, checker);
   if (feature.wheel->surface) check_surface(*feature.wheel->surface, checker);
+  if (feature.wheel->program) check_program(*feature.wheel, checker);
 }
 
 /// The simulated wheel.

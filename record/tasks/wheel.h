@@ -40,6 +40,15 @@ RONDURE_WORDS(GroundSurfaceTask::Form, {kPolynomial, "polynomial"}, {kAsphere, "
               {kTable, "table"});
 RONDURE_WORDS(GroundSurfaceTask::Radius, {kMean, "mean"}, {kEffective, "effective"});
 
+/// How the program of a path is written. A member initialiser is the default of its key.
+struct WheelProgramTask {
+  double feed_mm_min = 100.0;
+  double retract_mm = 5.0;
+  Switch lowest_point = Switch::kOff;     ///< z of the lowest point of the wheel, not its centre.
+  std::optional<double> surface_from_mm;  ///< Where the surface begins that must not be cut into.
+  std::optional<double> surface_to_mm;
+};
+
 /// Settings of the evaluation of a feature of the type "wheel" in plan and journal: a grinding
 /// wheel, from points of its edge. A member initialiser is the default of its key.
 struct WheelTask {
@@ -57,6 +66,7 @@ struct WheelTask {
   Switch robust = Switch::kOff;
   ShortArc short_arc = ShortArc::kRefused;
   std::optional<GroundSurfaceTask> surface;
+  std::optional<WheelProgramTask> program;  ///< Of the path over the surface.
   std::optional<WheelInfluencesTask> uncertainty;
   std::optional<double> expansion_per_K;  ///< Of the wheel; none: its radius stays as measured.
 };
@@ -123,6 +133,19 @@ void describe(Visitor& v, GroundSurfaceTask& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, WheelProgramTask& p) {
+  v.number("feed_mm_min", p.feed_mm_min, above(0.0, 10'000.0, "Feed along the path."));
+  v.number("retract_mm", p.retract_mm,
+           range(0.0, 1000.0, "Height above the path, before and after it."));
+  v.text("lowest_point", p.lowest_point,
+         {.meaning = "on: z of the lowest point of the wheel in place of its centre."});
+  v.number("surface_from_mm", p.surface_from_mm,
+           wheel_specs::place_mm("x where the surface begins that must not be cut into; left out: "
+                                 "from_mm, or that of the table."));
+  v.number("surface_to_mm", p.surface_to_mm, wheel_specs::place_mm("x where it ends."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, WheelTask& p) {
   v.text("mode", p.mode,
          {.required = true,
@@ -150,6 +173,10 @@ void describe(Visitor& v, WheelTask& p) {
   v.text("robust", p.robust, {.meaning = "on: isolated points beyond 5 scales are dropped."});
   v.text("short_arc", p.short_arc, {.meaning = "Less than 20 deg of the circle."});
   v.object("surface", p.surface, {.meaning = "A surface to grind: gives the wheel-centre path."});
+  v.object(
+      "program", p.program,
+      {.meaning = "The path over the surface as G-code, beside its table, where reports.formats "
+                  "has corrections."});
   v.object("uncertainty", p.uncertainty,
            {.meaning = "Declared influences: standard uncertainty, or value and distribution. "
                        "Without them: no interval."});

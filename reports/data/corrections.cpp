@@ -3,7 +3,6 @@
 #include <cmath>
 #include <set>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,9 +13,11 @@
 #include "core/utf8.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/correction/axis_tables.h"
+#include "evaluation/correction/spindle_table.h"
 #include "evaluation/correction/x_of_c.h"
 #include "record/files.h"
 #include "record/sha256.h"
+#include "reports/data/wheel.h"
 
 namespace rondure::reports {
 namespace {
@@ -56,11 +57,11 @@ std::string temperature_of(const FeatureResult& result) {
 
 /// One correction: what it is, in the words of its head.
 struct Head {
-  std::string_view kind;
+  std::string kind;
   std::string sense;
-  std::string_view sign;
+  std::string sign;
   std::string validity;
-  std::string_view units;
+  std::string units;
   std::string gain;
 };
 
@@ -203,13 +204,116 @@ Handed head_table(const record::RunRecord& record, int index, const FeatureResul
   return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
+/// Part and motion over the work angle, of three probes.
+Handed spindle_rows(const record::RunRecord& record, int index, const FeatureResult& result,
+                    const std::string& name) {
+  const auto found = evaluation::spindle_table(result);
+  if (!found) return none_because(found.error());
+  const auto& facts = std::get<evaluation::SpindleResult>(result.analysis->found);
+  const bool pin = found->rows.front().command_mm.has_value();
+  std::string missing;
+  for (const int order : found->missing) missing += fmt::format(" {}", order);
+  Head head;
+  head.kind = "spindle-table";
+  head.sense =
+      "alpha as the readings count it, theta = alpha + beta on the part, RX and RY in the frame of "
+      "the probes";
+  head.sign = pin ? "as found; x_um add to command" : "as found";
+  const auto angles = facts.separation.layout.angles_rad();
+  head.validity = fmt::format(
+      "probes at {:.7g}, {:.7g}, {:.7g} deg; orders 2 to {}; orders that the probes do not show:{}",
+      core::degrees(angles[0]), core::degrees(angles[1]), core::degrees(angles[2]),
+      facts.separation.harmonics.size() + 1, missing.empty() ? " none" : missing);
+  head.units = fmt::format(
+      "alpha_deg deg, theta_deg deg, others um; u_ is a standard uncertainty by noise alone; "
+      "linear "
+      "between the rows{}",
+      pin ? "; x_um for a wheel opposite to P1" : "");
+  head.gain = fmt::format("none is forecast; synchronous motion X {} um, Y {} um",
+                          um(facts.x.synchronous_mm), um(facts.y.synchronous_mm));
+  std::string text = head_of(record, index, result, head) +
+                     "alpha_deg,theta_deg,profile_um,RX_um,RY_um,u_profile_um,u_RX_um,u_RY_um" +
+                     (pin ? ",x_um\n" : "\n");
+  const auto in_um = [](double mm) { return shortest(std::round(mm / kMicrometre * 1e6) / 1e6); };
+  for (std::size_t i = 0; i < found->rows.size(); ++i) {
+    const evaluation::SpindleRow& row = found->rows[i];
+    text += fmt::format("{},{},{},{},{},{},{},{}", i,
+                        shortest(std::round(core::degrees(row.theta_rad) * 1e6) / 1e6),
+                        in_um(row.profile_mm), in_um(row.motion_x_mm), in_um(row.motion_y_mm),
+                        in_um(found->u_profile_mm), in_um(found->u_motion_x_mm),
+                        in_um(found->u_motion_y_mm));
+    text += pin ? fmt::format(",{}\n", in_um(*row.command_mm)) : "\n";
+  }
+  const std::string file = fmt::format("{}/{}-spindle-table.csv", kCorrectionsFolder, name);
+  return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
+}
+
+/// Why the path of a wheel may not reach a machine; empty: it may.
+std::string barred_path(const FeatureResult& result) {
+  for (const evaluation::CharacteristicResult& c : result.characteristics) {
+    if (c.verdict == evaluation::Verdict::kVoid ||
+        c.verdict == evaluation::Verdict::kDoesNotConform) {
+      return fmt::format("{} {}: {}", printable(c.characteristic.id),
+                         evaluation::name_of(c.verdict), printable(c.reason.english()));
+    }
+  }
+  return {};
+}
+
+/// The path of a wheel over its surface: a table, and the program where the plan asks for one.
+Handed wheel_path(const record::RunRecord& record, int index, const FeatureResult& result,
+                  const std::string& name) {
+  if (result.failure) return none_because(*result.failure);
+  if (!result.analysis) return {{}, "none: the feature has no result"};
+  const auto& facts = std::get<evaluation::WheelResult>(result.analysis->found);
+  const fit::WheelEvaluation& found = facts.evaluation;
+  if (!facts.task.path) return {{}, "none: no surface is to be ground (wheel.surface)"};
+  if (found.refused) return none_because(*found.refused);
+  if (!found.path) return {{}, "none: the wheel has no path"};
+  if (!found.wheel.radius_void_because.empty()) {
+    return {{}, fmt::format("none: {}", printable(found.wheel.radius_void_because.english()))};
+  }
+  if (const std::string why = barred_path(result); !why.empty()) {
+    return {{}, fmt::format("none: {}", why)};
+  }
+  Head head;
+  head.kind = "wheel-path";
+  head.sense = "x and z of the plan, material below the surface, the wheel above it";
+  head.sign = "places of the wheel, not differences";
+  head.validity = fmt::format("R {} mm, {} radius, u {} um, as measured; until the wheel is trued",
+                              shortest(found.path->radius_mm), name_of(found.radius),
+                              um(found.wheel.radius_uncertainty_mm));
+  head.units = "mm, phi_deg deg, clearance_um um";
+  head.gain = "none without a nominal radius";
+  if (found.forecast && found.forecast->nominal) {
+    head.gain = fmt::format("form {} um peak to valley by the nominal radius, {} um by this one",
+                            um(found.forecast->nominal->deviation_mm),
+                            um(found.forecast->measured.deviation_mm));
+  }
+  Handed out;
+  const std::string file = fmt::format("{}/{}-wheel-path.csv", kCorrectionsFolder, name);
+  out.tables.push_back({file, head_of(record, index, result, head) + wheel_path_csv(*found.path)});
+  out.line = file;
+  const auto task = record::task_of<record::WheelTask>(result.feature.settings);
+  if (task && task->program) {
+    const std::string program = fmt::format("{}/{}-wheel-path.nc", kCorrectionsFolder, name);
+    out.tables.push_back({program, wheel_gcode(*found.path, {task->program->feed_mm_min,
+                                                             task->program->retract_mm})});
+    out.line += ", " + program;
+  }
+  out.line += ": " + head.gain;
+  return out;
+}
+
 /// The tables of any feature.
 Handed tables_of(const record::RunRecord& record, int index, const FeatureResult& result) {
   const std::string name = record::plain_name(result.feature.id);
   if (result.feature.shape == Shape::kContour) return contour_tables(record, index, result, name);
   if (result.feature.shape == Shape::kRotaryAxes) return axis_tables(record, index, result, name);
   if (result.feature.shape == Shape::kFiveAxis) return head_table(record, index, result, name);
-  return {{}, "none: only a contour, a fixture and a head give a correction for a machine"};
+  if (result.feature.shape == Shape::kSpindle) return spindle_rows(record, index, result, name);
+  if (result.feature.shape == Shape::kWheel) return wheel_path(record, index, result, name);
+  return {{}, "none: points of a surface give no correction for a machine"};
 }
 
 }  // namespace

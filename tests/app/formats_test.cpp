@@ -189,8 +189,7 @@ TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
 TEST_F(Formats, CorrectionsSayWhichFeaturesHaveNoneAndWhy) {
   const Outcome told = rondure({"report", run_, "--format", "corrections"});
   EXPECT_EQ(told.status, 0);
-  const std::string line =
-      "none: only a contour, a fixture and a head give a correction for a machine\n";
+  const std::string line = "none: points of a surface give no correction for a machine\n";
   EXPECT_THAT(told.out, HasSubstr(line));
   EXPECT_THAT(read(run_ / "corrections.txt"), HasSubstr(line));
   EXPECT_EQ(rondure({"verify", run_}).status, 0);

@@ -182,7 +182,7 @@ class GatesTest(unittest.TestCase):
         self.assertTrue(text.endswith("<!-- measured: end -->\ntail\n"))
         self.assertNotIn("superseded", text)
         self.assertIn("| R1 |", text)
-        self.assertIn("| ceres/cylinder | 1000000 |", text)
+        self.assertIn("\nceres/cylinder | 1000000 |", text)
 
 
 if __name__ == "__main__":

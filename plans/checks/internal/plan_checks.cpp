@@ -320,8 +320,7 @@ void check_equipment(const Plan& plan, Findings& findings) {
 /// another feature.
 void check_table_names(const Plan& plan, std::size_t index, Findings& findings) {
   const auto has_tables = [](const FeaturePlan& feature) {
-    return feature.type == record::Shape::kContour || feature.type == record::Shape::kRotaryAxes ||
-           feature.type == record::Shape::kFiveAxis;
+    return record::is_analysis(feature.type);
   };
   const FeaturePlan& feature = plan.features[index];
   const std::string name = record::plain_name(feature.id);
