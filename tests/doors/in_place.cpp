@@ -63,11 +63,11 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& /*plan*/, std::s
 }
 
 core::Result<AnalysisData> simulate_five_axis(const Plan& /*plan*/, std::size_t /*index*/,
-                                              std::uint64_t /*seed*/) {
+                                              std::uint64_t /*seed*/, bool /*errors*/) {
   return core::fail(core::Code::kMeaning, "no simulation here");
 }
 core::Result<AnalysisData> simulate_contour(const Plan& /*plan*/, std::size_t /*index*/,
-                                            std::uint64_t /*seed*/) {
+                                            std::uint64_t /*seed*/, bool /*errors*/) {
   return AnalysisData();
 }
 
