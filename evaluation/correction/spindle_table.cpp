@@ -1,17 +1,15 @@
 #include "evaluation/correction/spindle_table.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
 #include <Eigen/Core>
 
-#include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/correction/internal/barred.h"
-#include "fit/spindle/separation_model.h"
+#include "evaluation/spindle/internal/noise_runs.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -19,8 +17,7 @@ namespace {
 using core::Code;
 using Eigen::VectorXd;
 
-constexpr std::uint64_t kNoiseStream = 0x7ab1eU;
-constexpr int kNoiseRuns = 200;
+constexpr std::uint64_t kSeed = 1;  // any one: a table has the same bits in every run
 
 /// Sum over the orders from 2 on, cosine and sine of each.
 double wave_at(const VectorXd& coefficients, double angle_rad) {
@@ -33,27 +30,15 @@ double wave_at(const VectorXd& coefficients, double angle_rad) {
   return out;
 }
 
-/// The noise of the motion, the part's own noise in it included, from separations of noise alone:
-/// the mean over the angle of the square of a wave is half of that of its coefficients.
+/// The mean over the angle of the square of a wave is half of that of its coefficients.
 void fill_motion_u(const fit::SeparationModel& model, const fit::ThreeProbeResult& found,
                    SpindleTable& out) {
-  const std::size_t samples = found.alpha_rad.size();
-  // The mean revolution holds all readings of a probe.
-  const double sigma = found.noise_mm * std::sqrt(static_cast<double>(samples) /
-                                                  static_cast<double>(found.readings));
   double x_mm2 = 0.0;
   double y_mm2 = 0.0;
-  for (int run = 0; run < kNoiseRuns; ++run) {
-    core::KeyedNoise noise(kNoiseStream, {static_cast<std::uint64_t>(run)});
-    std::array<std::vector<double>, 3> readings;
-    for (auto& of_probe : readings) {
-      of_probe.resize(samples);
-      for (double& value : of_probe) value = sigma * noise.normal();
-    }
-    const fit::SpindleCurves curves = model.of_readings(readings);
-    x_mm2 += 0.5 * curves.x_mm.squaredNorm() / kNoiseRuns;
-    y_mm2 += 0.5 * curves.y_mm.squaredNorm() / kNoiseRuns;
-  }
+  visit_noise(model, found, kSeed, [&](const fit::SpindleCurves& curves) {
+    x_mm2 += 0.5 * curves.x_mm.squaredNorm() / kNoiseEvaluations;
+    y_mm2 += 0.5 * curves.y_mm.squaredNorm() / kNoiseEvaluations;
+  });
   out.u_motion_x_mm = std::sqrt(x_mm2);
   out.u_motion_y_mm = std::sqrt(y_mm2);
 }

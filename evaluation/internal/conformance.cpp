@@ -199,6 +199,7 @@ struct Circumstances {
   const record::RunRecord& record;
   const core::Result<DecisionRule>& rule;
   const std::optional<fit::ProbeTip>& probe;
+  double file_step_mm = 0.0;  ///< step_of_file_mm(); 0 for touched points.
 };
 
 /// The number of a value that a rule compares.
@@ -463,12 +464,10 @@ void hold_against_digits(const Circumstances& by, const FeatureResult& result,
                          CharacteristicResult& out) {
   constexpr double kShare = 0.05;  // of the limits: less is a matter of the last digit
   const bool decided = out.verdict == Verdict::kConforms || out.verdict == Verdict::kDoesNotConform;
-  if (!decided || result.feature.strategy != record::Strategy::kPointsFile ||
-      out.characteristic.form == Form::kHarmonicLimits) {
+  if (!decided || by.file_step_mm == 0.0 || out.characteristic.form == Form::kHarmonicLimits) {
     return;
   }
-  const double step_mm = step_of_file_mm(by.record, result.feature.id);
-  const double move_mm = as_value(result, *out.value, std::sqrt(2.0) * step_mm);
+  const double move_mm = as_value(result, *out.value, std::sqrt(2.0) * by.file_step_mm);
   const Limits limits = limits_of(out.characteristic);
   const bool one_limit = !limits.upper_mm || !limits.lower_mm;
   const double allowed_mm = !one_limit ? *limits.upper_mm - *limits.lower_mm
@@ -487,7 +486,7 @@ void hold_against_digits(const Circumstances& by, const FeatureResult& result,
     out.reason = core::phrase(
         "the file writes its coordinates in steps of {:.4g} um, which can move the value by {} {}: "
         "the limit is nearer; export more digits",
-        micrometres(step_mm), core::um(move_mm),
+        micrometres(by.file_step_mm), core::um(move_mm),
         core::name_of(core::unit_of_difference(out.value->unit())));
     return;
   }
@@ -620,12 +619,15 @@ PartFindings find_all(const record::RunRecord& record, std::span<FeatureResult> 
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
             const std::optional<fit::ProbeTip>& probe,
             std::span<std::optional<FoundCharacteristic>> found, FeatureResult& result) {
+  const double file_step_mm = result.feature.strategy == record::Strategy::kPointsFile
+                                  ? step_of_file_mm(record, result.feature.id)
+                                  : 0.0;
   for (std::size_t c = 0; c < result.feature.characteristics.size(); ++c) {
     CharacteristicResult out;
     out.characteristic = result.feature.characteristics[c];
     const auto& own = out.characteristic.indication.decision_rule;
     const core::Result<DecisionRule> its = own ? core::Result<DecisionRule>(rule_of(*own)) : rule;
-    const Circumstances by{record, its, probe};
+    const Circumstances by{record, its, probe, file_step_mm};
     if (found[c]) {
       judge_found(by, result, *found[c], out);
     } else {

@@ -15,6 +15,7 @@
 #include "core/units.h"
 #include "core/watch.h"
 #include "evaluation/results/stated_value.h"
+#include "evaluation/spindle/internal/noise_runs.h"
 #include "evaluation/spindle/internal/probe_influences.h"
 #include "evaluation/spindle/result.h"
 #include "evaluation/uncertainty/curve_trials.h"
@@ -26,8 +27,6 @@ namespace {
 using core::phrase;
 using record::Form;
 
-constexpr std::uint64_t kNoiseRuns = 0x5b1d20U;
-constexpr int kNoiseEvaluations = 400;
 constexpr int kNoiseAlone = 200;         ///< Trials of the noise alone, for the budget.
 constexpr double kLeastNoise_mm = 1e-9;  ///< 1e-6 um: a coefficient known exactly is drawn there.
 
@@ -47,18 +46,7 @@ class NoiseDirections {
       std::complex<double> cross;
     };
     std::vector<Power> power(turns_.size());
-    const std::size_t count = separation.alpha_rad.size();
-    // The mean revolution holds all readings of a probe.
-    const double sigma = separation.noise_mm * std::sqrt(static_cast<double>(count) /
-                                                         static_cast<double>(separation.readings));
-    for (int run = 0; run < kNoiseEvaluations; ++run) {
-      core::KeyedNoise noise(seed, {kNoiseRuns, static_cast<std::uint64_t>(run)});
-      std::array<std::vector<double>, 3> readings;
-      for (auto& h : readings) {
-        h.resize(count);
-        for (double& value : h) value = sigma * noise.normal();
-      }
-      const fit::SpindleCurves found = model.of_readings(readings);
+    visit_noise(model, separation, seed, [&](const fit::SpindleCurves& found) {
       for (std::size_t k = 0; k < turns_.size(); ++k) {
         const auto x = part_of(found.x_mm, k);
         const auto y = part_of(found.y_mm, k);
@@ -66,7 +54,7 @@ class NoiseDirections {
         power[k].y += std::norm(y) / kNoiseEvaluations;
         power[k].cross += x * std::conj(y) / static_cast<double>(kNoiseEvaluations);
       }
-    }
+    });
     for (std::size_t k = 0; k < turns_.size(); ++k) {
       const Power& p = power[k];
       Turn& turn = turns_[k];

@@ -46,9 +46,8 @@ struct AnalysisKind {
   /// Checks relations between keys; called only when the section and its keys are valid.
   void (*check)(const FeaturePlan& feature, const std::string& where, Findings& findings);
   /// @param seed    Seed of all noise. The data depend only on plan and seed.
-  /// @param errors  False: the data that probes and gauges without errors would have recorded of
-  /// the
-  ///                same work, which the result is held against.
+  /// @param errors  False: what probes and gauges without errors would have recorded of the same
+  ///                work, which the result is held against.
   core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed,
                                          bool errors);
   /// For an analysis of touches: checks its cell. Null for an analysis of series; when it is set,

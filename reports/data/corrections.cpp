@@ -14,6 +14,7 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/correction/axis_tables.h"
 #include "evaluation/correction/spindle_table.h"
+#include "evaluation/correction/wheel_path.h"
 #include "evaluation/correction/x_of_c.h"
 #include "record/files.h"
 #include "record/sha256.h"
@@ -226,8 +227,7 @@ Handed spindle_rows(const record::RunRecord& record, int index, const FeatureRes
       facts.separation.harmonics.size() + 1, missing.empty() ? " none" : missing);
   head.units = fmt::format(
       "alpha_deg deg, theta_deg deg, others um; u_ is a standard uncertainty by noise alone; "
-      "linear "
-      "between the rows{}",
+      "linear between the rows{}",
       pin ? "; x_um for a wheel opposite to P1" : "");
   head.gain = fmt::format("none is forecast; synchronous motion X {} um, Y {} um",
                           um(facts.x.synchronous_mm), um(facts.y.synchronous_mm));
@@ -248,34 +248,12 @@ Handed spindle_rows(const record::RunRecord& record, int index, const FeatureRes
   return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
-/// Why the path of a wheel may not reach a machine; empty: it may.
-std::string barred_path(const FeatureResult& result) {
-  for (const evaluation::CharacteristicResult& c : result.characteristics) {
-    if (c.verdict == evaluation::Verdict::kVoid ||
-        c.verdict == evaluation::Verdict::kDoesNotConform) {
-      return fmt::format("{} {}: {}", printable(c.characteristic.id),
-                         evaluation::name_of(c.verdict), printable(c.reason.english()));
-    }
-  }
-  return {};
-}
-
 /// The path of a wheel over its surface: a table, and the program where the plan asks for one.
 Handed wheel_path(const record::RunRecord& record, int index, const FeatureResult& result,
                   const std::string& name) {
-  if (result.failure) return none_because(*result.failure);
-  if (!result.analysis) return {{}, "none: the feature has no result"};
-  const auto& facts = std::get<evaluation::WheelResult>(result.analysis->found);
-  const fit::WheelEvaluation& found = facts.evaluation;
-  if (!facts.task.path) return {{}, "none: no surface is to be ground (wheel.surface)"};
-  if (found.refused) return none_because(*found.refused);
-  if (!found.path) return {{}, "none: the wheel has no path"};
-  if (!found.wheel.radius_void_because.empty()) {
-    return {{}, fmt::format("none: {}", printable(found.wheel.radius_void_because.english()))};
-  }
-  if (const std::string why = barred_path(result); !why.empty()) {
-    return {{}, fmt::format("none: {}", why)};
-  }
+  const auto wheel = evaluation::wheel_for_path(result);
+  if (!wheel) return none_because(wheel.error());
+  const fit::WheelEvaluation& found = (*wheel)->evaluation;
   Head head;
   head.kind = "wheel-path";
   head.sense = "x and z of the plan, material below the surface, the wheel above it";

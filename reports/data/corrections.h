@@ -26,9 +26,9 @@ struct Corrections {
   std::vector<CorrectionTable> tables;
 };
 
-/// The corrections of a run: tables of contours and of a calibrated fixture. A feature that is
-/// void, or whose predicted gain is not significant, has no table. Takes the trials of one value
-/// for each feature.
+/// What the analyses of a run give to machines (evaluation/correction): tables of contours, axes
+/// and spindles, paths of wheels. A feature that is void, or whose predicted gain is not
+/// significant, has none. Takes the trials of one value for each feature.
 [[nodiscard]] Corrections write_corrections(const record::RunRecord& record,
                                             const evaluation::Evaluation& evaluation);
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +20,7 @@
 #include "evaluation/results/finding.h"
 #include "plans/plan.h"
 #include "tests/core/full.h"
+#include "tests/plans/files.h"
 #include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {
@@ -208,9 +208,7 @@ void expect_honest(const Counts& counts) {
 // ---- Set-ups.
 
 Plan judged_example(const std::string& name) {
-  const auto read = read_plan(std::filesystem::path(RONDURE_SOURCE_DIR) / "plans/examples" / name);
-  EXPECT_TRUE(read.has_value());
-  Plan out = *read;
+  Plan out = testing::plan_of(name);
   out.decision_rule = {};
   out.decision_rule.rule = record::DecisionRuleTask::Rule::kIso14253;
   return out;

@@ -319,14 +319,11 @@ void check_equipment(const Plan& plan, Findings& findings) {
 /// Refuses ids of which two tables of corrections would have one name: a control would take that of
 /// another feature.
 void check_table_names(const Plan& plan, std::size_t index, Findings& findings) {
-  const auto has_tables = [](const FeaturePlan& feature) {
-    return record::is_analysis(feature.type);
-  };
   const FeaturePlan& feature = plan.features[index];
   const std::string name = record::plain_name(feature.id);
-  for (std::size_t k = 0; k < index && has_tables(feature); ++k) {
+  for (std::size_t k = 0; k < index && record::is_analysis(feature.type); ++k) {
     const FeaturePlan& other = plan.features[k];
-    if (!has_tables(other) || other.type != feature.type || other.id == feature.id) continue;
+    if (other.type != feature.type || other.id == feature.id) continue;
     if (record::plain_name(other.id) != name) continue;
     findings.meaning(Code::kMeaning, feature_pointer(index) + "/id",
                      fmt::format("the tables of corrections of {} and {} would have one name, {}; "
