@@ -153,6 +153,20 @@ HeadOf head_among(std::span<const FeatureResult> earlier) {
   };
 }
 
+/// What the pins among these features had.
+ContourOf pins_among(std::span<const FeatureResult> earlier) {
+  return [earlier](const std::string& id) -> core::Result<ContourGain> {
+    TRY(const auto producer, producer_of(id, earlier));
+    const auto* const found = std::get_if<ContourResult>(&producer->analysis->found);
+    if (found != nullptr) {
+      return ContourGain{id, fit::peak_to_valley(fit::mean_following(found->study))};
+    }
+    return core::fail(
+        core::Code::kMeaning,
+        core::phrase("the correction is that of feature {}, which is no contour", id));
+  };
+}
+
 /// Evaluates the series of a feature, or says why they cannot be.
 void evaluate_series(const record::RunRecord& record, int index,
                      std::span<const FeatureResult> earlier, FeatureResult& result) {
@@ -176,7 +190,8 @@ void evaluate_series(const record::RunRecord& record, int index,
       keep(evaluate_wheel(record, index, wheel_among(earlier), result), result);
       break;
     case record::Shape::kContour:
-      keep(evaluate_contour(record, index, radius_among(earlier), result), result);
+      keep(evaluate_contour(record, index, radius_among(earlier), pins_among(earlier), result),
+           result);
       break;
     case record::Shape::kFiveAxis:
       keep(evaluate_five_axis(record, index, head_among(earlier), result), result);

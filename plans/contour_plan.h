@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct SimulatedContourPlan {
   std::vector<HarmonicPlan>
       rest;  ///< Non-following harmonics of every part: amplitude cos(order beta - phase).
   double rest_spread_um = 0.0;  ///< Part-to-part variation of `rest`.
+  /// What pin and main journal do not share, rms; none: half of the rms of what varies.
+  std::optional<double> pin_own_um;
+  std::optional<double> main_own_um;
   double c_noise_mdeg = 0.0;
   double x_noise_um = 0.0;
   double roughness_um = 0.0;  ///< Standard deviation of a gauge value.

@@ -57,6 +57,7 @@ enum class Form {
   kRunOut,              ///< Circular run-out of a surface; radial one of a wheel.
   kContourDeviation,    ///< Peak to valley of a contour, the greatest of all parts.
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
+  kFollowingDeviation,  ///< Peak to valley of f, of the mean of all parts.
   kFixtureResidual,     ///< Largest distance of a ball from its predicted position.
   kFixtureResidualRms,  ///< Root mean square of these distances.
   kAxisError,           ///< Largest of one error of a rotary axis over its stations.
@@ -103,9 +104,10 @@ RONDURE_WORDS(Form, {kCylindricity, "cylindricity"}, {kRoundness, "roundness"},
               {kMotionSynchronous, "motion-synchronous"},
               {kMotionAsynchronous, "motion-asynchronous"}, {kRadius, "radius"},
               {kRunOut, "run-out"}, {kContourDeviation, "contour-deviation"},
-              {kContourSpread, "contour-spread"}, {kFixtureResidual, "fixture-residual"},
-              {kFixtureResidualRms, "fixture-residual-rms"}, {kAxisError, "axis-error"},
-              {kLeftRms, "left-rms"}, {kLeftLargest, "left-largest"}, {kLocation, "location"});
+              {kContourSpread, "contour-spread"}, {kFollowingDeviation, "following-deviation"},
+              {kFixtureResidual, "fixture-residual"}, {kFixtureResidualRms, "fixture-residual-rms"},
+              {kAxisError, "axis-error"}, {kLeftRms, "left-rms"}, {kLeftLargest, "left-largest"},
+              {kLocation, "location"});
 RONDURE_WORDS(Reference, {kMinimumZone, "mz"}, {kLeastSquares, "ls"}, {kMinimumCircumscribed, "mc"},
               {kMaximumInscribed, "mi"});
 RONDURE_WORDS(Strategy, {kGuided, "guided"}, {kRefined, "refined"}, {kAsPublished, "as-published"},

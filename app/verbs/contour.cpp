@@ -47,12 +47,13 @@ std::string part_lines(const fit::ContourPartResult& part, const std::string& na
   };
   std::string out = fmt::format("  part {}\n", name);
   out += line("t, total", part.pin.contour.error_mm);
-  out += line("f, following the axes", part.following.error_mm);
-  if (part.axes.x_mm.empty()) {
+  out += line(part.traced ? "f, following the axes" : "f, t less the main journal",
+              part.following.error_mm);
+  if (part.traced && part.axes.x_mm.empty()) {
     out.insert(out.size() - 1, "   stroke-unchecked: no positions of X");
   }
-  out += line("n, not following", part.direct.rest_mm);
-  if (part.main) out += line("main journal", part.main->contour.error_mm);
+  out += line(part.traced ? "n, not following" : "n, the main journal", part.direct.rest_mm);
+  if (part.traced && part.main) out += line("main journal", part.main->contour.error_mm);
   const fit::ContourSeparation& d = part.direct;
   out += fmt::format("    balance um^2: {:.4f} = {:.4f} + {:.4f} {} {:.4f}; n {} the total\n",
                      um2(d.total_mm2), um2(d.following_mm2), um2(d.rest_mm2),
@@ -63,6 +64,7 @@ std::string part_lines(const fit::ContourPartResult& part, const std::string& na
                        part.indirect->correlation,
                        core::micrometres(part.indirect->rms_difference_mm));
   }
+  if (!part.traced) return out;
   return out + fmt::format("    {:.1f} samples a turn; correlation would turn f by {:.2f} deg\n",
                            part.axes.samples_per_turn, core::degrees(part.offset.angle_rad));
 }
@@ -121,8 +123,8 @@ fit::ContourStudyOptions options_of(const ContourArguments& arguments) {
   return evaluation::contour_options(task);
 }
 
-core::Result<std::vector<ContourColumn>> mapping_of(const ContourArguments& arguments) {
-  std::vector<ContourColumn> out;
+core::Result<std::vector<record::ContourColumnTask>> mapping_of(const ContourArguments& arguments) {
+  std::vector<record::ContourColumnTask> out;
   if (!arguments.mapping.empty()) {
     auto read = read_contour_mapping(arguments.mapping);
     if (!read) return read;
@@ -136,14 +138,21 @@ core::Result<std::vector<ContourColumn>> mapping_of(const ContourArguments& argu
 }
 
 core::Result<void> check_counts(const ContourArguments& arguments) {
-  const std::size_t parts = arguments.axes.size();
-  if (arguments.pin.size() == parts && (arguments.main.empty() || arguments.main.size() == parts)) {
-    return {};
-  }
+  const std::size_t parts = arguments.pin.size();
+  const auto fits = [&](const std::vector<std::string>& files) {
+    return files.empty() || files.size() == parts;
+  };
+  const bool enough = !arguments.axes.empty() || !arguments.main.empty();
+  if (enough && fits(arguments.axes) && fits(arguments.main)) return {};
   return core::fail_with(core::Code::kBadOption,
-                         "{} files for --axes, {} for --pin and {} for --main; one of each a part, "
-                         "or no main journals",
-                         parts, arguments.pin.size(), arguments.main.size());
+                         "{} files for --axes, {} for --pin and {} for --main; one of each a part; "
+                         "--main may be left out, or --axes, not both",
+                         arguments.axes.size(), parts, arguments.main.size());
+}
+
+/// The file of a part; empty: not given.
+std::string file_of(const std::vector<std::string>& files, std::size_t part) {
+  return files.empty() ? std::string() : files[part];
 }
 
 /// All parts of the command line.
@@ -157,9 +166,9 @@ core::Result<Parts> read_parts(const ContourArguments& arguments) {
   TRY_DO(check_counts(arguments));
   TRY(const auto mapping, mapping_of(arguments));
   Parts out;
-  for (std::size_t i = 0; i < arguments.axes.size(); ++i) {
-    const ContourFiles files = {arguments.axes[i], arguments.pin[i],
-                                arguments.main.empty() ? std::string() : arguments.main[i]};
+  for (std::size_t i = 0; i < arguments.pin.size(); ++i) {
+    const ContourFiles files = {file_of(arguments.axes, i), arguments.pin[i],
+                                file_of(arguments.main, i)};
     TRY(auto part, read_contour_part(files, mapping));
     out.positions = out.positions || part.positions;
     out.parts.push_back(std::move(part.part));
@@ -170,7 +179,7 @@ core::Result<Parts> read_parts(const ContourArguments& arguments) {
 
 /// "parts/0/pin" with its file.
 core::Error named(const core::Error& error, const ContourArguments& arguments) {
-  for (std::size_t i = 0; i < arguments.axes.size(); ++i) {
+  for (std::size_t i = 0; i < arguments.pin.size(); ++i) {
     const auto place = [&](const char* what) { return fmt::format("parts/{}/{}", i, what); };
     if (error.where == place("axes")) return error.at(arguments.axes[i]);
     if (error.where == place("pin")) return error.at(arguments.pin[i]);

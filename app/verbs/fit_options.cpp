@@ -25,8 +25,9 @@ CLI::Option* add_list(CLI::App& verb, const char* name, std::vector<Value>& valu
 
 void add_contour_files(CLI::App& verb, ContourArguments& arguments) {
   constexpr const char* kFiles = "FILE,...";
-  add_list(verb, "--axes", arguments.axes, "Traces of the control, one file a part", kFiles)
-      ->required();
+  add_list(verb, "--axes", arguments.axes,
+           "Traces of the control, one file a part; left out: f is t less the main journal",
+           kFiles);
   add_list(verb, "--pin", arguments.pin, "Contours of the pins from the gauge, one file a part",
            kFiles)
       ->required();

@@ -12,6 +12,7 @@
 #include "evaluation/contour/internal/trials.h"
 #include "evaluation/contour/result.h"
 #include "evaluation/interval/internal/declared.h"
+#include "evaluation/results/chain.h"
 #include "evaluation/results/evaluation.h"
 #include "record/tasks/contour.h"
 #include "record/tasks/settings.h"
@@ -35,16 +36,19 @@ fit::GaugeRows gauge_of(const record::Series& series) {
   return {scaled(series, "angle_deg", kDegree), scaled(series, "deviation_um", kMicrometre)};
 }
 
-/// The parts of a record, in order; one for each axis trace.
-std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int index) {
+/// The parts of a record, in order. An indirect separation takes no traces.
+std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int index,
+                                       ContourTask::Separation separation) {
   std::vector<fit::ContourPart> out;
   for (int i = 1;; ++i) {
     const auto* const axes = record.data_of(index, fmt::format("axes {}", i));
     const auto* const pin = record.data_of(index, fmt::format("pin {}", i));
-    if (axes == nullptr || pin == nullptr) return out;
+    if (pin == nullptr) return out;
     fit::ContourPart part;
-    part.trace = {scaled(*axes, "c_deg", kDegree), scaled(*axes, "c_error_deg", kDegree),
-                  scaled(*axes, "x_error_mm", 1.0), scaled(*axes, "d_cmd_mm", 1.0)};
+    if (axes != nullptr && separation != ContourTask::Separation::kIndirect) {
+      part.trace = {scaled(*axes, "c_deg", kDegree), scaled(*axes, "c_error_deg", kDegree),
+                    scaled(*axes, "x_error_mm", 1.0), scaled(*axes, "d_cmd_mm", 1.0)};
+    }
     part.pin = gauge_of(*pin);
     const auto* const main = record.data_of(index, fmt::format("main {}", i));
     if (main != nullptr) part.main = gauge_of(*main);
@@ -110,6 +114,15 @@ int highest_judged(const ContourResult& facts) {
   return static_cast<int>(std::min<double>(of_points, std::floor(filter.cutoff_upr)));
 }
 
+core::Result<AnalysisValue> following_value(const ContourResult& facts) {
+  AnalysisValue out;
+  out.value_mm = fit::peak_to_valley(fit::mean_following(facts.study));
+  const std::size_t parts = facts.study.parts.size();
+  out.detail =
+      parts == 1 ? core::phrase("{} part", parts) : core::phrase("mean of {} parts", parts);
+  return out;
+}
+
 /// The harmonic of any part that is nearest to its limit, or farthest beyond it.
 core::Result<AnalysisValue> mask_value(const ContourResult& facts,
                                        const record::Characteristic& asked) {
@@ -151,6 +164,8 @@ core::Result<AnalysisValue> measured_value(const ContourResult& facts,
       return spread_value(facts);
     case Form::kHarmonicLimits:
       return mask_value(facts, asked);
+    case Form::kFollowingDeviation:
+      return following_value(facts);
     default:
       return core::fail_with(Code::kMeaning, "a contour has no {}", name_of(asked.form));
   }
@@ -181,14 +196,16 @@ void keep_words(ContourResult& facts) {
   keep(facts.study.main, Curve::kMain, false);
 }
 
-/// Pins whose traces were not recorded.
-core::Result<void> check_traces(const record::RunRecord& record, int index, std::size_t parts,
-                                FeatureResult& result) {
-  const bool pin_alone = record.data_of(index, fmt::format("pin {}", parts + 1)) != nullptr &&
-                         record.data_of(index, fmt::format("axes {}", parts + 1)) == nullptr;
-  if (!pin_alone) return {};
-  const core::Phrase reason =
-      core::phrase("part {} has no traces of the axes: its f and n are not known", parts + 1);
+/// Pins whose traces were not recorded: none of them, or all.
+core::Result<void> check_traces(const std::vector<fit::ContourPart>& parts,
+                                ContourTask::Separation separation, FeatureResult& result) {
+  const auto traced = [](const fit::ContourPart& part) { return part.trace.has_value(); };
+  const bool needed =
+      separation == ContourTask::Separation::kDirect || std::ranges::any_of(parts, traced);
+  const auto without = std::ranges::find_if_not(parts, traced);
+  if (!needed || without == parts.end()) return {};
+  const core::Phrase reason = core::phrase(
+      "part {} has no traces of the axes: its f and n are not known", without - parts.begin() + 1);
   result.gates.push_back({"traces",
                           core::phrase("traces of whole turns without a missing sample"),
                           {},
@@ -197,6 +214,35 @@ core::Result<void> check_traces(const record::RunRecord& record, int index, std:
                           Gate::Outcome::kVoids,
                           reason});
   return core::fail(Code::kNoPoints, reason);
+}
+
+/// The axes moved as their traces show and as the loaded table made them: that is what f follows.
+core::Result<void> add_table(const record::RunRecord& record, int index,
+                             const fit::ContourStudyOptions& options,
+                             std::vector<fit::ContourPart>& parts) {
+  constexpr double kAt_deg = 1e-6;
+  const record::Series* const series = record.data_of(index, "table");
+  if (series == nullptr || series->rows() < 3) {
+    return core::fail(Code::kNoPoints, "the correction that was loaded is not in the record");
+  }
+  const auto c_deg = series->column("c_deg").value_or(std::vector<double>());
+  const auto x_mm = scaled(*series, "x_um", kMicrometre);
+  const auto rows = static_cast<double>(c_deg.size());
+  for (std::size_t i = 0; i < c_deg.size(); ++i) {
+    const double expected_deg = 360.0 * static_cast<double>(i) / rows;
+    if (std::abs(c_deg[i] - expected_deg) <= kAt_deg) continue;
+    return core::fail_with(Code::kMeaning,
+                           "row {} of the loaded correction stands at C = {} deg, {:.6g} expected: "
+                           "equal steps of a whole turn from 0",
+                           i + 1, c_deg[i], expected_deg);
+  }
+  for (fit::ContourPart& part : parts) {
+    for (std::size_t i = 0; part.trace && i < part.trace->x_error_mm.size(); ++i) {
+      part.trace->x_error_mm[i] +=
+          options.axes.error_sign * fit::closed_at(x_mm, part.trace->c_rad[i]);
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -227,8 +273,11 @@ fit::ContourStudyOptions contour_options(const ContourTask& task) {
 core::Result<AnalysisValue> value_of(const ContourResult& facts,
                                      const record::Characteristic& asked) {
   auto out = measured_value(facts, asked);
-  if (out && facts.total_void) {
-    out->void_because = facts.total_void;
+  const bool follows = asked.form == Form::kFollowingDeviation;
+  const auto& voided = follows && (facts.study.traced || !facts.total_void) ? facts.following_void
+                                                                            : facts.total_void;
+  if (out && voided) {
+    out->void_because = voided;
     out->lower_bound = false;
   }
   return out;
@@ -246,9 +295,12 @@ core::Phrase filter_text(const ContourResult& facts) {
 
 core::Phrase sampling_text(const ContourResult& facts) {
   const std::size_t parts = facts.study.parts.size();
-  return core::phrase("{} of {} points",
-                      parts == 1 ? core::phrase("{} part", parts) : core::phrase("{} parts", parts),
-                      facts.options.samples);
+  const core::Phrase number =
+      parts == 1 ? core::phrase("{} part", parts) : core::phrase("{} parts", parts);
+  return facts.study.traced
+             ? core::phrase("{} of {} points", number, facts.options.samples)
+             : core::phrase("{} of {} points, without traces: f by the main journals", number,
+                            facts.options.samples);
 }
 
 ValueOperator operator_of(const ContourResult& facts, const record::Characteristic& asked,
@@ -257,7 +309,9 @@ ValueOperator operator_of(const ContourResult& facts, const record::Characterist
       asked.form == Form::kContourSpread
           ? core::phrase("standard deviation of the parts about their mean contour")
       : asked.form == Form::kHarmonicLimits ? core::phrase("amplitudes of the filtered contours")
-                                            : core::phrase("peak to valley, greatest of all parts");
+      : asked.form == Form::kFollowingDeviation
+          ? core::phrase("peak to valley of the mean f of all parts")
+          : core::phrase("peak to valley, greatest of all parts");
   const core::Phrase base = facts.options.error.base == fit::BaseCircle::kLimacon
                                 ? core::phrase("limacon")
                                 : core::phrase("geometric");
@@ -267,7 +321,8 @@ ValueOperator operator_of(const ContourResult& facts, const record::Characterist
 }
 
 core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, int index,
-                                             const RadiusOf& earlier, FeatureResult& result) {
+                                             const RadiusOf& earlier, const ContourOf& pins,
+                                             FeatureResult& result) {
   TRY(const auto task, record::task_of<ContourTask>(result.feature.settings));
   ContourResult facts;
   facts.options = contour_options(task);
@@ -279,8 +334,16 @@ core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, in
   facts.feature_id = result.feature.id;
   facts.influences = task.uncertainty;
   facts.sampling_ms = task.sampling_ms.value_or(0.0);
-  const auto parts = parts_of(record, index);
-  TRY_DO(check_traces(record, index, parts.size(), result));
+  auto parts = parts_of(record, index, task.separation);
+  TRY_DO(check_traces(parts, task.separation, result));
+  if (task.repeat) {
+    TRY_DO(add_table(record, index, facts.options, parts));
+    const std::string& with = task.repeat->with.feature;
+    auto before = pins(with);
+    result.gates.push_back(
+        chain_gate(with, before ? std::nullopt : std::optional(before.error().said())));
+    facts.gain = before ? *std::move(before) : ContourGain{with, 0.0};
+  }
   const auto add = [&](std::vector<Gate> gates) {
     for (Gate& gate : gates) result.gates.push_back(std::move(gate));
   };

@@ -6,7 +6,13 @@ namespace rondure::evaluation {
 std::vector<UncertaintyStatus> intervals_of(const ContourResult& result,
                                             std::span<const record::Characteristic> characteristics,
                                             const UncertaintyOptions& options) {
-  return total_intervals(result, characteristics, options);
+  auto out = total_intervals(result, characteristics, options);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (characteristics[i].form == record::Form::kFollowingDeviation) {
+      out[i] = following_interval(result, options);
+    }
+  }
+  return out;
 }
 
 std::string ContourNumber::name() const {

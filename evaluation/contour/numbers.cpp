@@ -82,11 +82,13 @@ std::vector<ContourNumber> contour_numbers(const ContourResult& facts,
   };
   add(Curve::kTotal, trials.total(), reason(facts.total_void, trials.no_gauge()),
       [&] { return trials.gauge_model(trials.total(), "total"); });
-  add(Curve::kFollowing, trials.following(), reason(facts.following_void, trials.no_axes()),
-      [&] { return trials.following_model(); });
-  add(Curve::kRest, trials.rest(),
-      reason(facts.rest_void, trials.no_gauge() ? trials.no_gauge() : trials.no_axes()),
-      [&] { return trials.rest_model(); });
+  const bool traced = facts.study.traced;
+  const auto no_gauge = trials.no_gauge();
+  add(Curve::kFollowing, trials.following(),
+      reason(facts.following_void, traced || !no_gauge ? trials.no_axes() : no_gauge),
+      [&] { return trials.model_of_f(); });
+  add(Curve::kRest, trials.rest(), reason(facts.rest_void, no_gauge ? no_gauge : trials.no_axes()),
+      [&] { return traced ? trials.rest_model() : *trials.main_model(trials.rest()); });
   Curves mains;
   Curves indirect;
   for (const fit::ContourPartResult& part : facts.study.parts) {

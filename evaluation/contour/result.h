@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,12 @@ struct ContourNumber {
   [[nodiscard]] std::string name() const;
 };
 
+/// Parts ground with a correction, beside those that gave it.
+struct ContourGain {
+  std::string with;        ///< The feature that gave the correction.
+  double before_mm = 0.0;  ///< Peak to valley of its mean f.
+};
+
 /// All results for a contour feature.
 struct ContourResult {
   fit::ContourStudyOptions options;
@@ -45,19 +52,26 @@ struct ContourResult {
   std::optional<core::Phrase> total_void;
   std::optional<core::Phrase> following_void;
   std::optional<core::Phrase> rest_void;
-  bool indirect_is_bound = false;  ///< Pins and mains differ: f from the main is only a bound.
+  std::optional<ContourGain> gain;  ///< Of a repeat.
+  bool indirect_is_bound = false;   ///< Pins and mains differ: f from the main is only a bound.
   std::vector<ContourNumber> numbers;
 };
 
 /// The settings of a study as a plan or the command line spells them.
 [[nodiscard]] fit::ContourStudyOptions contour_options(const record::ContourTask& task);
 
+/// What pins without a correction had, by the id of their feature; or why nothing is taken of it.
+using ContourOf = std::function<core::Result<ContourGain>(const std::string& id)>;
+
 /// Evaluates feature `index` of a record.
 /// @param earlier  Asked where another feature gives the wheel radius.
+/// @param pins     Asked where another feature gave a correction of X: f is then that of the axes
+///                 with it.
 /// @param result  Holds the feature; receives the warnings and the gates.
 /// @return  The result, or the reason why there is none.
 [[nodiscard]] core::Result<ContourResult> evaluate_contour(const record::RunRecord& record,
                                                            int index, const RadiusOf& earlier,
+                                                           const ContourOf& pins,
                                                            FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const ContourResult& result,

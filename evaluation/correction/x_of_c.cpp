@@ -20,16 +20,6 @@ namespace {
 using core::Code;
 using core::kTwoPi;
 
-/// A closed curve of equal steps, linear between them.
-double closed_at(std::span<const double> curve, double angle_rad) {
-  const double turns = angle_rad / kTwoPi;
-  const double place = (turns - std::floor(turns)) * static_cast<double>(curve.size());
-  const double below = std::floor(place);
-  const auto i = static_cast<std::size_t>(below) % curve.size();
-  const double share = place - below;
-  return (1.0 - share) * curve[i] + share * curve[(i + 1) % curve.size()];
-}
-
 std::optional<core::Phrase> barred(const ContourResult& facts) {
   for (const auto& curve : {facts.total_void, facts.following_void, facts.rest_void}) {
     if (curve) return curve;
@@ -41,24 +31,16 @@ std::optional<core::Phrase> barred(const ContourResult& facts) {
   return std::nullopt;
 }
 
-/// Mean and standard deviation of f over the parts, at the angles of the contours.
-struct Mean {
-  std::vector<double> mean_mm;
-  std::vector<double> deviation_mm;  ///< 0 of one part.
-};
-
-Mean mean_following(const fit::ContourStudy& study) {
-  const std::size_t points = study.parts.front().following.error_mm.size();
-  Mean out{std::vector<double>(points, 0.0), std::vector<double>(points, 0.0)};
+/// Standard deviation of f over the parts, at the angles of the contours; 0 of one part.
+std::vector<double> following_deviation(const fit::ContourStudy& study,
+                                        const std::vector<double>& mean_mm) {
+  std::vector<double> out(mean_mm.size(), 0.0);
   std::vector<double> values(study.parts.size());
-  for (std::size_t m = 0; m < points; ++m) {
+  for (std::size_t m = 0; m < out.size() && values.size() > 1; ++m) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = study.parts[i].following.error_mm[m];
     }
-    out.mean_mm[m] = core::mean(values);
-    if (values.size() > 1) {
-      out.deviation_mm[m] = core::standard_deviation(values, out.mean_mm[m]);
-    }
+    out[m] = core::standard_deviation(values, mean_mm[m]);
   }
   return out;
 }
@@ -71,20 +53,19 @@ double sensed(const ContourResult& facts, double c_rad) {
 void fill_rows(const ContourResult& facts, std::span<const double> following_u_mm,
                XCorrection& out) {
   const fit::CrankGeometry& crank = facts.options.geometry;
-  const Mean mean = mean_following(facts.study);
-  const auto over_alpha = fit::x_compensation_mm(crank, mean.mean_mm, XCorrection::kRows);
+  const auto deviation_mm = following_deviation(facts.study, fit::mean_following(facts.study));
+  const auto over_alpha = fit::x_table_mm(facts.study, crank, XCorrection::kRows);
   out.parts = facts.study.parts.size();
-  const double constant = core::mean(over_alpha);
   for (std::size_t i = 0; i < XCorrection::kRows; ++i) {
     const bool against = facts.options.axes.c_direction < 0;
     const std::size_t row = against ? (XCorrection::kRows - i) % XCorrection::kRows : i;
     const double alpha =
         kTwoPi * static_cast<double>(row) / static_cast<double>(XCorrection::kRows);
     const double beta = fit::contact_angle_rad(crank, alpha);
-    const double of_mean = closed_at(mean.deviation_mm, beta);
-    const double u2 = std::pow(closed_at(following_u_mm, beta), 2) +
+    const double of_mean = fit::closed_at(deviation_mm, beta);
+    const double u2 = std::pow(fit::closed_at(following_u_mm, beta), 2) +
                       of_mean * of_mean / static_cast<double>(out.parts);
-    out.x_mm.push_back(over_alpha[row] - constant);
+    out.x_mm.push_back(over_alpha[row]);
     out.u_mm.push_back(std::sqrt(u2) / std::cos(beta - alpha));
   }
 }
@@ -93,16 +74,20 @@ void fill_rows(const ContourResult& facts, std::span<const double> following_u_m
 core::Result<std::vector<std::vector<double>>> changes(const ContourResult& facts,
                                                        const XCorrection& correction) {
   std::vector<std::vector<double>> out;
+  const std::vector<double> none(facts.options.axes.samples, 0.0);
+  const std::vector<double> nowhere(facts.options.samples, 0.0);
   for (const fit::ContourPartResult& part : facts.study.parts) {
-    fit::AxisErrors errors = part.axes.errors;
+    // Without traces the correction is ground alone: what it adds hangs on no other error.
+    fit::AxisErrors errors = facts.study.traced ? part.axes.errors : fit::AxisErrors{none, none};
+    const auto& before = facts.study.traced ? part.following.error_mm : nowhere;
     for (std::size_t n = 0; n < errors.x_mm.size(); ++n) {
       const double alpha =
           kTwoPi * static_cast<double>(n) / static_cast<double>(errors.x_mm.size());
-      errors.x_mm[n] += closed_at(correction.x_mm, sensed(facts, alpha));
+      errors.x_mm[n] += fit::closed_at(correction.x_mm, sensed(facts, alpha));
     }
     TRY(auto again, fit::following_contour(errors, facts.options));
     std::vector<double> change = std::move(again.error.error_mm);
-    for (std::size_t m = 0; m < change.size(); ++m) change[m] -= part.following.error_mm[m];
+    for (std::size_t m = 0; m < change.size(); ++m) change[m] -= before[m];
     out.push_back(std::move(change));
   }
   return out;

@@ -179,6 +179,7 @@ std::string_view why_no_factors(record::Form form) {
              "is unfiltered, and a proud point is part of it";
     case Form::kContourDeviation:
     case Form::kContourSpread:
+    case Form::kFollowingDeviation:
       return "the contour is held against the ground contour about the base circle that the plan "
              "fixes; a reference circle of its own would be another quantity";
     case Form::kFixtureResidual:

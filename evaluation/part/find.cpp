@@ -106,6 +106,7 @@ bool is_found(const record::Feature& feature, const record::Characteristic& aske
     case Form::kRadius:
     case Form::kContourDeviation:
     case Form::kContourSpread:
+    case Form::kFollowingDeviation:
     case Form::kFixtureResidual:
     case Form::kFixtureResidualRms:
     case Form::kAxisError:

@@ -130,18 +130,18 @@ class NoiseDirections {
   std::vector<Turn> turns_;
 };
 
-/// The differences of the revolutions from their mean, as orthonormal contrasts: a random field.
+/// The differences of the revolutions from their mean, as orthonormal contrasts.
 class Contrasts {
  public:
   Contrasts(const fit::SeparationModel& model, const fit::ThreeProbeResult& separation)
-      : turns_(separation.revolutions), columns_(2 * model.highest_motion() + 1) {
+      : turns_(separation.revolutions), columns_(model.turn_waves().cols()) {
     const auto per_noise = model.motion_per_noise();
     const double readings = static_cast<double>(separation.readings) / turns_;
     for (int direction = 0; direction < 2; ++direction) {
       Eigen::MatrixXd of_turns(columns_, turns_);
       for (int j = 0; j < turns_; ++j) {
         const fit::CentreMotion& turn = separation.motion[static_cast<std::size_t>(j)];
-        of_turns.col(j) = model.over_work(direction == 0 ? turn.x_mm : turn.y_mm);
+        of_turns.col(j) = model.over_turn(direction == 0 ? turn.x_mm : turn.y_mm);
       }
       const double u = separation.noise_mm * per_noise[static_cast<std::size_t>(direction)] *
                        std::sqrt(2.0 / readings);
@@ -150,13 +150,17 @@ class Contrasts {
             (of_turns.leftCols(j).rowwise().sum() - j * of_turns.col(j)) / length(j);
         for (Eigen::Index c = 0; c < columns_; ++c) {
           const int order = static_cast<int>((c + 1) / 2);
+          const bool ramp = c + 1 == columns_;  // what it is off by, the waves take up
           curve_.found_mm.push_back(contrast[c]);
-          curve_.u_mm.push_back(std::max(kLeastNoise_mm, order == 0 ? u / std::sqrt(2.0) : u));
-          curve_.group.push_back(order < 2 ? order : octave_of(order) + 2);
+          curve_.u_mm.push_back(
+              ramp ? kLeastNoise_mm
+                   : std::max(kLeastNoise_mm, order == 0 ? u / std::sqrt(2.0) : u));
+          curve_.group.push_back(ramp        ? octave_of(model.highest_motion()) + 3
+                                 : order < 2 ? order
+                                             : octave_of(order) + 2);
         }
       }
     }
-    curve_.field = true;
   }
 
   [[nodiscard]] const MeasuredCurve& curve() const { return curve_; }
@@ -346,10 +350,12 @@ class SpindleTrials {
                  noise_only ? fit::ProbeErrors(fit::ProbeErrors::Zero()) : errors(trial));
   }
   [[nodiscard]] State core(int trial) const {
-    return moved(part_.core_draw(trial), motion_.core_draw(trial), {}, errors(trial));
+    return moved(part_.core_draw(trial), motion_.core_draw(trial),
+                 turns_ ? turns_->core_draw(trial) : std::vector<double>(), errors(trial));
   }
   [[nodiscard]] State core_center() const {
-    return moved(part_.core_mm(), motion_.core_mm(), {}, fit::ProbeErrors::Zero());
+    return moved(part_.core_mm(), motion_.core_mm(),
+                 turns_ ? turns_->core_mm() : std::vector<double>(), fit::ProbeErrors::Zero());
   }
   /// Without any draw, a whole evaluation of readings that a source has moved by so many standard
   /// uncertainties.
@@ -565,9 +571,6 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
   const auto value = [&](const State& state, const Asked& one) {
     return values.of(state, characteristics[one.index], one.measured, one.order);
   };
-  const auto turns = [&](const Asked& one) {  // a random field has no core
-    return characteristics[one.index].form != Form::kMotionAsynchronous;
-  };
   core::watch().expect(static_cast<std::size_t>(count));
   for (int t = 0; t < count; ++t) {
     core::watch().drawn();
@@ -575,12 +578,12 @@ std::vector<UncertaintyStatus> intervals_of(const SpindleResult& result,
     const State core = trials.core(t);
     for (Asked& one : wanted) {
       one.all.values_mm.push_back(value(state, one));
-      if (turns(one)) one.all.core_mm.push_back(value(core, one));
+      one.all.core_mm.push_back(value(core, one));
     }
   }
   const State center = trials.core_center();
   for (Asked& one : wanted) {
-    if (turns(one)) one.all.core_center_mm = value(center, one);
+    one.all.core_center_mm = value(center, one);
   }
   for (int t = 0; t < std::min(count, kNoiseAlone); ++t) {
     const State state = trials.draw(t, true);

@@ -57,9 +57,9 @@ void warn_of_undercut(ContourPartResult& part) {
 }
 
 /// Computes f from the axes alone.
-core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& options,
+core::Result<void> follow(const AxisTrace& trace, const ContourStudyOptions& options,
                           ContourPartResult& out) {
-  TRY(auto axes, last_turn(part.trace, options.axes));
+  TRY(auto axes, last_turn(trace, options.axes));
   out.axes = std::move(axes);
   out.positions = check_positions(out.axes, options.geometry);
   if (out.positions && !out.positions->contradiction.empty()) {
@@ -73,13 +73,14 @@ core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& op
   return {};
 }
 
+/// t less the main journal.
+std::vector<double> above_main(const ContourPartResult& part) {
+  return separate_contour(part.pin.contour.error_mm, part.main->contour.error_mm).rest_mm;
+}
+
 IndirectSeparation indirect(const ContourPartResult& part) {
   IndirectSeparation out;
-  const auto& total = part.pin.contour.error_mm;
-  out.following_mm = part.main->contour.error_mm;
-  for (std::size_t m = 0; m < total.size(); ++m) {
-    out.following_mm[m] = total[m] - out.following_mm[m];
-  }
+  out.following_mm = above_main(part);
   const auto& direct = part.following.error_mm;
   out.correlation = correlation_of(out.following_mm, direct);
   out.rms_difference_mm =
@@ -112,10 +113,12 @@ void compare(ContourStudy& study) {
         parts, [](const Part& p) -> const auto& { return p.following.error_mm; });
     study.rest = compared(
         parts, [](const Part& p) -> const auto& { return p.direct.rest_mm; });
-    study.c_error = compared(
-        parts, [](const Part& p) -> const auto& { return p.axes.errors.c_rad; });
-    study.x_error = compared(
-        parts, [](const Part& p) -> const auto& { return p.axes.errors.x_mm; });
+    if (study.traced) {
+      study.c_error = compared(
+          parts, [](const Part& p) -> const auto& { return p.axes.errors.c_rad; });
+      study.x_error = compared(
+          parts, [](const Part& p) -> const auto& { return p.axes.errors.x_mm; });
+    }
     bool all_mains = true;
     for (const Part& part : parts) all_mains = all_mains && part.main.has_value();
     if (all_mains) {
@@ -240,25 +243,40 @@ core::Result<FollowingContour> following_contour(const AxisErrors& errors,
 core::Result<ContourPartResult> contour_part(const ContourPart& part,
                                              const ContourStudyOptions& options) {
   ContourPartResult out;
-  if (auto followed = follow(part, options, out); !followed) {
-    return core::fail(placed(followed.error(), "axes"));
+  out.traced = part.trace.has_value();
+  if (part.trace) {
+    if (auto followed = follow(*part.trace, options, out); !followed) {
+      return core::fail(placed(followed.error(), "axes"));
+    }
+  } else if (!part.main) {
+    return core::fail(core::Code::kNoPoints,
+                      "neither a trace of the axes nor a main journal shows f: give one of them",
+                      "main");
   }
   auto pin =
       measured_contour(part.pin.angle_rad, part.pin.deviation_mm, gauge_options(options, false));
   if (!pin) return core::fail(placed(pin.error(), "pin"));
   out.pin = *std::move(pin);
+  if (part.main) {
+    auto main = measured_contour(part.main->angle_rad, part.main->deviation_mm,
+                                 gauge_options(options, true));
+    if (!main) return core::fail(placed(main.error(), "main"));
+    out.main = *std::move(main);
+  }
+  if (!out.traced) {
+    out.following.error_mm = above_main(out);
+    out.following.peak_to_valley_mm = peak_to_valley(out.following.error_mm);
+    out.following.rms_mm = core::root_mean_square(out.following.error_mm);
+    out.direct = separate_contour(out.pin.contour.error_mm, out.following.error_mm);
+    return out;
+  }
   const CurvePair pair = {out.pin.contour.error_mm, out.following.error_mm};
   out.offset = correlation_offset({&pair, 1});
   if (options.method == ContourMethod::kAsPublished) {
     out.following.error_mm = turned_curve(out.following.error_mm, out.offset.angle_rad);
   }
   out.direct = separate_contour(out.pin.contour.error_mm, out.following.error_mm);
-  if (!part.main) return out;
-  auto main =
-      measured_contour(part.main->angle_rad, part.main->deviation_mm, gauge_options(options, true));
-  if (!main) return core::fail(placed(main.error(), "main"));
-  out.main = *std::move(main);
-  out.indirect = indirect(out);
+  if (out.main) out.indirect = indirect(out);
   return out;
 }
 
@@ -273,7 +291,19 @@ core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
     return core::fail(core::Code::kNoPoints, "no part is given; at least one is needed");
   }
   ContourStudy study;
+  study.traced = parts.front().trace.has_value();
+  if (!study.traced && options.method == ContourMethod::kAsPublished) {
+    return core::fail(core::Code::kBadOption,
+                      "the method as-published turns what traces give; without traces it has "
+                      "nothing to turn");
+  }
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].trace.has_value() != study.traced) {
+      return core::fail_with(core::Code::kNoPoints,
+                             "part {} has traces of the axes, part {} has none: give traces of all "
+                             "parts, or of none",
+                             study.traced ? 1 : i + 1, study.traced ? i + 1 : 1);
+    }
     auto part = contour_part(parts[i], options);
     if (!part) {
       return core::fail(part.error().at(fmt::format("parts/{}/{}", i, part.error().where)));
@@ -282,8 +312,34 @@ core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
   }
   compare(study);
   collect_warnings(study);
-  diagnose(study, options);
+  if (study.traced) diagnose(study, options);
   return study;
+}
+
+std::vector<double> mean_following(const ContourStudy& study) {
+  std::vector<double> out(study.parts.front().following.error_mm.size(), 0.0);
+  const auto parts = static_cast<double>(study.parts.size());
+  for (const ContourPartResult& part : study.parts) {
+    for (std::size_t m = 0; m < out.size(); ++m) out[m] += part.following.error_mm[m] / parts;
+  }
+  return out;
+}
+
+std::vector<double> x_table_mm(const ContourStudy& study, const CrankGeometry& geometry,
+                               std::size_t count) {
+  std::vector<double> out = x_compensation_mm(geometry, mean_following(study), count);
+  const double constant = core::mean(out);
+  for (double& x : out) x -= constant;
+  return out;
+}
+
+double closed_at(std::span<const double> curve, double angle_rad) {
+  const double turns = angle_rad / core::kTwoPi;
+  const double place = (turns - std::floor(turns)) * static_cast<double>(curve.size());
+  const double below = std::floor(place);
+  const auto i = static_cast<std::size_t>(below) % curve.size();
+  const double share = place - below;
+  return (1.0 - share) * curve[i] + share * curve[(i + 1) % curve.size()];
 }
 
 }  // namespace rondure::fit

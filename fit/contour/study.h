@@ -52,7 +52,7 @@ struct GaugeRows {
 
 /// One ground part: the recording of the control, and the contours from the gauge.
 struct ContourPart {
-  AxisTrace trace;
+  std::optional<AxisTrace> trace;  ///< None: f is t less the main journal, which must be there.
   GaugeRows pin;
   std::optional<GaugeRows> main;  ///< The neighbouring main journal.
 };
@@ -81,8 +81,10 @@ struct PositionCheck {
 /// Least samples of the control for one undulation at the cut-off.
 inline constexpr double kSamplesPerUndulation = 6.0;
 
-/// The separated contour of one part.
+/// The separated contour of one part. Without traces f is t less the main journal, n is the main
+/// journal, and `axes`, `positions`, `ground` and `offset` are empty.
 struct ContourPartResult {
+  bool traced = true;
   AxisTurn axes;
   std::optional<PositionCheck> positions;  ///< None: no positions were recorded.
   GroundContour ground;
@@ -90,13 +92,14 @@ struct ContourPartResult {
   MeasuredContour pin;     ///< t.
   std::optional<MeasuredContour> main;
   ContourSeparation direct;
-  std::optional<IndirectSeparation> indirect;
+  std::optional<IndirectSeparation> indirect;  ///< Beside the direct one.
   CorrelationOffset offset;  ///< Angle by which correlation would turn f; diagnosis.
 };
 
 /// All parts side by side. The comparisons need two parts and are absent otherwise.
 struct ContourStudy {
   std::vector<ContourPartResult> parts;
+  bool traced = true;  ///< false: no part has traces, all f are by the main journals.
   std::optional<Repeatability> total;
   std::optional<Repeatability> following;
   std::optional<Repeatability> rest;
@@ -125,7 +128,9 @@ struct FollowingContour {
 
 /// Separates the contours of all parts and compares them.
 ///
-/// @return kNoPoints without parts; the errors of last_turn(), ground_contour(), contour_error()
+/// @return kNoPoints without parts, where some parts have traces and others none, and for a part
+///         with neither traces nor a main journal; kBadOption for the method as published without
+///         traces; the errors of last_turn(), ground_contour(), contour_error()
 ///         and measured_contour(), with `where` "parts/i/axes|pin|main"; kSampling if the control
 ///         has fewer than two samples per undulation at the cut-off; kInconsistent if recorded
 ///         positions of X contradict crank, wheel or the zero of C (stroke 0.05 mm, 0.02 mm rms).
@@ -135,5 +140,16 @@ struct FollowingContour {
 /// Source: methods, contour sections 6 to 9.
 [[nodiscard]] core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
                                                        const ContourStudyOptions& options = {});
+
+/// f of the mean of all parts, at the angles of the contours [mm].
+[[nodiscard]] std::vector<double> mean_following(const ContourStudy& study);
+
+/// What a control adds to the command of X to take the mean f away, at the C positions of the
+/// method 0, 360/count, ... deg, without its mean: the size of the pin stays.
+[[nodiscard]] std::vector<double> x_table_mm(const ContourStudy& study,
+                                             const CrankGeometry& geometry, std::size_t count);
+
+/// A closed curve of equal steps, linear between them.
+[[nodiscard]] double closed_at(std::span<const double> curve, double angle_rad);
 
 }  // namespace rondure::fit

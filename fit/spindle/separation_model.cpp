@@ -28,6 +28,19 @@ Eigen::MatrixXd waves(const std::vector<double>& angles_rad, int highest) {
   return out;
 }
 
+/// A ramp from -1/2 to 1/2 over the turn.
+std::vector<double> ramp(const std::vector<double>& alpha_rad) {
+  std::vector<double> out;
+  for (const double alpha : alpha_rad) {
+    out.push_back((alpha - alpha_rad.front()) / core::kTwoPi - 0.5);
+  }
+  return out;
+}
+
+Eigen::Map<const Eigen::VectorXd> vector_of(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
 /// Every so many-th value, so that about `wanted` remain.
 std::vector<double> thinned(const std::vector<double>& values, std::size_t wanted) {
   const std::size_t rows = std::min(values.size(), wanted);
@@ -63,9 +76,13 @@ SeparationModel::SeparationModel(const ThreeProbeResult& result) : result_(resul
   for (std::size_t n = 0; n < count; ++n) theta.push_back(result.profile.angle_rad(n));
   places_rad_ = thinned(theta, rows);
   profile_waves_ = waves(places_rad_, highest).rightCols(2 * (highest - 1));
-  turn_waves_ = waves(thinned(result.alpha_rad, rows), highest_motion_);
+  const Eigen::MatrixXd sparse = waves(thinned(result.alpha_rad, rows), highest_motion_);
   // A constant and one cycle a turn are not error motion; over the work the rest is free of them.
-  motion_waves_ = turn_waves_.rightCols(2 * (highest_motion_ - 1));
+  motion_waves_ = sparse.rightCols(2 * (highest_motion_ - 1));
+  const std::vector<double> over_turn = ramp(result.alpha_rad);
+  ramp_ = vector_of(over_turn);
+  turn_waves_.resize(sparse.rows(), sparse.cols() + 1);
+  turn_waves_ << sparse, vector_of(thinned(over_turn, rows));
 }
 
 SpindleCurves SeparationModel::at(const ProbeErrors& q) const {
@@ -78,9 +95,17 @@ SpindleCurves SeparationModel::of_readings(
 }
 
 Eigen::VectorXd SeparationModel::over_work(const std::vector<double>& values) const {
-  const Eigen::Map<const Eigen::VectorXd> all(values.data(),
-                                              static_cast<Eigen::Index>(values.size()));
-  return normal_inverse_ * (work_.transpose() * all);
+  return normal_inverse_ * (work_.transpose() * vector_of(values));
+}
+
+Eigen::VectorXd SeparationModel::over_turn(const std::vector<double>& values) const {
+  const auto all = vector_of(values);
+  // Over half of the shortest wave, which the waves do not follow anyhow.
+  const Eigen::Index few = std::max<Eigen::Index>(1, all.size() / (2 * highest_motion_));
+  const double height = all.tail(few).mean() - all.head(few).mean();
+  Eigen::VectorXd out(work_.cols() + 1);
+  out << normal_inverse_ * (work_.transpose() * (all - height * ramp_)), height;
+  return out;
 }
 
 std::array<double, 2> SeparationModel::motion_per_noise() const {

@@ -42,6 +42,10 @@ class SeparationModel {
   /// Coefficients 1, c1, s1, c2, s2, ... up to highest_motion() of values on the samples, over the
   /// work angle, by least squares.
   [[nodiscard]] Eigen::VectorXd over_work(const std::vector<double>& values) const;
+  /// One revolution out of several as coefficients: those of over_work() of what is left when a
+  /// ramp from its beginning to its end is taken away, then the height of that ramp. A motion
+  /// slower than the turn does not end where it began; its waves alone would overshoot that step.
+  [[nodiscard]] Eigen::VectorXd over_turn(const std::vector<double>& values) const;
   /// Standard deviation of the motion in X and in Y of one sample per unit of noise of a reading.
   [[nodiscard]] std::array<double, 2> motion_per_noise() const;
 
@@ -51,7 +55,7 @@ class SeparationModel {
   [[nodiscard]] const Eigen::MatrixXd& profile_waves() const { return profile_waves_; }
   /// Motion from its coefficients, about the centre of its polar plot.
   [[nodiscard]] const Eigen::MatrixXd& motion_waves() const { return motion_waves_; }
-  /// Values from the coefficients of over_work(), at the same work angles.
+  /// Values from the coefficients of over_turn(), at the same work angles.
   [[nodiscard]] const Eigen::MatrixXd& turn_waves() const { return turn_waves_; }
 
  private:
@@ -64,6 +68,7 @@ class SeparationModel {
   int highest_motion_ = 2;
   Eigen::MatrixXd work_;            ///< 1, cos, sin, ... of the work angle of every sample.
   Eigen::MatrixXd normal_inverse_;  ///< Of the least squares over them.
+  Eigen::VectorXd ramp_;            ///< From -1/2 to 1/2 over the turn, at every sample.
   std::vector<double> places_rad_;
   Eigen::MatrixXd profile_waves_;
   Eigen::MatrixXd motion_waves_;

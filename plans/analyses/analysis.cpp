@@ -29,7 +29,9 @@ core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
   for (const SeriesFile& file : kind.files(plan.features[index])) {
     const auto bytes = read_data_file(plan.folder / file.file, file.file);
     if (!bytes) return core::fail(bytes.error().at(feature_pointer(index) + file.where));
-    TRY(auto series, record::parse_series_csv(*bytes, file.file, file.wanted, file.names));
+    TRY(auto series, file.read
+                         ? file.read(*bytes, file.file)
+                         : record::parse_series_csv(*bytes, file.file, file.wanted, file.names));
     series.feature = static_cast<int>(index);
     series.name = file.series;
     out.series.push_back(std::move(series));

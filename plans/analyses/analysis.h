@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ struct SeriesFile {
   std::string where;            ///< JSON pointer of that name, relative to the feature.
   std::vector<record::WantedColumn> wanted;
   std::vector<record::ColumnName> names;
+  /// Reads the file in place of parse_series_csv() with these columns; empty: that.
+  std::function<core::Result<record::Series>(std::string_view text, const std::string& name)> read =
+      {};
 };
 
 /// Data recorded by the probes of an analysis, or simulated.

@@ -64,6 +64,19 @@ std::string why_no_table(const FeaturePlan& producer) {
              : std::string();
 }
 
+/// @param files  Whether parts of files follow: theirs were ground before.
+template <bool files>
+std::string why_no_correction(const FeaturePlan& producer) {
+  if (!producer.contour) return fmt::format("feature {} is no contour", in_quotes(producer.id));
+  if (producer.contour->repeat) {
+    return fmt::format("feature {} has a correction loaded itself", in_quotes(producer.id));
+  }
+  return producer.contour->parts.empty() == !files
+             ? std::string()
+             : fmt::format("the parts of feature {} are {}, those of this one are not",
+                           in_quotes(producer.id), files ? "simulated" : "files");
+}
+
 std::vector<TakenValue> references_of(const FeaturePlan& feature) {
   std::vector<TakenValue> out;
   if (feature.spindle && feature.spindle->wheel_radius_from) {
@@ -77,6 +90,12 @@ std::vector<TakenValue> references_of(const FeaturePlan& feature) {
     out.push_back(
         {"/contour/wheel_radius_from/feature", feature.contour->wheel_radius_from->feature,
          "the radius is that of a wheel of mode envelope with a nominal radius", why_no_radius});
+  }
+  if (feature.contour && feature.contour->repeat) {
+    out.push_back(
+        {"/contour/repeat/with/feature", feature.contour->repeat->with.feature,
+         "the correction is that of pins of the same plan",
+         feature.contour->parts.empty() ? why_no_correction<false> : why_no_correction<true>});
   }
   if (feature.five_axis && feature.five_axis->repeat) {
     out.push_back({"/five_axis/repeat/with/feature", feature.five_axis->repeat->with.feature,

@@ -302,13 +302,14 @@ struct WantedSeries {
   std::string_view name;  ///< For a contour, without the number of the part.
   std::array<std::string_view, 7> columns;
 };
-constexpr std::array<WantedSeries, 6> kWantedSeries = {
+constexpr std::array<WantedSeries, 7> kWantedSeries = {
     {{Shape::kSpindle, "data", {"alpha_deg", "H1_um", "H2_um", "H3_um"}},
      {Shape::kWheel, "data", {"x", "z"}},
      {Shape::kFiveAxis, "data", {"step", "c_deg", "a_deg", "setup", "dx_um", "dy_um", "dz_um"}},
      {Shape::kContour, "axes", {"c_deg", "c_error_deg", "x_error_mm"}},
      {Shape::kContour, "pin", {"angle_deg", "deviation_um"}},
-     {Shape::kContour, "main", {"angle_deg", "deviation_um"}}}};
+     {Shape::kContour, "main", {"angle_deg", "deviation_um"}},
+     {Shape::kContour, "table", {"c_deg", "x_um"}}}};
 
 /// The number of the part in the name of a contour's series, from 1; 0 if there is none.
 std::size_t part_number(std::string_view name, std::string_view stem) {
@@ -323,8 +324,9 @@ Fault check_one_series(const record::Series& series, const record::Feature& feat
   const auto wanted =
       std::find_if(kWantedSeries.begin(), kWantedSeries.end(), [&](const WantedSeries& w) {
         if (w.shape != feature.shape) return false;
-        return w.shape == Shape::kContour ? part_number(series.name, w.name) > 0
-                                          : series.name == w.name;
+        return series.name == w.name
+                   ? w.shape != Shape::kContour || series.name == "table"
+                   : w.shape == Shape::kContour && part_number(series.name, w.name) > 0;
       });
   const std::string name = in_quotes(series.name);
   if (wanted == kWantedSeries.end()) {
@@ -338,14 +340,26 @@ Fault check_one_series(const record::Series& series, const record::Feature& feat
   return {};
 }
 
-/// Checks that the parts of a contour count from 1 and that each has its axes and its pin.
+/// What every part of a contour has: traces of the axes, or else a main journal.
+std::array<const char*, 2> needed_of_part(const record::Feature& feature) {
+  const auto task = record::task_of<record::ContourTask>(feature.settings);
+  if (!task) return {"axes", "pin"};  // the evaluation says what is wrong
+  const bool traced =
+      task->parts.empty()
+          ? task->separation != record::ContourTask::Separation::kIndirect
+          : std::ranges::any_of(task->parts, [](const auto& part) { return !part.axes.empty(); });
+  return {traced ? "axes" : "main", "pin"};
+}
+
+/// Checks that the parts of a contour count from 1 and that each has what it needs.
 Fault check_parts(const RunRecord& record, int index) {
+  const auto all_needed = needed_of_part(record.features[static_cast<std::size_t>(index)]);
   for (const char* stem : {"axes", "pin", "main"}) {
     for (const record::Series& series : record.series) {
       if (series.feature != index || series.role != record::Series::Role::kData) continue;
       const std::size_t part = part_number(series.name, stem);
       for (std::size_t k = 1; k <= part; ++k) {
-        for (const char* needed : {"axes", "pin"}) {
+        for (const char* needed : all_needed) {
           const std::string name = fmt::format("{} {}", needed, k);
           if (record.data_of(index, name) == nullptr) {
             return fmt::format("series \"{}\" is missing, \"{}\" is there", name, series.name);

@@ -32,6 +32,12 @@ void describe(Visitor& v, SimulatedContourPlan& p) {
            range(0.0, 1000.0,
                  "Standard deviation of the amplitudes of orders 2 to 6 that differ from part to "
                  "part."));
+  const auto own = [&](std::string_view key, std::optional<double>& value, std::string_view of) {
+    v.number(key, value, range(0.0, 1000.0, of));
+  };
+  own("pin_own_um", p.pin_own_um,
+      "Rms of what the pin alone has, orders 2 to 6; left out: half of what varies.");
+  own("main_own_um", p.main_own_um, "The same of the main journal.");
   v.number("c_noise_mdeg", p.c_noise_mdeg,
            range(0.0, 1000.0, "Standard deviation of one C sample."));
   v.number("x_noise_um", p.x_noise_um, range(0.0, 1000.0, "Standard deviation of one X sample."));

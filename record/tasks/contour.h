@@ -14,9 +14,39 @@ namespace rondure::record {
 /// Files of one ground part.
 struct ContourPartTask {
   std::string name;
-  std::string axes;  ///< Trace of the controller.
+  std::string axes;  ///< Trace of the controller; empty: none.
   std::string pin;   ///< Contour of the pin from the gauge.
   std::string main;  ///< File of the neighbouring main journal; empty: none.
+};
+
+/// Where the files have a quantity, and in which unit.
+struct ContourColumnTask {
+  /// Of the trace; from kAngle on of the gauge, of main journals where they are named otherwise.
+  enum class Quantity {
+    kC,
+    kCError,
+    kXError,
+    kCommandedC,
+    kCommandedX,
+    kActualC,
+    kActualX,
+    kAngle,
+    kDeviation,
+    kMainAngle,
+    kMainDeviation,
+  };
+  enum class Unit { kDeg, kMilliDeg, kArcSec, kRad, kMilliRad, kMm, kUm, kNm };
+
+  Quantity quantity = Quantity::kC;
+  std::string in_file;       ///< Name in the head line.
+  std::optional<Unit> unit;  ///< None: that of the quantity without a column.
+  double scale = 1.0;        ///< Size of a count in that unit; negative: the other sign.
+};
+
+/// Parts ground with the correction that an earlier feature gave.
+struct ContourRepeatTask {
+  FeatureReference with;
+  std::string table;  ///< The file that the control had loaded; empty: simulated.
 };
 
 /// How a feature of the type "contour" is evaluated, as plan and journal spell it: crank pins in
@@ -28,6 +58,7 @@ struct ContourTask {
   enum class Gauge { kCounterClockwise, kClockwise };
   enum class Filter { kGaussian, kNone, kDoneByGauge };
   enum class BaseCircle { kLimacon, kGeometric };
+  enum class Separation { kAuto, kDirect, kIndirect };
 
   double crank_radius_mm = 49.0;
   double wheel_radius_mm = 299.88;
@@ -35,6 +66,7 @@ struct ContourTask {
   double pin_radius_mm = 24.56;
   double main_radius_mm = 30.0;
   Method method = Method::kCorrected;
+  Separation separation = Separation::kAuto;
   Error error = Error::kActualMinusCommand;
   CAxis c_axis = CAxis::kWithWheel;
   Gauge gauge = Gauge::kCounterClockwise;
@@ -48,10 +80,14 @@ struct ContourTask {
   /// of this version that was written before the key must still be read.
   std::optional<double> sampling_ms;
   std::optional<ContourInfluencesTask> uncertainty;
+  std::vector<ContourColumnTask> columns;
   std::vector<ContourPartTask> parts;  ///< Empty: simulated.
+  std::optional<ContourRepeatTask> repeat;
 };
 
 RONDURE_WORDS(ContourTask::Method, {kCorrected, "corrected"}, {kAsPublished, "as-published"});
+RONDURE_WORDS(ContourTask::Separation, {kAuto, "auto"}, {kDirect, "direct"},
+              {kIndirect, "indirect"});
 RONDURE_WORDS(ContourTask::Error, {kActualMinusCommand, "actual-minus-command"},
               {kCommandMinusActual, "command-minus-actual"});
 RONDURE_WORDS(ContourTask::CAxis, {kWithWheel, "with-wheel"}, {kAgainstWheel, "against-wheel"});
@@ -60,20 +96,48 @@ RONDURE_WORDS(ContourTask::Gauge, {kCounterClockwise, "counter-clockwise"},
 RONDURE_WORDS(ContourTask::Filter, {kGaussian, "gaussian"}, {kNone, "none"},
               {kDoneByGauge, "done-by-gauge"});
 RONDURE_WORDS(ContourTask::BaseCircle, {kLimacon, "limacon"}, {kGeometric, "geometric"});
+RONDURE_WORDS(ContourColumnTask::Quantity, {kC, "c"}, {kCError, "c_error"}, {kXError, "x_error"},
+              {kCommandedC, "alpha_cmd"}, {kCommandedX, "d_cmd"}, {kActualC, "alpha_act"},
+              {kActualX, "d_act"}, {kAngle, "angle"}, {kDeviation, "deviation"},
+              {kMainAngle, "main_angle"}, {kMainDeviation, "main_deviation"});
+RONDURE_WORDS(ContourColumnTask::Unit, {kDeg, "deg"}, {kMilliDeg, "mdeg"}, {kArcSec, "arcsec"},
+              {kRad, "rad"}, {kMilliRad, "mrad"}, {kMm, "mm"}, {kUm, "um"}, {kNm, "nm"});
+
+template <class Visitor>
+void describe(Visitor& v, ContourColumnTask& p) {
+  v.text("quantity", p.quantity,
+         {.required = true,
+          .meaning = "Of trace or gauge; main_ where main journals have columns of their own."});
+  v.text("in_file", p.in_file,
+         {.required = true, .empty_allowed = false, .meaning = "Its name in the head line."});
+  v.text("unit", p.unit, {.meaning = "Left out: deg, mm; um of a deviation."});
+  v.number("scale", p.scale,
+           within(1e9, "Size of a count in that unit; negative: the other sign."));
+}
+
 template <class Visitor>
 void describe(Visitor& v, ContourPartTask& p) {
   v.text("name", p.name, {.meaning = "What the part is called in the report."});
   v.text("axes", p.axes,
-         {.required = true,
-          .empty_allowed = false,
-          .meaning = "CSV of the control, relative to the plan: c_deg,c_error_deg,x_error_mm, with "
-                     "d_cmd_mm (commanded X) to check crank, wheel and zero of C."});
+         {.meaning = "CSV of the control, relative to the plan: c_deg,c_error_deg,x_error_mm, with "
+                     "d_cmd_mm (commanded X) to check crank, wheel and zero of C. Left out of all "
+                     "parts: see separation."});
   v.text("pin", p.pin,
          {.required = true,
           .empty_allowed = false,
           .meaning = "CSV of the gauge, columns angle_deg,deviation_um: the pin."});
   v.text("main", p.main,
          {.meaning = "The same of the neighbouring main journal; left out: not measured."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ContourRepeatTask& p) {
+  v.object("with", p.with,
+           {.required = true,
+            .meaning = "The earlier contour feature whose correction of X was loaded."});
+  v.text("table", p.table,
+         {.meaning = "Its file as loaded, columns c_deg,x_um, relative to the plan; left out: "
+                     "simulated."});
 }
 
 template <class Visitor>
@@ -114,6 +178,9 @@ void describe(Visitor& v, ContourTask& p) {
   v.text("method", p.method,
          {.meaning = "as-published: each following part is turned onto its total by correlation; "
                      "for comparison only."});
+  v.text("separation", p.separation,
+         {.meaning = "direct: f from the traces of the axes; indirect: f is t less the main "
+                     "journal; auto: direct where there are traces."});
   describe_senses(v, p);
   v.whole("samples", p.samples, range(16, 100'000, "Points of a contour."));
   v.text("filter", p.filter,
@@ -128,7 +195,9 @@ void describe(Visitor& v, ContourTask& p) {
   v.object("uncertainty", p.uncertainty,
            {.meaning = "Declared influences: standard uncertainty, or value and distribution. "
                        "Without them: no interval."});
+  v.list("columns", p.columns, {.meaning = "Columns of the files with other names or units."});
   v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
+  v.object("repeat", p.repeat, {.meaning = "The next parts, ground with a correction of X."});
 }
 
 }  // namespace rondure::record

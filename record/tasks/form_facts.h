@@ -141,6 +141,7 @@ inline constexpr auto kFormFacts = std::to_array<FormFacts>(
       DatumNeed::kAxis},
      {Form::kContourDeviation, "Contour", std::nullopt, {Shape::kContour}},
      {Form::kContourSpread, "Spread", std::nullopt, {Shape::kContour}},
+     {Form::kFollowingDeviation, "Following", std::nullopt, {Shape::kContour}},
      {Form::kFixtureResidual, "Left max", std::nullopt, {Shape::kRotaryAxes}},
      {Form::kFixtureResidualRms, "Left rms", std::nullopt, {Shape::kRotaryAxes}},
      {Form::kAxisError,

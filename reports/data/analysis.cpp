@@ -48,6 +48,12 @@ Json found_json(const evaluation::ContourResult& facts) {
     return number_json(number, facts.names);
   });
   out["curves"] = std::move(curves);
+  out["gain"] = nullptr;
+  if (const auto& gain = facts.gain) {
+    out["gain"] = {{"with", gain->with},
+                   {"before_um", um_of(gain->before_mm)},
+                   {"after_um", um_of(fit::peak_to_valley(fit::mean_following(facts.study)))}};
+  }
   return out;
 }
 

@@ -52,15 +52,20 @@ Json gauge_json(const fit::MeasuredContour& measured) {
 
 Json part_json(const fit::ContourPartResult& part, const std::string& name) {
   Json out = {{"name", name},
-              {"axes",
-               {{"samples_per_turn", part.axes.samples_per_turn},
-                {"turns", part.axes.turns},
-                {"stroke_checked", !part.axes.x_mm.empty()}}},
-              {"regularity", part.ground.regularity},
-              {"undercut", part.ground.undercut},
+              {"axes", nullptr},
+              {"regularity", nullptr},
+              {"undercut", nullptr},
               {"total", gauge_json(part.pin)},
-              {"following", contour_json(part.following)},
+              {"following",
+               part.traced ? contour_json(part.following) : curve_json(part.following.error_mm)},
               {"rest", curve_json(part.direct.rest_mm)}};
+  if (part.traced) {
+    out["axes"] = {{"samples_per_turn", part.axes.samples_per_turn},
+                   {"turns", part.axes.turns},
+                   {"stroke_checked", !part.axes.x_mm.empty()}};
+    out["regularity"] = part.ground.regularity;
+    out["undercut"] = part.ground.undercut;
+  }
   out["main"] = part.main ? gauge_json(*part.main) : Json(nullptr);
   out["balance_um2"] = {{"total", in_um2(part.direct.total_mm2)},
                         {"following", in_um2(part.direct.following_mm2)},
@@ -73,7 +78,7 @@ Json part_json(const fit::ContourPartResult& part, const std::string& name) {
     out["indirect"] = {{"correlation_with_direct", part.indirect->correlation},
                        {"rms_difference_um", in_um(part.indirect->rms_difference_mm)}};
   }
-  out["correlation_offset_deg"] = in_deg(part.offset.angle_rad);
+  out["correlation_offset_deg"] = part.traced ? Json(in_deg(part.offset.angle_rad)) : Json(nullptr);
   return out;
 }
 
@@ -131,6 +136,10 @@ Json settings_json(const fit::ContourStudyOptions& options) {
 
 }  // namespace
 
+const char* separation_of(const fit::ContourStudy& study) {
+  return study.traced ? translatable("direct") : translatable("indirect");
+}
+
 std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study) {
   std::vector<core::Phrase> out;
   if (study.parts.size() < 4) {
@@ -173,7 +182,9 @@ std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study) {
 
 Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOptions& options,
                       std::span<const std::string> names) {
-  Json out = {{"settings", settings_json(options)}, {"parts", Json::array()}};
+  Json out = {{"settings", settings_json(options)},
+              {"separation", separation_of(study)},
+              {"parts", Json::array()}};
   for (std::size_t i = 0; i < study.parts.size(); ++i) {
     out["parts"].push_back(part_json(study.parts[i], names[i]));
   }
@@ -185,10 +196,12 @@ Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOpt
                       {"c_error", repeatability_json(study.c_error, 1e3 / core::kDegree, "mdeg")},
                       {"x_error", repeatability_json(study.x_error, um, "um")}};
   out["amplitude_ratio_following_rest"] = study.amplitude_ratio;
-  out["diagnosis"] = {{"correlation_offset_deg", in_deg(study.offset.angle_rad)},
-                      {"correlation_offset_u_deg", in_deg(study.offset.u_rad)},
-                      {"correlation_total_following", study.sense.as_given},
-                      {"correlation_total_mirrored_following", study.sense.mirrored}};
+  out["diagnosis"] = nullptr;
+  if (study.traced)
+    out["diagnosis"] = {{"correlation_offset_deg", in_deg(study.offset.angle_rad)},
+                        {"correlation_offset_u_deg", in_deg(study.offset.u_rad)},
+                        {"correlation_total_following", study.sense.as_given},
+                        {"correlation_total_mirrored_following", study.sense.mirrored}};
   out["verdicts"] = contour_verdicts(study);
   out["warnings"] = list_json(study.warnings, error_json);
   return out;

@@ -17,6 +17,9 @@ namespace rondure::reports {
                                                       const fit::ContourStudyOptions& options,
                                                       std::span<const std::string> names);
 
+/// How f was found: "direct" from the traces of the axes, "indirect" from the main journals.
+[[nodiscard]] const char* separation_of(const fit::ContourStudy& study);
+
 /// Conclusions from the stability indices, one sentence each; below 4 parts one sentence that there
 /// are too few.
 [[nodiscard]] std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study);

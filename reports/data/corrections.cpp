@@ -105,11 +105,13 @@ Handed contour_tables(const record::RunRecord& record, int index, const FeatureR
   head.sign = "add to command";
   head.validity = fmt::format(
       "crank radius {} mm, wheel radius {} mm, pin radius {} mm; mean of {} part{}; the speed, "
-      "gains and temperature of these parts",
+      "gains and temperature of these parts{}",
       shortest(facts.options.geometry.crank_radius_mm),
       shortest(facts.options.geometry.wheel_radius_mm),
       shortest(facts.options.geometry.pin_radius_mm), found->parts,
-      found->parts == 1 ? ", u without the spread between parts" : "s");
+      found->parts == 1 ? ", u without the spread between parts" : "s",
+      std::string(facts.study.traced ? "" : "; separation indirect: f is t less the main journal") +
+          (facts.gain ? "; on top of the correction that these parts were ground with" : ""));
   head.units = "c_deg deg, x_um um, u_um um; u is a standard uncertainty; linear between the rows";
   head.gain = fmt::format("{}; greatest peak to valley {} um as measured, {} um predicted with it",
                           interval_of(found->gain), um(found->before_mm), um(found->after_mm));

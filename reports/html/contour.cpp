@@ -80,10 +80,10 @@ std::string separation_plot(const evaluation::ContourResult& facts, const record
   std::vector<Curve> curves;
   curves.push_back(
       curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
-  curves.push_back(
-      curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
-  curves.push_back(
-      curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
+  curves.push_back(curve_of(part.traced ? tr("f, following") : tr("f, t less the main journal"),
+                            "zone-outer", part.following.error_mm, core::kMicrometre));
+  curves.push_back(curve_of(part.traced ? tr("n, not following") : tr("n, the main journal"),
+                            "zone-inner", part.direct.rest_mm, core::kMicrometre));
   add_truth(record, feature, i, curves);
   return scrolling(
       line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"), curves));
@@ -93,8 +93,13 @@ std::string separation_plot(const evaluation::ContourResult& facts, const record
 std::string first_separation(const evaluation::ContourResult& facts,
                              const record::RunRecord& record, int feature) {
   return fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation"),
-                     tr("t = f + n: the contour as measured, the share that follows "
-                        "from the axis errors, and the rest.")) +
+                     facts.study.traced
+                         ? tr("t = f + n: the contour as measured, the share that follows "
+                              "from the axis errors, and the rest.")
+                         : tr("t = f + n: the contour as measured, t less the main journal, and "
+                              "the main journal. No trace of the axes was taken: f and n are "
+                              "those of the pin only as far as pin and main journal see the "
+                              "same.")) +
          separation_plot(facts, record, feature, 0);
 }
 
@@ -132,9 +137,9 @@ std::string comparison_plots(const evaluation::ContourResult& facts) {
   html += side_by_side(facts, tr("Main journals"), beta, error, um_unit,
                        [](const Part& p) { return p.main ? &p.main->contour.error_mm : nullptr; });
   html += side_by_side(facts, tr("Errors of the C axis"), alpha, "dα / mdeg", 1e-3 * core::kDegree,
-                       [](const Part& p) { return &p.axes.errors.c_rad; });
+                       [](const Part& p) { return p.traced ? &p.axes.errors.c_rad : nullptr; });
   html += side_by_side(facts, tr("Errors of the X axis"), alpha, "dd / µm", um_unit,
-                       [](const Part& p) { return &p.axes.errors.x_mm; });
+                       [](const Part& p) { return p.traced ? &p.axes.errors.x_mm : nullptr; });
   html += side_by_side(facts, tr("Following parts f"), beta, error, um_unit,
                        [](const Part& p) { return &p.following.error_mm; });
   html += side_by_side(facts, tr("Non-following parts n"), beta, error, um_unit,
@@ -180,12 +185,24 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   add(tr("Stability index of f"), study.following, Curve::kFollowing);
   add(tr("Stability index of n"), study.rest, Curve::kRest);
   add(tr("Stability index of the mains"), study.main, Curve::kMain);
+  if (const auto& gain = facts.gain) {
+    const double left_mm = fit::peak_to_valley(fit::mean_following(study));
+    html += entry(tr("Mean f with the correction"), um(left_mm) + " µm PV", "lead") +
+            entry(tr("Without it"),
+                  with_note(um(gain->before_mm) + " µm PV",
+                            trf("of feature {}: {} times what is left", isolated(gain->with),
+                                fixed(gain->before_mm / left_mm, 1))));
+  }
   if (study.amplitude_ratio > 0.0)
     html += entry("rms(f) / rms(n)", fixed(study.amplitude_ratio, 4));
-  html += entry(tr("Correlation would turn f by"),
-                with_note(deg(study.offset.angle_rad, 2) + "°",
-                          tr("a diagnosis; nothing was turned unless the method is as-published")));
+  if (study.traced) {
+    html +=
+        entry(tr("Correlation would turn f by"),
+              with_note(deg(study.offset.angle_rad, 2) + "°",
+                        tr("a diagnosis; nothing was turned unless the method is as-published")));
+  }
   html += entry(tr("Method"), tr(fit::name_of(facts.options.method)), "wide-key");
+  html += entry(tr("Separation"), tr(separation_of(study)), "wide-key");
   return html + "</dl>";
 }
 

@@ -108,16 +108,29 @@ std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
   std::vector<SummaryLine> out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const fit::ContourPartResult& part = facts.study.parts[i];
+    const std::string t =
+        peak_to_valley_of(facts, Curve::kTotal, i, part.pin.contour.peak_to_valley_mm);
+    const std::string f =
+        peak_to_valley_of(facts, Curve::kFollowing, i, part.following.peak_to_valley_mm);
+    const std::string n =
+        peak_to_valley_of(facts, Curve::kRest, i, fit::peak_to_valley(part.direct.rest_mm));
     out.push_back(
         {"part",
-         core::phrase(
-             "{}: contour {} um PV; following {} um, not following {} um", facts.names[i],
-             peak_to_valley_of(facts, Curve::kTotal, i, part.pin.contour.peak_to_valley_mm),
-             peak_to_valley_of(facts, Curve::kFollowing, i, part.following.peak_to_valley_mm),
-             peak_to_valley_of(facts, Curve::kRest, i, fit::peak_to_valley(part.direct.rest_mm)))});
+         part.traced
+             ? core::phrase("{}: contour {} um PV; following {} um, not following {} um",
+                            facts.names[i], t, f, n)
+             : core::phrase("{}: contour {} um PV; by the main journal {} um following, {} um not",
+                            facts.names[i], t, f, n)});
   }
+  if (const auto& gain = facts.gain) {
+    out.push_back(
+        {"corrected", core::phrase("mean f {} um PV; without the correction, feature {}: {} um",
+                                   um(fit::peak_to_valley(fit::mean_following(facts.study))),
+                                   gain->with, um(gain->before_mm))});
+  }
+  bool first = true;
   for (const core::Phrase& verdict : contour_verdicts(facts.study)) {
-    out.push_back({out.size() == facts.study.parts.size() ? "stability" : "", verdict});
+    out.push_back({std::exchange(first, false) ? "stability" : "", verdict});
   }
   return out;
 }

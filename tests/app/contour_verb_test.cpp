@@ -62,6 +62,24 @@ class ContourVerb : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+// The main journals of the worked example are its n.
+TEST_F(ContourVerb, WithoutTracesTakesTheMainJournal) {
+  const auto out = rondure({"fit", "contour", "--pin", four_files("pin"), "--main",
+                            four_files("main"), "--prefiltered", "--json"});
+  ASSERT_EQ(out.status, 0) << out.err;
+  const auto document = nlohmann::json::parse(out.out);
+  EXPECT_EQ(document["separation"], "indirect");
+  EXPECT_TRUE(document["diagnosis"].is_null());
+  const double following[] = {7.0430, 7.1535, 6.9326, 7.0872};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(document["parts"][i]["following"]["pv_um"], following[i], 2e-3);
+    EXPECT_TRUE(document["parts"][i]["axes"].is_null());
+  }
+  const auto alone = rondure({"fit", "contour", "--pin", one("pin")});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.err, ::testing::HasSubstr("--main may be left out, or --axes, not both"));
+}
+
 TEST_F(ContourVerb, GivesTheNumbersOfTheWorkedExampleAsJson) {
   const auto out = four_parts({"--json", "--main", four_files("main")});
   ASSERT_EQ(out.status, 0) << out.err;
@@ -176,7 +194,8 @@ TEST_F(ContourVerb, RefusesWhatCannotBe) {
   EXPECT_THAT(rondure({"fit", "contour", "--axes", four_files("axes"), "--pin", one("pin")}).err,
               HasSubstr("4 files for --axes, 1 for --pin"));
   EXPECT_THAT(four_parts({"--column", "speed=V"}).err, HasSubstr("there is no quantity \"speed\""));
-  EXPECT_THAT(four_parts({"--column", "c_error=C:um"}).err, HasSubstr("it is one of lengths"));
+  EXPECT_THAT(four_parts({"--column", "c_error=C:um"}).err,
+              HasSubstr("one of lengths; it takes deg"));
   EXPECT_THAT(four_parts({"--column", "c=NIX"}).err, HasSubstr("the file needs the columns NIX"));
   EXPECT_EQ(four_parts({"--cutoff-upr", "400"}).status, 2);
 }

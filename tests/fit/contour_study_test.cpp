@@ -227,12 +227,13 @@ TEST(ContourStudy, SeparatesPlantedPartsFromBareTraces) {
     SCOPED_TRACE(i);
     const double start = 1.0 + 1.7 * static_cast<double>(i);
     ContourPart part;
+    part.trace.emplace();
     for (std::size_t k = 0; k < 1000; ++k) {
       const double alpha = start + core::kTwoPi * static_cast<double>(k) * 0.004 * 50.3 / 60.0;
-      part.trace.c_rad.push_back(std::fmod(alpha, core::kTwoPi));
-      part.trace.c_error_rad.push_back(test::kSpecCScale[i] * test::spec_c_mdeg(alpha) * 1e-3 *
-                                       kDegree);
-      part.trace.x_error_mm.push_back(test::spec_x_um(alpha) * kMicrometre);
+      part.trace->c_rad.push_back(std::fmod(alpha, core::kTwoPi));
+      part.trace->c_error_rad.push_back(test::kSpecCScale[i] * test::spec_c_mdeg(alpha) * 1e-3 *
+                                        kDegree);
+      part.trace->x_error_mm.push_back(test::spec_x_um(alpha) * kMicrometre);
     }
     const double offset = 0.3 + static_cast<double>(i);
     const auto ground =
@@ -382,7 +383,7 @@ TEST(ContourStudy, RefusesPositionsThatContradictCrankWheelOrZero) {
     SCOPED_TRACE(wrong.named);
     auto parts = spec_parts();
     for (ContourPart& part : parts) {
-      add_positions(part.trace, wrong.geometry, wrong.zero_deg * kDegree);
+      add_positions(*part.trace, wrong.geometry, wrong.zero_deg * kDegree);
     }
     const auto refused = contour_study(parts, spec_options());
     ASSERT_FALSE(refused);
@@ -391,17 +392,48 @@ TEST(ContourStudy, RefusesPositionsThatContradictCrankWheelOrZero) {
     EXPECT_NE(refused.error().what.find(wrong.named), std::string::npos) << refused.error().what;
   }
   auto parts = spec_parts();
-  for (ContourPart& part : parts) add_positions(part.trace, CrankGeometry{}, 0.0);
+  for (ContourPart& part : parts) add_positions(*part.trace, CrankGeometry{}, 0.0);
   EXPECT_TRUE(contour_study(parts, spec_options()));
+}
+
+TEST(ContourStudy, WithoutTracesTakesTheMainJournalForTheRest) {
+  auto parts = spec_parts();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].trace.reset();
+    parts[i].main = rows_of(test::spec_rest(i));
+  }
+  ContourStudyOptions options;
+  options.prefiltered = true;
+  const auto study = contour_study(parts, options).value();
+  EXPECT_FALSE(study.traced);
+  EXPECT_FALSE(study.c_error);
+  ASSERT_TRUE(study.following);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto f = test::spec_following(test::kSpecCScale[i]).error_mm;
+    for (std::size_t m = 0; m < f.size(); ++m) {
+      ASSERT_NEAR(study.parts[i].following.error_mm[m], f[m], 1e-9) << i << " " << m;
+      ASSERT_NEAR(study.parts[i].direct.rest_mm[m], test::spec_rest(i)[m], 1e-9) << i;
+    }
+  }
+  options.method = ContourMethod::kAsPublished;
+  EXPECT_EQ(contour_study(parts, options).error().code, core::Code::kBadOption);
+  options.method = ContourMethod::kCorrected;
+  parts[2].main.reset();
+  EXPECT_EQ(contour_study(parts, options).error().code, core::Code::kNoPoints);
+  EXPECT_EQ(contour_study(parts, options).error().where, "parts/2/main");
+  parts = spec_parts();
+  parts[3].trace.reset();
+  EXPECT_EQ(contour_study(parts, options).error().code, core::Code::kNoPoints);
 }
 
 /// One pin whose axis errors and rest are random; the gauge stands `turned_rad` beside its zero.
 ContourStudy random_pin(std::uint64_t seed, double rest_share, double turned_rad) {
   ContourPart part;
+  part.trace.emplace();
   const auto errors = test::random_errors(seed, 1440);
-  for (std::size_t i = 0; i < 1440; ++i) part.trace.c_rad.push_back(test::turn_angle(i, 1440));
-  part.trace.c_error_rad = errors.c_rad;
-  part.trace.x_error_mm = errors.x_mm;
+  for (std::size_t i = 0; i < 1440; ++i) part.trace->c_rad.push_back(test::turn_angle(i, 1440));
+  part.trace->c_error_rad = errors.c_rad;
+  part.trace->x_error_mm = errors.x_mm;
   auto r = ground_contour(CrankGeometry{}, errors).value().r_mm;
   for (double& v : r) v -= 24.56;
   const auto following = contour_error(r, 24.56).value();
@@ -449,8 +481,8 @@ TEST(ContourStudy, CDirectionMirrorsTheFollowingPart) {
   auto parts = spec_parts();
   for (ContourPart& part :
        parts) {  // the same motion, recorded by an axis that counts the other way
-    for (double& c : part.trace.c_rad) c = -c;
-    for (double& c : part.trace.c_error_rad) c = -c;
+    for (double& c : part.trace->c_rad) c = -c;
+    for (double& c : part.trace->c_error_rad) c = -c;
   }
   const auto a = contour_study(parts, options).value();
   const auto b = contour_study(spec_parts(), spec_options()).value();
@@ -500,7 +532,7 @@ TEST(ContourStudy, NamesThePartAndTheRowOfBadInput) {
   EXPECT_EQ(pin.error().where, "parts/2/pin");
   EXPECT_NE(pin.error().what.find("row 11 "), std::string::npos);
   parts = spec_parts();
-  parts[1].trace.x_error_mm.pop_back();
+  parts[1].trace->x_error_mm.pop_back();
   const auto axes = contour_study(parts, spec_options());
   EXPECT_EQ(axes.error().code, core::Code::kMeaning);
   EXPECT_EQ(axes.error().where, "parts/1/axes");

@@ -40,7 +40,7 @@ void read_back(std::size_t count) {
 TEST(RunRecord, ReadsEachWordBackAndNoOther) {
   read_back<Shape>(10);
   read_back<Side>(2);
-  read_back<Form>(28);
+  read_back<Form>(29);
   read_back<Reference>(4);
   read_back<Strategy>(9);
   read_back<Merge>(2);

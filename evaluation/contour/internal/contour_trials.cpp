@@ -45,6 +45,7 @@ ContourTrials::ContourTrials(const ContourResult& facts, const UncertaintyOption
     following_.push_back(basis_.of(part.following.error_mm));
     rest_.push_back(basis_.of(part.direct.rest_mm));
   }
+  if (!facts.study.traced) return;
   if (said_.c_encoder_urad) encoders_.push_back(encoder(false));
   if (said_.x_encoder_um) encoders_.push_back(encoder(true));
   skew_ = skew_effects();
@@ -59,6 +60,10 @@ std::optional<core::Phrase> ContourTrials::no_gauge() const {
 std::optional<core::Phrase> ContourTrials::no_axes() const {
   if (facts_.wheel_radius && !facts_.wheel_radius->errors) {
     return no_radius_uncertainty(*facts_.wheel_radius);
+  }
+  if (!facts_.study.traced) {
+    if (said_.main_differs_um) return std::nullopt;
+    return core::phrase("no part has traces of the axes, and main_differs_um is not declared");
   }
   if (said_.c_trace_mdeg || said_.x_trace_um || said_.c_encoder_urad || said_.x_encoder_um) {
     return std::nullopt;
@@ -129,6 +134,10 @@ CurveModel ContourTrials::following_model() const {
   return out;
 }
 
+CurveModel ContourTrials::model_of_f() const {
+  return facts_.study.traced ? following_model() : *indirect_model(following_);
+}
+
 CurveModel ContourTrials::rest_model() const {
   const std::size_t parts = rest_.size();
   const std::size_t size = basis_.size();
@@ -191,8 +200,22 @@ std::optional<CurveModel> ContourTrials::indirect_model(const Curves& indirect) 
                                                    id("indirect"));
   CurveModel out = model_of(indirect, std::move(noise), "gauge-noise");
   add_gauge(out);
-  // What the two journals do not share is another curve for each part.
-  const double each = *differs / std::sqrt(static_cast<double>(kMainTo - 1));
+  add_difference(*differs, out);
+  say(out, {"gauge_um", "gauge_form_um", "gauge_gain_1", "main_differs_um"});
+  return out;
+}
+
+std::optional<CurveModel> ContourTrials::main_model(const Curves& mains) const {
+  const auto differs = main_differs_mm();
+  if (!differs) return std::nullopt;
+  CurveModel out = gauge_model(mains, "main");
+  add_difference(*differs, out);
+  say(out, {"main_differs_um"});
+  return out;
+}
+
+void ContourTrials::add_difference(double differs_mm, CurveModel& out) const {
+  const double each = differs_mm / std::sqrt(static_cast<double>(kMainTo - 1));
   const auto columns = static_cast<std::size_t>(2 * (std::min(kMainTo, basis_.highest) - 1));
   out.effects.push_back({"main-differs", [each, columns, name = id("main-differs"),
                                           seed = options_.seed](int trial, Curves& curves) {
@@ -203,8 +226,6 @@ std::optional<CurveModel> ContourTrials::indirect_model(const Curves& indirect) 
                              }
                            }
                          }});
-  say(out, {"gauge_um", "gauge_form_um", "gauge_gain_1", "main_differs_um"});
-  return out;
 }
 
 CurveModel ContourTrials::gain_model() const {
@@ -219,6 +240,14 @@ CurveModel ContourTrials::gain_model() const {
 
 std::vector<double> ContourTrials::mean_following_u() const {
   const auto parts = static_cast<double>(following_.size());
+  if (!facts_.study.traced) {
+    double u2 = std::pow(main_differs_mm().value_or(0.0), 2);  // all parts may share it
+    for (std::size_t i = 0; i < following_.size(); ++i) {
+      const double noise = std::hypot(gauge_u(i, false), gauge_u(i, true));
+      for (const double left : basis_.transmission) u2 += 0.5 * std::pow(left * noise / parts, 2);
+    }
+    return std::vector<double>(facts_.options.samples, std::sqrt(u2));
+  }
   double trace2 = 0.0;
   for (std::size_t i = 0; i < following_.size(); ++i) {
     for (const double left : basis_.transmission) {
@@ -228,7 +257,8 @@ std::vector<double> ContourTrials::mean_following_u() const {
   const fit::CrankGeometry& crank = facts_.options.geometry;
   const double x = kMicrometre * record::u_of(said_.x_encoder_um);
   const double c = kMicroradian * record::u_of(said_.c_encoder_urad);
-  std::vector<double> out = fit::contour_of(mean_of(skew_), facts_.options.samples);
+  std::vector<double> out(facts_.options.samples, 0.0);
+  if (!skew_.empty()) out = fit::contour_of(mean_curve(skew_), out.size());
   std::vector<double> radius(out.size(), 0.0);
   if (!radius_.empty()) radius = fit::contour_of(radius_in_rest(), facts_.options.samples);
   for (std::size_t m = 0; m < out.size(); ++m) {
@@ -362,7 +392,7 @@ void ContourTrials::say_radius(CurveModel& out) const {
 }
 
 std::vector<double> ContourTrials::radius_in_rest() const {
-  std::vector<double> out = mean_of(radius_);
+  std::vector<double> out = mean_curve(radius_);
   for (double& c : out) c *= -facts_.wheel_radius->u_mm();
   return out;
 }
@@ -414,16 +444,6 @@ std::vector<double> ContourTrials::mean_total(bool derivative) const {
   return out;
 }
 
-std::vector<double> ContourTrials::mean_of(const Curves& curves) const {
-  std::vector<double> out(basis_.size(), 0.0);
-  for (const auto& curve : curves) {
-    for (std::size_t j = 0; j < out.size(); ++j) {
-      out[j] += curve[j] / static_cast<double>(curves.size());
-    }
-  }
-  return out;
-}
-
 CommonCurves ContourTrials::scaled(std::vector<double> column, const DrawnInfluence& declared) {
   for (double& c : column) c *= declared.u();
   return {{std::move(column)}, declared};
@@ -442,7 +462,7 @@ std::vector<std::pair<std::string, CommonCurves>> ContourTrials::common_errors()
   }
   if (!skew_.empty()) {
     out.emplace_back("trace-skew",
-                     CommonCurves{{mean_of(skew_)}, {&said_.skew_ms, 1.0, "control.skew"}});
+                     CommonCurves{{mean_curve(skew_)}, {&said_.skew_ms, 1.0, "control.skew"}});
   }
   for (const CommonCurves& encoder : encoders_) {
     out.emplace_back(encoder.declared.id == kCEncoder ? "c-encoder" : "x-encoder", encoder);

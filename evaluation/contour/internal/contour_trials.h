@@ -37,6 +37,8 @@ class ContourTrials {
   [[nodiscard]] CurveModel gauge_model(const Curves& measured, std::string_view what) const;
 
   [[nodiscard]] CurveModel following_model() const;
+  /// The same, or by the main journals; no_axes() tells whether there is one.
+  [[nodiscard]] CurveModel model_of_f() const;
 
   /// n: a random field. Its errors are drawn in the mean of the parts, which holds what is common
   /// to them, and in the contrasts between them, which hold what is not.
@@ -45,6 +47,8 @@ class ContourTrials {
   /// f by the main journal; nothing without a number for how far it differs from n.
   /// @param indirect  t minus the main journals.
   [[nodiscard]] std::optional<CurveModel> indirect_model(const Curves& indirect) const;
+  /// n by the main journal; the same.
+  [[nodiscard]] std::optional<CurveModel> main_model(const Curves& mains) const;
 
   /// Of t for the gain of a correction: the zero of the gauge turns t against the axes.
   [[nodiscard]] CurveModel gain_model() const;
@@ -105,8 +109,6 @@ class ContourTrials {
   /// Coefficients of the mean of t, and of its derivative by the angle.
   [[nodiscard]] std::vector<double> mean_total(bool derivative) const;
 
-  [[nodiscard]] std::vector<double> mean_of(const Curves& curves) const;
-
   /// One column times one declared number.
   static CommonCurves scaled(std::vector<double> column, const DrawnInfluence& declared);
 
@@ -116,6 +118,9 @@ class ContourTrials {
   [[nodiscard]] std::vector<double> common_squares() const;
 
   void add_rest_budget(CurveModel& out) const;
+
+  /// What the two journals do not share is another curve for each part.
+  void add_difference(double differs_mm, CurveModel& out) const;
 
   /// How far n and the main journal differ: as declared, or from the parts that have both.
   [[nodiscard]] std::optional<double> main_differs_mm() const;

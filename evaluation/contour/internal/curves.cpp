@@ -51,6 +51,16 @@ Spread spread_of(const Curves& curves) {
   return out;
 }
 
+std::vector<double> mean_curve(const Curves& curves) {
+  std::vector<double> out(curves.front().size(), 0.0);
+  for (const auto& curve : curves) {
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      out[j] += curve[j] / static_cast<double>(curves.size());
+    }
+  }
+  return out;
+}
+
 double greatest_range(const Basis& basis, const Curves& curves) {
   double out = 0.0;
   for (const auto& curve : curves) out = std::max(out, basis.range(curve));

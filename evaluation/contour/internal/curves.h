@@ -52,6 +52,8 @@ struct Spread {
 
 Spread spread_of(const Curves& curves);
 
+std::vector<double> mean_curve(const Curves& curves);
+
 /// The greatest peak to valley of all curves.
 double greatest_range(const Basis& basis, const Curves& curves);
 

@@ -18,6 +18,7 @@ using Outcome = Gate::Outcome;
 constexpr double kEccentricity = 0.2;  ///< mm
 constexpr double kShareOfTolerance = 1.0 / 20.0;
 constexpr double kUnknownPhase = 2.0 * kDegree;  ///< Limit where u of the zero is not declared.
+constexpr double kSearched = 8.0 * kDegree;      ///< The window of fit::correlation_offset().
 constexpr double kDeviations = 3.0;
 constexpr double kLikeness = 0.9;
 
@@ -209,7 +210,9 @@ Gate phase(ContourResult& facts) {
   Gate out{"phase",
            core::phrase("angle by which correlation would turn f onto t, all parts together"),
            std::abs(offset.angle_rad) / kDegree, limit / kDegree, "deg"};
-  if (!offset.at_edge && std::abs(offset.angle_rad) <= limit) return out;
+  // Beyond the window of the search anything is explained, as where a correction has left no f.
+  const bool explained = !offset.at_edge || limit > kSearched;
+  if (explained && std::abs(offset.angle_rad) <= limit) return out;
   out.outcome = Outcome::kVoids;
   out.reason = core::phrase(
       "correlation would turn f by {:.2f} deg, more than n and the uncertainty of the zero of "
@@ -279,6 +282,26 @@ Gate indirect(ContourResult& facts) {
   return out;
 }
 
+/// Without traces f and n rest on what pin and main journal share.
+Gate like_main(ContourResult& facts) {
+  Gate out{"like-main",
+           core::phrase("difference of pins and main journals declared (main_differs_um)"),
+           {},
+           {},
+           "um"};
+  if (facts.influences && facts.influences->main_differs_um) {
+    out.found = record::u_of(facts.influences->main_differs_um);
+    return out;
+  }
+  out.outcome = Outcome::kBounds;
+  out.reason = core::phrase(
+      "no part has traces of the axes, and uncertainty/main_differs_um does not say how far pin "
+      "and "
+      "main journal differ: f and n hold only if both see the same");
+  facts.indirect_is_bound = true;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Gate> position_gates(std::span<const fit::ContourPart> parts,
@@ -295,8 +318,8 @@ std::vector<Gate> position_gates(std::span<const fit::ContourPart> parts,
               fit::PositionCheck::kCourseLimit,
               "mm"};
   for (const fit::ContourPart& part : parts) {
-    if (part.trace.x_mm.empty()) continue;
-    const auto turn = fit::last_turn(part.trace, options.axes);
+    if (!part.trace || part.trace->x_mm.empty()) continue;
+    const auto turn = fit::last_turn(*part.trace, options.axes);
     if (!turn) continue;  // the study says why
     const auto found = fit::check_positions(*turn, options.geometry);
     if (!found) continue;
@@ -328,9 +351,13 @@ std::vector<Gate> failed_gates(const core::Error& error) {
 std::vector<Gate> contour_gates(std::span<const record::Characteristic> asked,
                                 ContourResult& facts) {
   std::vector<Gate> out;
-  out.push_back(stroke_unchecked(facts));
+  if (facts.study.traced) out.push_back(stroke_unchecked(facts));
   for (Gate& gate : eccentric_gauge(asked, facts)) out.push_back(std::move(gate));
   out.push_back(filter_of_gauge(facts));
+  if (!facts.study.traced) {
+    out.push_back(like_main(facts));
+    return out;
+  }
   out.push_back(trace_sampling(facts));
   out.push_back(trace_skew(facts));
   out.push_back(sense(facts));

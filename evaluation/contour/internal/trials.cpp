@@ -94,6 +94,7 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
   std::vector<std::size_t> rows;
   std::vector<UncertaintyStatus> out = none({});
   for (std::size_t a = 0; a < asked.size(); ++a) {
+    if (asked[a].form == record::Form::kFollowingDeviation) continue;
     if (asked[a].form == record::Form::kContourSpread && !facts.study.total) {
       out[a] = UncertaintyStatus::none(core::phrase("one part shows no spread"));
       continue;
@@ -131,6 +132,23 @@ std::vector<UncertaintyStatus> total_intervals(const ContourResult& facts,
                             std::span(found).subspan(of_mask[i].first, of_mask[i].second));
   }
   return out;
+}
+
+UncertaintyStatus following_interval(const ContourResult& facts,
+                                     const UncertaintyOptions& options) {
+  using contour_trials::Curves;
+  if (!facts.influences) return UncertaintyStatus::none(contour_trials::nothing_declared());
+  if (facts.following_void) return UncertaintyStatus::none(*facts.following_void);
+  const contour_trials::ContourTrials trials(facts, options);
+  const auto missing =
+      facts.study.traced || !trials.no_gauge() ? trials.no_axes() : trials.no_gauge();
+  if (missing) return UncertaintyStatus::none(*missing);
+  contour_trials::Asked one;
+  one.value = [&trials](const Curves& curves) {
+    return trials.basis().range(contour_trials::mean_curve(curves));
+  };
+  one.as_measured = fit::peak_to_valley(fit::mean_following(facts.study));
+  return contour_trials::states(trials.model_of_f(), {one}, options).front();
 }
 
 UncertaintyStatus gain_interval(const ContourResult& facts,

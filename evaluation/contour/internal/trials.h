@@ -9,10 +9,14 @@
 
 namespace rondure::evaluation {
 
-/// Intervals of characteristics, all from t, in their order.
+/// Intervals of characteristics, all from t, in their order. That of f: following_interval().
 [[nodiscard]] std::vector<UncertaintyStatus> total_intervals(
     const ContourResult& facts, std::span<const record::Characteristic> asked,
     const UncertaintyOptions& options);
+
+/// Interval of the peak to valley of the mean f.
+[[nodiscard]] UncertaintyStatus following_interval(const ContourResult& facts,
+                                                   const UncertaintyOptions& options);
 
 /// Interval of the gain: by how much the greatest peak to valley of the parts falls when
 /// `change_mm` is added to their contours. The trials stand for the true contours, turned by the
