@@ -118,8 +118,11 @@ core::Result<AnalysisValue> following_value(const ContourResult& facts) {
   AnalysisValue out;
   out.value_mm = fit::peak_to_valley(fit::mean_following(facts.study));
   const std::size_t parts = facts.study.parts.size();
-  out.detail =
+  const core::Phrase of =
       parts == 1 ? core::phrase("{} part", parts) : core::phrase("mean of {} parts", parts);
+  const bool supposed = !facts.study.traced && facts.indirect_is_bound;
+  out.detail =
+      supposed ? core::phrase("{}, if pin and main journal see the same", of) : core::Phrase(of);
   return out;
 }
 
@@ -221,9 +224,15 @@ core::Result<void> add_table(const record::RunRecord& record, int index,
                              const fit::ContourStudyOptions& options,
                              std::vector<fit::ContourPart>& parts) {
   constexpr double kAt_deg = 1e-6;
+  constexpr std::size_t kLeastRows = 3;
   const record::Series* const series = record.data_of(index, "table");
-  if (series == nullptr || series->rows() < 3) {
+  if (series == nullptr) {
     return core::fail(Code::kNoPoints, "the correction that was loaded is not in the record");
+  }
+  if (series->rows() < kLeastRows) {
+    return core::fail_with(Code::kTooFewPoints,
+                           "the loaded correction has {} rows, {} are needed at least",
+                           series->rows(), kLeastRows);
   }
   const auto c_deg = series->column("c_deg").value_or(std::vector<double>());
   const auto x_mm = scaled(*series, "x_um", kMicrometre);

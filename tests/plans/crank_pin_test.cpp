@@ -62,7 +62,7 @@ TEST(CrankTwin, ErrsWithoutTracesByWhatPinAndMainDoNotShare) {
     double error2 = 0.0;
     double rest2 = 0.0;
     double common2 = 0.0;
-    const int seeds = test::cases(40, 200);
+    const int seeds = test::cases(25, 200);
     for (int seed = 1; seed <= seeds; ++seed) {
       const Plan plan = pins_with(own_um, static_cast<std::uint64_t>(seed));
       const auto data = analysis_data(plan, 0, plan.simulation->seed).value();
@@ -78,7 +78,7 @@ TEST(CrankTwin, ErrsWithoutTracesByWhatPinAndMainDoNotShare) {
     }
     const double rho = common2 / rest2;
     const double expected2 = 2.0 * (1.0 - rho) * rest2;
-    EXPECT_NEAR(std::sqrt(error2 / expected2), 1.0, test::full() ? 0.05 : 0.1) << own_um;
+    EXPECT_NEAR(std::sqrt(error2 / expected2), 1.0, test::full() ? 0.05 : 0.12) << own_um;
   }
 }
 
