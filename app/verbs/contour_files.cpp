@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/units.h"
+#include "evaluation/contour/result.h"
 #include "plans/analyses/contour_columns.h"
 #include "plans/schema/json_text.h"
 #include "record/files.h"
@@ -58,21 +58,13 @@ core::Result<ContourColumnTask> column_of(const ColumnText& text) {
   return out;
 }
 
-std::vector<double> scaled(const record::Series& series, std::string_view column, double unit) {
-  auto values = series.column(column).value_or(std::vector<double>());
-  for (double& value : values) value *= unit;
-  return values;
-}
-
 core::Result<void> read_axes(const std::string& file, const std::vector<ContourColumnTask>& mapping,
                              ContourImport& out) {
   TRY(const auto text, record::read_file(file, record::kMostPointsBytes));
   const std::string name = std::filesystem::path(file).filename().string();
   TRY(const auto trace, plans::read_trace(text, name, mapping));
   out.positions = trace.positions;
-  out.part.trace = {scaled(trace.series, "c_deg", core::kDegree),
-                    scaled(trace.series, "c_error_deg", core::kDegree),
-                    scaled(trace.series, "x_error_mm", 1.0), scaled(trace.series, "d_cmd_mm", 1.0)};
+  out.part.trace = evaluation::trace_of(trace.series);
   return {};
 }
 
@@ -81,8 +73,7 @@ core::Result<fit::GaugeRows> read_gauge(const std::string& file, bool main,
   TRY(const auto text, record::read_file(file, record::kMostPointsBytes));
   const std::string name = std::filesystem::path(file).filename().string();
   TRY(const auto series, plans::read_gauge(text, name, main, mapping));
-  return fit::GaugeRows{scaled(series, "angle_deg", core::kDegree),
-                        scaled(series, "deviation_um", core::kMicrometre)};
+  return evaluation::rows_of(series);
 }
 
 core::Result<ContourColumnTask> column_of(const plans::JsonMember& member,

@@ -32,10 +32,6 @@ std::vector<double> scaled(const record::Series& series, std::string_view column
   return values;
 }
 
-fit::GaugeRows gauge_of(const record::Series& series) {
-  return {scaled(series, "angle_deg", kDegree), scaled(series, "deviation_um", kMicrometre)};
-}
-
 /// The parts of a record, in order. An indirect separation takes no traces.
 std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int index,
                                        ContourTask::Separation separation) {
@@ -46,12 +42,11 @@ std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int inde
     if (pin == nullptr) return out;
     fit::ContourPart part;
     if (axes != nullptr && separation != ContourTask::Separation::kIndirect) {
-      part.trace = {scaled(*axes, "c_deg", kDegree), scaled(*axes, "c_error_deg", kDegree),
-                    scaled(*axes, "x_error_mm", 1.0), scaled(*axes, "d_cmd_mm", 1.0)};
+      part.trace = trace_of(*axes);
     }
-    part.pin = gauge_of(*pin);
+    part.pin = rows_of(*pin);
     const auto* const main = record.data_of(index, fmt::format("main {}", i));
-    if (main != nullptr) part.main = gauge_of(*main);
+    if (main != nullptr) part.main = rows_of(*main);
     out.push_back(std::move(part));
   }
 }
@@ -120,7 +115,7 @@ core::Result<AnalysisValue> following_value(const ContourResult& facts) {
   const std::size_t parts = facts.study.parts.size();
   const core::Phrase of =
       parts == 1 ? core::phrase("{} part", parts) : core::phrase("mean of {} parts", parts);
-  const bool supposed = !facts.study.traced && facts.indirect_is_bound;
+  const bool supposed = !facts.study.traced() && facts.indirect_is_bound;
   out.detail =
       supposed ? core::phrase("{}, if pin and main journal see the same", of) : core::Phrase(of);
   return out;
@@ -256,6 +251,15 @@ core::Result<void> add_table(const record::RunRecord& record, int index,
 
 }  // namespace
 
+fit::AxisTrace trace_of(const record::Series& series) {
+  return {scaled(series, "c_deg", kDegree), scaled(series, "c_error_deg", kDegree),
+          scaled(series, "x_error_mm", 1.0), scaled(series, "d_cmd_mm", 1.0)};
+}
+
+fit::GaugeRows rows_of(const record::Series& series) {
+  return {scaled(series, "angle_deg", kDegree), scaled(series, "deviation_um", kMicrometre)};
+}
+
 fit::ContourStudyOptions contour_options(const ContourTask& task) {
   fit::ContourStudyOptions out;
   out.geometry = {task.crank_radius_mm, task.wheel_radius_mm, task.pin_radius_mm};
@@ -282,9 +286,8 @@ fit::ContourStudyOptions contour_options(const ContourTask& task) {
 core::Result<AnalysisValue> value_of(const ContourResult& facts,
                                      const record::Characteristic& asked) {
   auto out = measured_value(facts, asked);
-  const bool follows = asked.form == Form::kFollowingDeviation;
-  const auto& voided = follows && (facts.study.traced || !facts.total_void) ? facts.following_void
-                                                                            : facts.total_void;
+  const auto& voided =
+      asked.form == Form::kFollowingDeviation ? facts.following_void : facts.total_void;
   if (out && voided) {
     out->void_because = voided;
     out->lower_bound = false;
@@ -306,7 +309,7 @@ core::Phrase sampling_text(const ContourResult& facts) {
   const std::size_t parts = facts.study.parts.size();
   const core::Phrase number =
       parts == 1 ? core::phrase("{} part", parts) : core::phrase("{} parts", parts);
-  return facts.study.traced
+  return facts.study.traced()
              ? core::phrase("{} of {} points", number, facts.options.samples)
              : core::phrase("{} of {} points, without traces: f by the main journals", number,
                             facts.options.samples);
@@ -351,7 +354,7 @@ core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, in
     auto before = pins(with);
     result.gates.push_back(
         chain_gate(with, before ? std::nullopt : std::optional(before.error().said())));
-    facts.gain = before ? *std::move(before) : ContourGain{with, 0.0};
+    if (before) facts.gain = *std::move(before);
   }
   const auto add = [&](std::vector<Gate> gates) {
     for (Gate& gate : gates) result.gates.push_back(std::move(gate));

@@ -82,7 +82,7 @@ std::vector<ContourNumber> contour_numbers(const ContourResult& facts,
   };
   add(Curve::kTotal, trials.total(), reason(facts.total_void, trials.no_gauge()),
       [&] { return trials.gauge_model(trials.total(), "total"); });
-  const bool traced = facts.study.traced;
+  const bool traced = facts.study.traced();
   const auto no_gauge = trials.no_gauge();
   add(Curve::kFollowing, trials.following(),
       reason(facts.following_void, traced || !no_gauge ? trials.no_axes() : no_gauge),

@@ -48,7 +48,8 @@ struct ContourResult {
   std::optional<record::ContourInfluencesTask> influences;
   std::optional<MeasuredRadius> wheel_radius;  ///< Where it is that of another feature.
   double sampling_ms = 0.0;  ///< From sample to sample of the control; 0: not known.
-  /// Why a curve proves nothing: a gate that did not pass. A void t voids n as well, a void f too.
+  /// Why a curve proves nothing: a gate that did not pass. A void t voids n as well, a void f too;
+  /// without traces a void t voids f.
   std::optional<core::Phrase> total_void;
   std::optional<core::Phrase> following_void;
   std::optional<core::Phrase> rest_void;
@@ -62,6 +63,10 @@ struct ContourResult {
 
 /// What pins without a correction had, by the id of their feature; or why nothing is taken of it.
 using ContourOf = std::function<core::Result<ContourGain>(const std::string& id)>;
+
+/// A trace and a contour of the gauge as the fit takes them, from the series of a record.
+[[nodiscard]] fit::AxisTrace trace_of(const record::Series& series);
+[[nodiscard]] fit::GaugeRows rows_of(const record::Series& series);
 
 /// Evaluates feature `index` of a record.
 /// @param earlier  Asked where another feature gives the wheel radius.

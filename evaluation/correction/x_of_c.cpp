@@ -78,8 +78,8 @@ core::Result<std::vector<std::vector<double>>> changes(const ContourResult& fact
   const std::vector<double> nowhere(facts.options.samples, 0.0);
   for (const fit::ContourPartResult& part : facts.study.parts) {
     // Without traces the correction is ground alone: what it adds hangs on no other error.
-    fit::AxisErrors errors = facts.study.traced ? part.axes.errors : fit::AxisErrors{none, none};
-    const auto& before = facts.study.traced ? part.following.error_mm : nowhere;
+    fit::AxisErrors errors = facts.study.traced() ? part.axes.errors : fit::AxisErrors{none, none};
+    const auto& before = facts.study.traced() ? part.following.error_mm : nowhere;
     for (std::size_t n = 0; n < errors.x_mm.size(); ++n) {
       const double alpha =
           kTwoPi * static_cast<double>(n) / static_cast<double>(errors.x_mm.size());

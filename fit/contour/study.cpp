@@ -113,7 +113,7 @@ void compare(ContourStudy& study) {
         parts, [](const Part& p) -> const auto& { return p.following.error_mm; });
     study.rest = compared(
         parts, [](const Part& p) -> const auto& { return p.direct.rest_mm; });
-    if (study.traced) {
+    if (study.traced()) {
       study.c_error = compared(
           parts, [](const Part& p) -> const auto& { return p.axes.errors.c_rad; });
       study.x_error = compared(
@@ -291,18 +291,18 @@ core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
     return core::fail(core::Code::kNoPoints, "no part is given; at least one is needed");
   }
   ContourStudy study;
-  study.traced = parts.front().trace.has_value();
-  if (!study.traced && options.method == ContourMethod::kAsPublished) {
+  const bool traced = parts.front().trace.has_value();
+  if (!traced && options.method == ContourMethod::kAsPublished) {
     return core::fail(core::Code::kBadOption,
                       "the method as-published turns what traces give; without traces it has "
                       "nothing to turn");
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].trace.has_value() != study.traced) {
+    if (parts[i].trace.has_value() != traced) {
       return core::fail_with(core::Code::kNoPoints,
                              "part {} has traces of the axes, part {} has none: give traces of all "
                              "parts, or of none",
-                             study.traced ? 1 : i + 1, study.traced ? i + 1 : 1);
+                             traced ? 1 : i + 1, traced ? i + 1 : 1);
     }
     auto part = contour_part(parts[i], options);
     if (!part) {
@@ -312,17 +312,12 @@ core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
   }
   compare(study);
   collect_warnings(study);
-  if (study.traced) diagnose(study, options);
+  if (traced) diagnose(study, options);
   return study;
 }
 
-std::vector<double> mean_following(const ContourStudy& study) {
-  std::vector<double> out(study.parts.front().following.error_mm.size(), 0.0);
-  const auto parts = static_cast<double>(study.parts.size());
-  for (const ContourPartResult& part : study.parts) {
-    for (std::size_t m = 0; m < out.size(); ++m) out[m] += part.following.error_mm[m] / parts;
-  }
-  return out;
+const std::vector<double>& mean_following(const ContourStudy& study) {
+  return study.following ? study.following->mean_curve : study.parts.front().following.error_mm;
 }
 
 std::vector<double> x_table_mm(const ContourStudy& study, const CrankGeometry& geometry,

@@ -99,7 +99,6 @@ struct ContourPartResult {
 /// All parts side by side. The comparisons need two parts and are absent otherwise.
 struct ContourStudy {
   std::vector<ContourPartResult> parts;
-  bool traced = true;  ///< false: no part has traces, all f are by the main journals.
   std::optional<Repeatability> total;
   std::optional<Repeatability> following;
   std::optional<Repeatability> rest;
@@ -110,6 +109,9 @@ struct ContourStudy {
   CorrelationOffset offset;              ///< Common offset of all parts, a diagnosis.
   SenseEvidence sense;
   std::vector<core::Error> warnings;  ///< `where` is "parts/i/..." for warnings about one part.
+
+  /// false: no part has traces, all f are by the main journals.
+  [[nodiscard]] bool traced() const { return parts.empty() || parts.front().traced; }
 };
 
 /// What axis errors grind: the contour, and its error from the base circle, filtered as the study
@@ -142,7 +144,7 @@ struct FollowingContour {
                                                        const ContourStudyOptions& options = {});
 
 /// f of the mean of all parts, at the angles of the contours [mm].
-[[nodiscard]] std::vector<double> mean_following(const ContourStudy& study);
+[[nodiscard]] const std::vector<double>& mean_following(const ContourStudy& study);
 
 /// What a control adds to the command of X to take the mean f away, at the C positions of the
 /// method 0, 360/count, ... deg, without its mean: the size of the pin stays.

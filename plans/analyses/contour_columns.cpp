@@ -174,7 +174,8 @@ core::Result<ContourTrace> read_trace(std::string_view text, std::string_view na
   if (!(alpha_cmd && d_cmd && alpha_act && d_act)) {
     return core::fail(
         Code::kMissingKey,
-        fmt::format("the file needs the columns {} or {}; name others as columns",
+        fmt::format("the file needs the columns {} or {}; name others with --column or "
+                    "--mapping, in a plan with contour.columns",
                     list_of({Quantity::kC, Quantity::kCError, Quantity::kXError}, columns),
                     list_of({Quantity::kCommandedC, Quantity::kCommandedX, Quantity::kActualC,
                              Quantity::kActualX},

@@ -137,7 +137,7 @@ Json settings_json(const fit::ContourStudyOptions& options) {
 }  // namespace
 
 const char* separation_of(const fit::ContourStudy& study) {
-  return study.traced ? translatable("direct") : translatable("indirect");
+  return study.traced() ? translatable("direct") : translatable("indirect");
 }
 
 std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study) {
@@ -197,7 +197,7 @@ Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOpt
                       {"x_error", repeatability_json(study.x_error, um, "um")}};
   out["amplitude_ratio_following_rest"] = study.amplitude_ratio;
   out["diagnosis"] = nullptr;
-  if (study.traced)
+  if (study.traced())
     out["diagnosis"] = {{"correlation_offset_deg", in_deg(study.offset.angle_rad)},
                         {"correlation_offset_u_deg", in_deg(study.offset.u_rad)},
                         {"correlation_total_following", study.sense.as_given},

@@ -110,7 +110,8 @@ Handed contour_tables(const record::RunRecord& record, int index, const FeatureR
       shortest(facts.options.geometry.wheel_radius_mm),
       shortest(facts.options.geometry.pin_radius_mm), found->parts,
       found->parts == 1 ? ", u without the spread between parts" : "s",
-      std::string(facts.study.traced ? "" : "; separation indirect: f is t less the main journal") +
+      std::string(facts.study.traced() ? ""
+                                       : "; separation indirect: f is t less the main journal") +
           (facts.gain ? "; on top of the correction that these parts were ground with" : ""));
   head.units = "c_deg deg, x_um um, u_um um; u is a standard uncertainty; linear between the rows";
   head.gain = fmt::format("{}; greatest peak to valley {} um as measured, {} um predicted with it",

@@ -93,7 +93,7 @@ std::string separation_plot(const evaluation::ContourResult& facts, const record
 std::string first_separation(const evaluation::ContourResult& facts,
                              const record::RunRecord& record, int feature) {
   return fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation"),
-                     facts.study.traced
+                     facts.study.traced()
                          ? tr("t = f + n: the contour as measured, the share that follows "
                               "from the axis errors, and the rest.")
                          : tr("t = f + n: the contour as measured, t less the main journal, and "
@@ -195,7 +195,7 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   }
   if (study.amplitude_ratio > 0.0)
     html += entry("rms(f) / rms(n)", fixed(study.amplitude_ratio, 4));
-  if (study.traced) {
+  if (study.traced()) {
     html +=
         entry(tr("Correlation would turn f by"),
               with_note(deg(study.offset.angle_rad, 2) + "°",

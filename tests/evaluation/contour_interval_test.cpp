@@ -600,6 +600,18 @@ TEST(ContourWithoutTraces, StatesNothingOfFWhereTheDifferenceIsNotDeclared) {
             number_of(facts_of(traced), "total-pv", 0).uncertainty.result()->sampled.high_mm);
 }
 
+// f is read from t: where the gauge makes t void, f proves nothing either.
+TEST(ContourWithoutTraces, HaveNoFWhereTIsVoid) {
+  Pins pins = without_traces();
+  pins.task.filter = ContourTask::Filter::kGaussian;  // the gauge has filtered already
+  pins.task.uncertainty->main_differs_um = declared_gauge(0.1);
+  pins.asked = {asked_for("f", Form::kFollowingDeviation, 12e-3)};
+  const auto judged = pins.judged();
+  EXPECT_EQ(contour_gate(judged, "filter-twice").outcome, Gate::Outcome::kVoids);
+  EXPECT_FALSE(number_of(facts_of(judged), "following-pv", 0).uncertainty.result());
+  EXPECT_EQ(judged.characteristics[0].verdict, Verdict::kVoid);
+}
+
 TEST(ContourWithoutTraces, AreNotTakenForPartsWhoseTracesAreLost) {
   Pins pins = without_traces();
   pins.traces.push_back(Pins().traces.front());

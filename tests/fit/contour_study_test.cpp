@@ -405,7 +405,7 @@ TEST(ContourStudy, WithoutTracesTakesTheMainJournalForTheRest) {
   ContourStudyOptions options;
   options.prefiltered = true;
   const auto study = contour_study(parts, options).value();
-  EXPECT_FALSE(study.traced);
+  EXPECT_FALSE(study.traced());
   EXPECT_FALSE(study.c_error);
   ASSERT_TRUE(study.following);
   for (std::size_t i = 0; i < parts.size(); ++i) {

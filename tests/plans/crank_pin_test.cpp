@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/statistics.h"
@@ -194,6 +195,16 @@ TEST_F(PinFiles, OfOtherColumnsUnitsSignsAndCountsAreThoseOfTheTwin) {
   }
 }
 
+TEST_F(PinFiles, OfARepeatNameTheCorrectionThatWasLoaded) {
+  Plan plan = of_files(false);
+  record::ContourTask& task = *plan.features.front().contour;
+  task.repeat.emplace().table = "loaded.csv";
+  write("loaded.csv", "# rondure correction x-of-c\nc_deg,x_um\n0,1.5\n120,-2\n240,0.5\n");
+  const auto data = analysis_data(plan, 0, 5);
+  ASSERT_TRUE(data) << data.error().what;
+  EXPECT_THAT(column_of(*data, "table", "x_um"), ::testing::ElementsAre(1.5, -2.0, 0.5));
+}
+
 TEST_F(PinFiles, OfPositionsContradictAnErrorOfTheOtherSign) {
   Plan plan = of_files(true);
   plan.features.front().contour->error = record::ContourTask::Error::kCommandMinusActual;
@@ -268,16 +279,15 @@ TEST_F(NextPins, KeepLittleOfWhatFollowsTheAxes) {
 TEST_F(NextPins, WithoutTracesAreAsGoodAsPinAndMainJournalAreAlike) {
   const auto found = run(corrected(false));
   const evaluation::ContourResult& next = pins_of_feature(found, 1);
-  EXPECT_FALSE(next.study.traced);
+  EXPECT_FALSE(next.study.traced());
   EXPECT_GT(next.gain->before_mm, 6e-3);
   EXPECT_LT(fit::peak_to_valley(fit::mean_following(next.study)), 0.8e-3);
   EXPECT_EQ(found.features[1].characteristics[1].verdict, evaluation::Verdict::kConforms)
       << found.features[1].characteristics[1].reason;
 }
 
-// Of files: with the correction of the first pins beside the traces, f of the next is what a wrong
-// sign of it doubles.
-TEST_F(NextPins, OfFilesNameTheCorrectionThatWasLoaded) {
+// Added to the traces with the other sign, the correction doubles f.
+TEST_F(NextPins, WithTheCorrectionOfTheOtherSignAreVoid) {
   const Plan twin = corrected(true);
   const auto simulated = run(twin);
   record::RunRecord as_read = testing::journal_of(directory_);

@@ -32,9 +32,11 @@ void void_following(ContourResult& facts, const core::Phrase& reason) {
   void_first(facts.following_void, reason);
   void_rest(facts, reason);
 }
+/// Without traces f is read from t.
 void void_total(ContourResult& facts, const core::Phrase& reason) {
   void_first(facts.total_void, reason);
   void_rest(facts, reason);
+  if (!facts.study.traced()) void_first(facts.following_void, reason);
 }
 
 Gate stroke_unchecked(const ContourResult& facts) {
@@ -351,10 +353,10 @@ std::vector<Gate> failed_gates(const core::Error& error) {
 std::vector<Gate> contour_gates(std::span<const record::Characteristic> asked,
                                 ContourResult& facts) {
   std::vector<Gate> out;
-  if (facts.study.traced) out.push_back(stroke_unchecked(facts));
+  if (facts.study.traced()) out.push_back(stroke_unchecked(facts));
   for (Gate& gate : eccentric_gauge(asked, facts)) out.push_back(std::move(gate));
   out.push_back(filter_of_gauge(facts));
-  if (!facts.study.traced) {
+  if (!facts.study.traced()) {
     out.push_back(like_main(facts));
     return out;
   }

@@ -141,7 +141,7 @@ UncertaintyStatus following_interval(const ContourResult& facts,
   if (facts.following_void) return UncertaintyStatus::none(*facts.following_void);
   const contour_trials::ContourTrials trials(facts, options);
   const auto missing =
-      facts.study.traced || !trials.no_gauge() ? trials.no_axes() : trials.no_gauge();
+      facts.study.traced() || !trials.no_gauge() ? trials.no_axes() : trials.no_gauge();
   if (missing) return UncertaintyStatus::none(*missing);
   contour_trials::Asked one;
   one.value = [&trials](const Curves& curves) {
