@@ -42,7 +42,12 @@ std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
     if (touch.purpose == Touch::Purpose::kQualification) tips.push_back(touch.tip_mm);
   }
   if (tips.empty()) return std::nullopt;
-  const auto tip = fit::qualify_tip(tips, record.artefact.radius_mm);
+  const auto said =
+      record::task_of<record::QualificationSettings>(record.settings, "qualification/");
+  if (!said) return std::nullopt;
+  const auto tip = said->artefact == record::ReferenceArtefact::kColumn
+                       ? fit::qualify_tip_on_column(tips, record.artefact.radius_mm)
+                       : fit::qualify_tip(tips, record.artefact.radius_mm);
   if (!tip) return std::nullopt;
   return *tip;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "plans/bodies_plan.h"
 #include "plans/contour_plan.h"
 #include "plans/five_axis_plan.h"
 #include "plans/fixture_drivers_plan.h"
@@ -159,6 +160,7 @@ struct FixturePlan {
   double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: no tool passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
+  std::vector<BodyPlan> bodies;      ///< What else stands in the way.
   std::optional<DatumPlan> datum;
   std::optional<CalibrationPlan> calibration;   ///< None: the fixture is treated as nominal.
   std::optional<ZaberPlan> zaber;               ///< Used only by the driver of that name.
@@ -170,12 +172,36 @@ RONDURE_WORDS(FixturePlan::Driver, {kSimulated, "simulated"}, {kIppdme, "ippdme"
               {kZaber, "zaber"}, {kThorlabs, "thorlabs"}, {kManual, "manual"}, {kFixed, "fixed"});
 
 struct QualificationPlan {
+  record::ReferenceArtefact artefact = record::ReferenceArtefact::kSphere;
   double sphere_diameter_mm = 25.0;  ///< Certified.
   std::array<double, 3> sphere_center_mm = {300.0, 0.0, 100.0};
   int points = 13;
   double form_limit_um = 5.0;
   double radius_tolerance_um = 100.0;
   double stem_diameter_mm = 0.0;  ///< Diameter below the sphere; 0: a third of it.
+  // Of a column, an upright cylinder on the table.
+  double column_diameter_mm = 0.0;                              ///< Certified.
+  std::array<double, 3> column_point_mm = {300.0, 0.0, 100.0};  ///< Of its axis, machine frame.
+  double column_from_mm = 0.0;                                  ///< Lower end, above that point.
+  double column_to_mm = 0.0;
+  int heights = 3;
+  int points_per_height = 8;
+  double column_slope_deg = record::QualificationSettings{}.column_slope_deg;
+
+  [[nodiscard]] bool on_column() const { return artefact == record::ReferenceArtefact::kColumn; }
+  /// Touches of the qualification.
+  [[nodiscard]] int touches() const { return on_column() ? heights * points_per_height : points; }
+  /// Where it stands: centre of the sphere, or point of the axis of the column.
+  [[nodiscard]] const std::array<double, 3>& place_mm() const {
+    return on_column() ? column_point_mm : sphere_center_mm;
+  }
+  [[nodiscard]] double diameter_mm() const {
+    return on_column() ? column_diameter_mm : sphere_diameter_mm;
+  }
+  /// Its top above place_mm().
+  [[nodiscard]] double top_mm() const {
+    return on_column() ? column_to_mm : 0.5 * sphere_diameter_mm;
+  }
 };
 
 struct ProbePlan {
@@ -328,6 +354,7 @@ struct SimulatedFeaturePlan : SimulatedFormPlan {
 struct SimulatedProbePlan {
   double repeatability_um = 0.0;
   double tip_radius_error_um = 0.0;
+  double column_lean_deg = 0.0;  ///< Of the reference column, toward x.
 };
 
 struct SimulatedFixturePlan {

@@ -137,8 +137,21 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
     }
   }
   for (const ReferenceSphere& sphere : spheres_) {
-    const auto contact = first_contact_with_sphere(sphere.center_W_mm, sphere.radius_mm, start_W_mm,
-                                                   direction_W, tip_radius_mm, max_travel_mm);
+    auto contact = core::Result<Contact>();
+    if (sphere.half_length_mm > 0.0) {
+      Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+      X_WC.translation() = sphere.center_W_mm;
+      X_WC.linear() =
+          Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sphere.axis).toRotationMatrix();
+      const Eigen::Isometry3d X_CW = X_WC.inverse();
+      contact = first_contact(PartSurface{sphere.radius_mm, sphere.half_length_mm, false, {}, {}},
+                              X_CW * start_W_mm, X_CW.linear() * direction_W, tip_radius_mm,
+                              max_travel_mm);
+      if (contact) contact->point_P_mm = X_WC * contact->point_P_mm;
+    } else {
+      contact = first_contact_with_sphere(sphere.center_W_mm, sphere.radius_mm, start_W_mm,
+                                          direction_W, tip_radius_mm, max_travel_mm);
+    }
     if (contact && (!first || contact->travel_mm < first->travel_mm)) {
       first = Obstacle{contact->travel_mm, true, contact->point_P_mm};
     } else if (!contact && contact.error().code != core::Code::kNoTouch) {

@@ -16,10 +16,12 @@
 
 namespace rondure::cmm {
 
-/// A reference sphere on the table of a simulated machine.
+/// A reference sphere on the table of a simulated machine, or a reference column.
 struct ReferenceSphere {
   Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();
   double radius_mm = 0.0;
+  double half_length_mm = 0.0;                      ///< Of a column; 0: a sphere.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of a column; unit vector.
 };
 
 /// Settings of a simulated machine.

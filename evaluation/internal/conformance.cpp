@@ -128,6 +128,29 @@ std::optional<core::Phrase> probe_fault(const record::RunRecord& record,
   return std::nullopt;
 }
 
+/// Why a column cannot vouch for the touches of a feature: it was approached across its axis alone.
+std::optional<core::Phrase> column_fault(const record::RunRecord& record,
+                                         const FeatureResult& result) {
+  const auto said =
+      record::task_of<record::QualificationSettings>(record.settings, "qualification/");
+  if (!said || said->artefact != record::ReferenceArtefact::kColumn) return std::nullopt;
+  double steepest_1 = 0.0;
+  for (const record::Touch& touch : record.touches) {
+    if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose < 0) continue;
+    const record::PoseVisit& visit = record.poses[static_cast<std::size_t>(touch.pose)];
+    const record::Feature& of = record.features[static_cast<std::size_t>(visit.feature)];
+    if (!visit.final_cloud || of.id != result.feature.id) continue;
+    steepest_1 = std::max(steepest_1, std::abs(touch.approach.z()));
+  }
+  const double slope_deg = std::asin(std::min(1.0, steepest_1)) / core::kDegree;
+  if (slope_deg <= said->column_slope_deg) return std::nullopt;
+  return core::phrase(
+      "the tip was qualified on a column, from its side, and touches of the feature come {:.1f} "
+      "deg "
+      "from the horizontal, more than {:g} deg; qualify it on a sphere",
+      slope_deg, said->column_slope_deg);
+}
+
 /// Least-squares radius of the tip centres of a feature that has one nominal diameter.
 std::optional<double> centre_radius_mm(const FeatureResult& result) {
   if (result.ls_cylinder) return result.ls_cylinder->radius_mm;
@@ -189,6 +212,7 @@ std::optional<core::Phrase> reason_for_void(const record::RunRecord& record,
   if (!result.complete) return core::phrase("the run did not finish");
   if (result.feature.strategy != record::Strategy::kPointsFile) {
     if (auto fault = probe_fault(record, probe)) return fault;
+    if (auto fault = column_fault(record, result)) return fault;
   }
   if (auto stale = age_fault(record, result.feature)) return stale;
   return temperature_fault(record, result);

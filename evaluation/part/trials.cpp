@@ -19,7 +19,7 @@
 #include "evaluation/uncertainty/kept_draws.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
-#include "fit/least_squares/sphere.h"
+#include "fit/least_squares/probe_tip.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -180,15 +180,10 @@ void without_motion(std::span<const TouchedPoint> points, const Vector3d& middle
   }
 }
 
-/// The weights with which the errors of touches of a sphere enter its fitted radius.
-VectorXd radius_weights(std::span<const TouchedPoint> touches) {
-  const auto count = static_cast<Index>(touches.size());
-  MatrixXd design(count, 4);
-  for (Index i = 0; i < count; ++i) {
-    design.row(i) << touches[static_cast<std::size_t>(i)].normal.transpose(), 1.0;
-  }
-  const MatrixXd normal = design.transpose() * design;
-  return design * core::solve_ldlt(normal, VectorXd(Eigen::Vector4d::Unit(3)));
+/// Normal of the reference artefact at a touch.
+Vector3d normal_at(const fit::ProbeTip& tip, const Vector3d& touch_mm) {
+  const Vector3d away = touch_mm - tip.sphere_center_mm;
+  return (away - tip.column_axis.dot(away) * tip.column_axis).normalized();
 }
 
 }  // namespace
@@ -206,7 +201,7 @@ struct PartTrials::Part {
 
   void make_charts();
   void make_models();
-  void make_modes(const std::vector<Vector3d>& reference_mm);
+  void make_modes(const ReferenceTouches& reference);
   [[nodiscard]] std::vector<TouchedPoint> touched(std::size_t surface,
                                                   const Vector3d& middle_mm) const;
   [[nodiscard]] std::vector<bool> surfaces_of(std::span<const TrialQuestion> questions) const;
@@ -351,7 +346,7 @@ void PartTrials::Part::make_models() {
   }
 }
 
-void PartTrials::Part::make_modes(const std::vector<Vector3d>& reference_mm) {
+void PartTrials::Part::make_modes(const ReferenceTouches& reference) {
   std::vector<Index> first(surfaces.size(), 0);
   Vector3d middle = Vector3d::Zero();
   double count = 0.0;
@@ -372,18 +367,15 @@ void PartTrials::Part::make_modes(const std::vector<Vector3d>& reference_mm) {
     points.insert(points.end(), more.begin(), more.end());
   }
   const std::size_t of_part = points.size();
-  Vector3d center = Vector3d::Zero();
-  if (!reference_mm.empty()) {
-    const auto sphere = fit::ls_sphere(reference_mm);
-    if (sphere) center = sphere->center_mm;
-    for (const Vector3d& tip : reference_mm) {
-      TouchedPoint touch;
-      touch.position_mm = tip;
-      touch.normal = (tip - center).normalized();
-      touch.approach = -touch.normal;
-      touch.pose = -1;
-      if (sphere) points.push_back(touch);
-    }
+  const auto qualified = reference.column ? fit::qualify_tip_on_column(reference.tips_mm, 0.0)
+                                          : fit::qualify_tip(reference.tips_mm, 0.0);
+  for (std::size_t i = 0; qualified && i < reference.tips_mm.size(); ++i) {
+    TouchedPoint touch;
+    touch.position_mm = reference.tips_mm[i];
+    touch.normal = normal_at(*qualified, touch.position_mm);
+    touch.approach = -touch.normal;
+    touch.pose = -1;
+    points.push_back(touch);
   }
   const Influences shared = shared_influences(any->influences, middle);
   modes = declared_modes(points, shared);
@@ -392,7 +384,8 @@ void PartTrials::Part::make_modes(const std::vector<Vector3d>& reference_mm) {
   std::vector<VectorXd> tips;  // of each column, by surface
   const std::span<const TouchedPoint> part_points(points.data(), of_part);
   const std::span<const TouchedPoint> touches = std::span(points).subspan(of_part);
-  const VectorXd weights = touches.empty() || limit ? VectorXd() : radius_weights(touches);
+  const VectorXd weights =
+      touches.empty() || limit ? VectorXd() : fit::radius_weights(reference.tips_mm, *qualified);
   for (const VectorXd& column : modes.columns) {
     const double radius = weights.size() > 0 ? weights.dot(column.tail(weights.size())) : 0.0;
     tips.push_back(VectorXd::Constant(static_cast<Index>(surfaces.size()), radius));
@@ -452,14 +445,14 @@ void PartTrials::Part::make_modes(const std::vector<Vector3d>& reference_mm) {
   }
 }
 
-PartTrials::PartTrials(std::vector<TrialSurface> surfaces, std::vector<Vector3d> reference_mm,
+PartTrials::PartTrials(std::vector<TrialSurface> surfaces, const ReferenceTouches& reference,
                        const UncertaintyOptions& options) {
   auto part = std::make_unique<Part>();
   part->surfaces = std::move(surfaces);
   part->options = options;
   part->make_charts();
   part->make_models();
-  part->make_modes(reference_mm);
+  part->make_modes(reference);
   part_ = std::move(part);
 }
 

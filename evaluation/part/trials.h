@@ -30,6 +30,12 @@ struct TrialSurface {
   int pose = 0;           ///< Equal for features that were measured in one pose of the fixture.
 };
 
+/// The touches that qualified the tip.
+struct ReferenceTouches {
+  std::vector<Eigen::Vector3d> tips_mm = {};
+  bool column = false;  ///< Of a column, not a sphere.
+};
+
 /// Values of a part, e.g. the judged values of find(); NaN where there is none. Pure: it is called
 /// from several threads.
 using ValueFunction = std::function<std::vector<double>(const PartState&)>;
@@ -67,9 +73,9 @@ struct TrialAnswer {
 class PartTrials {
  public:
   /// @param surfaces      All features of the part.
-  /// @param reference_mm  Tip centres on the reference sphere; empty where the tip radius does not
+  /// @param reference     Touches of the qualification; empty where the tip radius does not
   ///                      come from a qualification on this machine.
-  PartTrials(std::vector<TrialSurface> surfaces, std::vector<Eigen::Vector3d> reference_mm,
+  PartTrials(std::vector<TrialSurface> surfaces, const ReferenceTouches& reference,
              const UncertaintyOptions& options);
   ~PartTrials();
   PartTrials(const PartTrials&) = delete;

@@ -93,6 +93,19 @@ Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
   return X_WF;
 }
 
+/// The sphere or the column that qualifies the probe.
+cmm::ReferenceSphere reference_artefact(const Plan& plan) {
+  const QualificationPlan& q = plan.probe->qualification;
+  cmm::ReferenceSphere out{vector3(q.place_mm()), 0.5 * q.diameter_mm()};
+  if (!q.on_column()) return out;
+  const double lean_rad = plan.simulation->probe.column_lean_deg * core::kDegree;
+  const Eigen::Vector3d axis(std::tan(lean_rad), 0.0, 1.0);
+  out.axis = axis.normalized();
+  out.half_length_mm = 0.5 * (q.column_to_mm - q.column_from_mm);
+  out.center_W_mm += 0.5 * (q.column_from_mm + q.column_to_mm) * axis;
+  return out;
+}
+
 }  // namespace
 
 SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
@@ -111,8 +124,7 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
           {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
     }
   }
-  table_spheres_.push_back({vector3(plan.probe->qualification.sphere_center_mm),
-                            0.5 * plan.probe->qualification.sphere_diameter_mm});
+  table_spheres_.push_back(reference_artefact(plan));
   machine_.place_spheres(table_spheres_);
   if (const auto& reached = plan.fixture->reached_pose) {
     for (const CarriedSpherePlan& sphere : reached->spheres) {

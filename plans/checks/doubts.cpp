@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/features.h"
+#include "plans/path/solid_mesh.h"
 #include "plans/schema/json_text.h"
 
 namespace rondure::plans {
@@ -80,6 +81,16 @@ std::vector<core::Error> doubts_of(const Plan& plan) {
       add(doubt(where + "/upper_um", asked.upper_um, kLeastDeviation_um));
       add(doubt(plan, asked.indication.datum, where + "/datum"));
     }
+  }
+  const std::size_t bodies = plan.fixture ? plan.fixture->bodies.size() : 0;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    const BodyPlan& body = plan.fixture->bodies[i];
+    if (!body.mesh || body.mesh->is_closed()) continue;
+    out.push_back({core::Code::kMeaning,
+                   fmt::format("{} has gaps: paths keep away from its surface, but a tool that is "
+                               "inside is not seen; was a closed solid meant?",
+                               body.file),
+                   item_pointer("/fixture/bodies", i) + "/file"});
   }
   return out;
 }

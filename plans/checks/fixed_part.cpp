@@ -197,7 +197,7 @@ void check_fixed_part(const Plan& plan, Findings& findings) {
   }
   check_place(plan, findings);
   constexpr std::string_view kNoAxes = "the fixture is \"fixed\", it has no axes";
-  refuse("/fixture", false, {"driver", "id", "table_height_mm"}, kNoAxes, findings);
+  refuse("/fixture", false, {"driver", "id", "table_height_mm", "bodies"}, kNoAxes, findings);
   refuse("/uncertainty/fixture", false, {}, kNoAxes, findings);
   refuse("/simulation/fixture", false, {"base_offset_mm", "base_rotation_deg"}, kNoAxes, findings);
   refuse("/simulation/faults", true, {"fixture_stalls_at_move", "fixture_off_deg"}, kNoAxes,

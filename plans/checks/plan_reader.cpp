@@ -7,6 +7,7 @@
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
+#include "plans/checks/internal/bodies.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/path/internal/rotary_poses.h"
@@ -69,6 +70,7 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   complete_simulation(plan, *json);
   measure_datums_in_one_pose(plan, findings);
   stand_without_fixture(plan, findings);
+  read_bodies(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();
   // Reach can be judged only when every number is valid.

@@ -128,6 +128,7 @@ SettingTable run_table() {
   out.merge(table_of<record::EnvironmentSettings>("environment/"));
   out.merge(table_of<record::FixtureSettings>("fixture/"));
   out.merge(table_of<record::HeadSettings>("head/"));
+  out.merge(table_of<record::QualificationSettings>("qualification/"));
   return out;
 }
 

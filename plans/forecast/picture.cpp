@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "plans/path/internal/nominal_geometry.h"
+#include "plans/path/scene.h"
 
 namespace rondure::plans {
 namespace {
@@ -41,6 +44,9 @@ struct DrawnShape {
   std::vector<Vector3d> points_W;  ///< Their convex hull is drawn.
   const char* fill = "";
   bool framed = true;  ///< Whether it affects the size of the window.
+  /// A surface whose outline is drawn in place of the hull, with its frame.
+  std::shared_ptr<const SolidMesh> mesh = {};
+  Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
 };
 
 /// Degrees to two digits; drops the sign of a rounded zero.
@@ -107,7 +113,8 @@ std::vector<Vector3d> ball(const Vector3d& center, double radius_mm) {
   return out;
 }
 
-/// Part, ring, rim and sphere. Bodies without a size in the plan are not drawn.
+/// Part, ring, rim, sphere and the bodies of the plan. Bodies without a size in the plan are not
+/// drawn.
 std::vector<DrawnShape> shapes_of(const Plan& plan, const ForecastStage& stage) {
   std::vector<DrawnShape> out;
   const FixturePlan& fixture = *plan.fixture;
@@ -121,8 +128,18 @@ std::vector<DrawnShape> shapes_of(const Plan& plan, const ForecastStage& stage) 
   }
   const bool sphere = stage.feature < 0;
   const QualificationPlan& q = plan.probe->qualification;
-  out.push_back({ball(vector3(q.sphere_center_mm), 0.5 * q.sphere_diameter_mm), "#c9d3dd", sphere});
+  const Eigen::Isometry3d at_artefact(Eigen::Translation3d(vector3(q.place_mm())));
+  out.push_back({q.on_column() ? cylinder(at_artefact, 0.5 * q.column_diameter_mm, q.column_from_mm,
+                                          q.column_to_mm)
+                               : ball(at_artefact.translation(), 0.5 * q.sphere_diameter_mm),
+                 "#c9d3dd", sphere});
   if (sphere) return out;
+  for (const BodyPlan& body : fixture.bodies) {
+    const Eigen::Isometry3d X_WF = frame_of(body.frame, fixture, stage.placement);
+    DrawnShape drawn{corners_of(body), "#cfc8b8", true, body.mesh, X_WF * placed_body(body)};
+    for (Vector3d& corner : drawn.points_W) corner = X_WF * corner;
+    out.push_back(std::move(drawn));
+  }
   const FeaturePlan& feature = plan.features[static_cast<std::size_t>(stage.feature)];
   const Eigen::Isometry3d& X_WP = stage.placement.X_WP;
   if (fixture.ring_diameter_mm > 0.0 && fixture.clamp_from_mm < fixture.clamp_to_mm) {
@@ -188,6 +205,18 @@ std::string points_of(const std::vector<Vector2d>& points) {
   return out;
 }
 
+/// The outline of a surface, seen along the axis that the view leaves out.
+std::string outline(const View& view, const DrawnShape& shape) {
+  const Vector3d along = Vector3d::Unit(view.right).cross(Vector3d::Unit(view.up));
+  std::string path;
+  for (const auto& [from, to] : shape.mesh->outline_mm(shape.X_WM.linear().transpose() * along)) {
+    const Vector2d a = view.px(shape.X_WM * from);
+    const Vector2d b = view.px(shape.X_WM * to);
+    path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.x(), a.y(), b.x(), b.y());
+  }
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#8a8272\"/>\n", path);
+}
+
 std::string panel(const View& view, const std::vector<DrawnShape>& shapes, const Polyline& path,
                   const ForecastStage& stage, const char* title, const char* up) {
   const double x = view.origin_px.x();
@@ -200,6 +229,10 @@ std::string panel(const View& view, const std::vector<DrawnShape>& shapes, const
       "stroke=\"#999999\"/>\n",
       x, y - 8.0, title, y, kPanel_px);
   for (const DrawnShape& shape : shapes) {
+    if (shape.mesh) {
+      out += outline(view, shape);
+      continue;
+    }
     std::vector<Vector2d> flat;
     for (const Vector3d& p : shape.points_W) flat.push_back(view.px(p));
     out += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"#555555\"/>\n",

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "plans/path/revolved_mesh.h"
+#include "plans/path/solid_mesh.h"
 
 namespace rondure::plans {
 
@@ -27,14 +28,6 @@ struct Revolved {
 
 /// Distance of a point from the solid, in its frame [mm]; 0 inside. Closed form.
 [[nodiscard]] double distance_mm(const Revolved& solid, const Eigen::Vector3d& point_mm);
-
-/// The parallelogram start + s along + t up, 0 <= s, t <= 1, swept by a straight limb of the tool
-/// on a straight move. `along` or `up` may be zero or parallel: then it is a segment or a point.
-struct Sweep {
-  Eigen::Vector3d start_mm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d along_mm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d up_mm = Eigen::Vector3d::Zero();
-};
 
 /// A solid with a clearance around it. A separating plane or cylinder answers most queries; the
 /// rest use exact intersection with a mesh of the grown solid, built on first use. Not for use by

@@ -15,6 +15,9 @@ using Eigen::Vector3d;
 constexpr double kWide_mm = 1e5;      // radius of a disc that cannot be bypassed
 constexpr double kDeep_mm = 1e4;      // thickness of a body that cannot be passed below
 constexpr double kHolder_mm = 300.0;  // length of the holder above the stylus
+/// Paths along a part are laid at exactly the distances to keep, and the corners of its facets lie
+/// in its walls: a mesh of it may be nearer by so much.
+constexpr double kAlongPart_mm = 0.05;
 
 Tool tool_of(const Plan& plan) {
   const ProbePlan& probe = *plan.probe;
@@ -41,8 +44,14 @@ const char* name_of(Body body) {
       return "a reference sphere";
     case Body::kStem:
       return "the stem of the reference sphere";
+    case Body::kColumn:
+      return "the reference column";
     case Body::kRingSphere:
       return "a sphere on the ring";
+    case Body::kBody:
+      return "the body";
+    case Body::kPartMesh:
+      return "the part, body";
     case Body::kVolume:
       return "the end of the machine's travel";
   }
@@ -62,7 +71,8 @@ const char* name_of(Limb limb) {
 }
 
 bool is_part(Body body) {
-  return body == Body::kFeature || body == Body::kSection || body == Body::kShoulder;
+  return body == Body::kFeature || body == Body::kSection || body == Body::kShoulder ||
+         body == Body::kPartMesh;
 }
 
 double limb_radius(const Tool& tool, Limb limb) {
@@ -84,8 +94,8 @@ Sweep sweep_of(const Tool& tool, Limb limb, const Vector3d& a, const Vector3d& b
   return {a + shaft, b - a, kHolder_mm * Vector3d::UnitZ()};
 }
 
-Sweep moved(const Sweep& sweep, const Eigen::Isometry3d& X, const Vector3d& origin_mm) {
-  return {X * sweep.start_mm - origin_mm, X.linear() * sweep.along_mm, X.linear() * sweep.up_mm};
+Sweep moved(const Sweep& sweep, const Eigen::Isometry3d& X) {
+  return {X * sweep.start_mm, X.linear() * sweep.along_mm, X.linear() * sweep.up_mm};
 }
 
 }  // namespace
@@ -103,21 +113,63 @@ std::string in_words(const Hit& hit) {
   if (hit.body == Body::kVolume) {
     return fmt::format("the tip would leave the volume of the machine {}", where);
   }
-  return fmt::format("{} would come nearer than {:.7g} mm to {} {}", name_of(hit.limb), hit.room_mm,
-                     name_of(hit.body), where);
+  const std::string name = hit.name.empty() ? hit.name : fmt::format(" \"{}\"", hit.name);
+  return fmt::format("{} would come nearer than {:.7g} mm to {}{} {}", name_of(hit.limb),
+                     hit.room_mm, name_of(hit.body), name, where);
+}
+
+Eigen::Isometry3d frame_of(BodyPlan::Frame frame, const FixturePlan& fixture,
+                           const Placement& placement) {
+  if (frame == BodyPlan::Frame::kBase) return Eigen::Isometry3d::Identity();
+  if (frame == BodyPlan::Frame::kPart) return placement.X_WP;
+  const Eigen::Isometry3d X_WB = placement.X_WN * nominal_seat(fixture).inverse();
+  if (frame == BodyPlan::Frame::kRing) return X_WB;
+  // The hoop turns about the base-fixed axis alone: its y is that of the ring, its x that axis.
+  const Vector3d y = X_WB.linear().col(1);
+  const Vector3d x = (Vector3d::UnitX() - y.x() * y).normalized();
+  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
+  X_WH.linear() << x, y, x.cross(y);
+  X_WH.translation() = X_WB.translation() - X_WH.linear() * vector3(fixture.axis_offset_mm);
+  return X_WH;
 }
 
 Scene::Scene(const Plan& plan, const FeaturePlan& feature, const std::array<double, 3>* touched)
     : tool_(tool_of(plan)),
+      fixture_(*plan.fixture),
       volume_min_mm_(vector3(plan.machine->volume_min_mm)),
       volume_max_mm_(vector3(plan.machine->volume_max_mm)) {
   if (is_touched(feature)) add_part(plan, feature);
   add_cell(plan, feature);
   add_spheres(plan, feature, touched);
+  add_bodies(*plan.fixture);
 }
 
 void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolved& shape) {
-  solids_.push_back({body, frame, origin_mm, shape});
+  Solid& added = solids_.emplace_back();
+  added.body = body;
+  added.frame = frame;
+  added.shape = shape;
+  added.into_own.translation() = -origin_mm;
+}
+
+void Scene::add_bodies(const FixturePlan& fixture) {
+  for (const BodyPlan& body : fixture.bodies) {
+    const bool mesh = body.shape == BodyPlan::Shape::kMesh;
+    Solid& added = solids_.emplace_back();
+    added.body = mesh && body.frame == BodyPlan::Frame::kPart ? Body::kPartMesh : Body::kBody;
+    added.frame = Frame::kBodies;
+    added.of = body.frame;
+    added.into_own = placed_body(body).inverse();
+    added.shape = {0.5 * body.bore_diameter_mm, 0.5 * body.diameter_mm, body.from_mm, body.to_mm};
+    added.mesh = body.mesh;
+    added.name = body.id;
+    added.more_mm = body.clearance_mm;
+    if (body.facets == BodyPlan::Facets::kRound) added.more_mm += body.mesh->sag_mm();
+    // The base may stand beside its nominal place, and the hoop with it.
+    if (fixture.datum && body.frame <= BodyPlan::Frame::kHoop)
+      added.more_mm += fixture.datum->uncertainty_mm;
+    if (added.body == Body::kPartMesh) added.more_mm -= kAlongPart_mm;
+  }
 }
 
 void Scene::add_part(const Plan& plan, const FeaturePlan& feature) {
@@ -167,11 +219,18 @@ void Scene::add_spheres(const Plan& plan, const FeaturePlan& feature,
                         const std::array<double, 3>* touched) {
   const FixturePlan& fixture = *plan.fixture;
   const QualificationPlan& q = plan.probe->qualification;
-  const double sphere_mm = 0.5 * q.sphere_diameter_mm;
-  const double stem_mm = q.stem_diameter_mm > 0.0 ? 0.5 * q.stem_diameter_mm : sphere_mm / 3.0;
-  const Vector3d qualified = vector3(q.sphere_center_mm);
-  add(Body::kSphere, Frame::kMachine, qualified, {0.0, sphere_mm, 0.0, 0.0, true});
-  add(Body::kStem, Frame::kMachine, qualified, {0.0, stem_mm, -kDeep_mm, 0.0});
+  const Vector3d qualified = vector3(q.place_mm());
+  if (touched != &q.place_mm()) {
+    const double radius_mm = 0.5 * q.diameter_mm();
+    const double stem_mm = q.on_column()              ? radius_mm
+                           : q.stem_diameter_mm > 0.0 ? 0.5 * q.stem_diameter_mm
+                                                      : radius_mm / 3.0;
+    if (!q.on_column()) {
+      add(Body::kSphere, Frame::kMachine, qualified, {0.0, radius_mm, 0.0, 0.0, true});
+    }
+    add(q.on_column() ? Body::kColumn : Body::kStem, Frame::kMachine, qualified,
+        {0.0, stem_mm, -kDeep_mm, q.on_column() ? q.column_to_mm : 0.0});
+  }
   const Eigen::Isometry3d X_NB = nominal_seat(fixture).inverse();
   const auto add_all = [&](Body body, const auto& spheres, double radius_mm) {
     for (const auto& sphere : spheres) {
@@ -207,11 +266,26 @@ std::optional<double> Scene::room_mm(Body body, Limb limb, Phase phase,
   return radius_mm + near_mm;
 }
 
-const Obstacle& Scene::grown(Solid& solid, double by_mm) {
+bool Scene::meets(Solid& solid, const Sweep& sweep, double room_mm) {
+  if (solid.mesh) return solid.mesh->meets(sweep, room_mm);
   for (const Obstacle& known : solid.grown) {
-    if (known.grown_mm() == by_mm) return known;
+    if (known.grown_mm() == room_mm) return known.meets(sweep);
   }
-  return solid.grown.emplace_back(solid.shape, by_mm);
+  return solid.grown.emplace_back(solid.shape, room_mm).meets(sweep);
+}
+
+Eigen::Isometry3d Scene::machine_into(const Solid& solid, const Placement& placement) const {
+  switch (solid.frame) {
+    case Frame::kMachine:
+      return Eigen::Isometry3d::Identity();
+    case Frame::kSeat:
+      return placement.X_WN.inverse();
+    case Frame::kPart:
+      return placement.X_WP.inverse();
+    case Frame::kBodies:
+      return frame_of(solid.of, fixture_, placement).inverse();
+  }
+  return Eigen::Isometry3d::Identity();
 }
 
 bool Scene::inside_volume(const Vector3d& tip_W_mm) const {
@@ -221,9 +295,10 @@ bool Scene::inside_volume(const Vector3d& tip_W_mm) const {
 
 std::optional<Hit> Scene::first_hit(const Way& way, const Placement& placement,
                                     const PathGeometry& geometry) const {
-  const Eigen::Isometry3d X_PW = placement.X_WP.inverse();
-  const Eigen::Isometry3d X_NW = placement.X_WN.inverse();
-  const Eigen::Isometry3d X_WW = Eigen::Isometry3d::Identity();
+  std::vector<Eigen::Isometry3d> into;
+  for (const Solid& solid : solids_) {
+    into.push_back(solid.into_own * machine_into(solid, placement));
+  }
   for (std::size_t i = 1; i < way.corners.size(); ++i) {
     const Vector3d& a = way.corners[i - 1];
     const Vector3d& b = way.corners[i];
@@ -231,14 +306,13 @@ std::optional<Hit> Scene::first_hit(const Way& way, const Placement& placement,
     for (const Limb limb : {Limb::kBall, Limb::kShaft, Limb::kHolder}) {
       if (!has(tool_, limb)) continue;
       const Sweep sweep = sweep_of(tool_, limb, a, b);
-      for (Solid& solid : solids_) {
-        const auto room = room_mm(solid.body, limb, way.phases[i - 1], geometry);
+      for (std::size_t k = 0; k < solids_.size(); ++k) {
+        Solid& solid = solids_[k];
+        auto room = room_mm(solid.body, limb, way.phases[i - 1], geometry);
         if (!room) continue;
-        const Eigen::Isometry3d& X = solid.frame == Frame::kPart   ? X_PW
-                                     : solid.frame == Frame::kSeat ? X_NW
-                                                                   : X_WW;
-        if (grown(solid, *room).meets(moved(sweep, X, solid.origin_mm))) {
-          return Hit{solid.body, limb, *room, b};
+        *room += solid.more_mm;
+        if (meets(solid, moved(sweep, into[k]), *room)) {
+          return Hit{solid.body, limb, *room, b, solid.name};
         }
       }
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "plans/path/obstacle.h"
+#include "plans/path/solid_mesh.h"
 #include "plans/path/travel.h"
 #include "plans/plan.h"
 
@@ -24,7 +26,10 @@ enum class Body {
   kTable,
   kSphere,
   kStem,
+  kColumn,
   kRingSphere,
+  kBody,      ///< fixture.bodies.
+  kPartMesh,  ///< One of them that is the part itself.
   kVolume
 };
 /// The part of the tool that meets an obstacle.
@@ -57,12 +62,17 @@ struct Placement {
   Eigen::Isometry3d X_WN = Eigen::Isometry3d::Identity();
 };
 
+/// The frame of a body of the plan in the machine.
+[[nodiscard]] Eigen::Isometry3d frame_of(BodyPlan::Frame frame, const FixturePlan& fixture,
+                                         const Placement& placement);
+
 /// A place where the tool would come too close to an obstacle.
 struct Hit {
   Body body = Body::kFeature;
   Limb limb = Limb::kBall;
   double room_mm = 0.0;                                ///< Distance to keep.
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which the hit occurs.
+  std::string name = {};                               ///< Of a body of the plan.
 };
 
 /// "the shaft of the stylus would come nearer than 5.3 mm to the clamping ring on the way to
@@ -81,12 +91,12 @@ struct Tool {
 
 /// All obstacles in the cell during the inspection of one feature, as simple solids: the surface,
 /// sections of the part beside it, clamping ring, rim of the bowl, table, reference sphere with its
-/// stem, spheres on base and ring of the fixture, balls of a calibration; and the volume of the
-/// machine.
+/// stem, spheres on base and ring of the fixture, balls of a calibration, the bodies of the plan;
+/// and the volume of the machine.
 class Scene {
  public:
-  /// @param touched  `center_mm`, in `plan` itself, of the sphere of the fixture that is to be
-  ///                 touched, which is then no obstacle; null: all spheres are.
+  /// @param touched  `center_mm`, in `plan` itself, of the sphere that is to be touched, which is
+  ///                 then no obstacle; null: all spheres are.
   Scene(const Plan& plan, const FeaturePlan& feature,
         const std::array<double, 3>* touched = nullptr);
 
@@ -97,27 +107,35 @@ class Scene {
                                              const PathGeometry& geometry) const;
 
  private:
-  enum class Frame { kMachine, kSeat, kPart };
+  enum class Frame { kMachine, kSeat, kPart, kBodies };
   struct Solid {
     Body body = Body::kFeature;
     Frame frame = Frame::kMachine;
-    /// Origin of its own frame, axes parallel to the machine.
-    Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();
+    BodyPlan::Frame of = BodyPlan::Frame::kBase;  ///< Of Frame::kBodies.
+    /// From its frame to its own one.
+    Eigen::Isometry3d into_own = Eigen::Isometry3d::Identity();
     Revolved shape;
-    std::vector<Obstacle> grown = {};  ///< Solids with the clearances requested so far.
+    std::shared_ptr<const SolidMesh> mesh = {};  ///< In place of `shape`.
+    double more_mm = 0.0;                        ///< Kept beside what the move keeps.
+    std::string name = {};                       ///< Of a body of the plan.
+    std::vector<Obstacle> grown = {};            ///< Solids with the clearances requested so far.
   };
 
   void add(Body body, Frame frame, const Eigen::Vector3d& origin_mm, const Revolved& shape);
   void add_part(const Plan& plan, const FeaturePlan& feature);
+  void add_bodies(const FixturePlan& fixture);
   void add_cell(const Plan& plan, const FeaturePlan& feature);
   void add_spheres(const Plan& plan, const FeaturePlan& feature,
                    const std::array<double, 3>* touched);
   [[nodiscard]] std::optional<double> room_mm(Body body, Limb limb, Phase phase,
                                               const PathGeometry& geometry) const;
-  [[nodiscard]] static const Obstacle& grown(Solid& solid, double by_mm);
+  [[nodiscard]] static bool meets(Solid& solid, const Sweep& sweep, double room_mm);
+  [[nodiscard]] Eigen::Isometry3d machine_into(const Solid& solid,
+                                               const Placement& placement) const;
   [[nodiscard]] bool inside_volume(const Eigen::Vector3d& tip_W_mm) const;
 
   Tool tool_;
+  FixturePlan fixture_;
   Eigen::Vector3d volume_min_mm_;
   Eigen::Vector3d volume_max_mm_;
   mutable std::vector<Solid> solids_;

@@ -9,6 +9,7 @@
 #include "plans/analyses/features.h"
 #include "plans/analyses/internal/rotary_placing.h"
 #include "plans/cell/internal/open_cell.h"
+#include "plans/checks/internal/bodies.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/checks/laboratory.h"
@@ -280,7 +281,8 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   }
   const bool touching = cell != nullptr;
   if (touching)
-    context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
+    context.progress.touches_expected +=
+        static_cast<std::size_t>(plan.probe->qualification.touches());
   if (touching && plan.fixture->datum) {
     const DatumPlan& datum = *plan.fixture->datum;
     context.progress.touches_expected +=
@@ -316,6 +318,9 @@ std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& p
                        "the calibration of the fixture is not the one the run began with; put its "
                        "file back, or start a new run",
                        "/fixture/calibration/file"});
+  }
+  if (changes.empty()) {
+    changes = bodies_changed(plan, fixture ? fixture->bodies.value_or("") : std::string());
   }
   return changes;
 }

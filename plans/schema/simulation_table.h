@@ -90,6 +90,8 @@ void describe(Visitor& v, SimulatedProbePlan& p) {
            range(0.0, 1000.0, "Standard deviation of one touch."));
   v.number("tip_radius_error_um", p.tip_radius_error_um,
            within(1000.0, "Effective minus nominal tip radius."));
+  v.number("column_lean_deg", p.column_lean_deg,
+           within(5.0, "Lean of the reference column toward machine x."));
 }
 
 template <class Visitor>

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -347,16 +347,22 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   return take_points(body, block, "PCD");
 }
 
-/// Keeps each different vertex once.
+/// Keeps each different vertex once, and three by three the triangles.
 class Vertices {
  public:
-  /// @return  Whether it is a point of the part.
   core::Result<void> add(const Body& body, const Eigen::Vector3d& vertex, Cloud& out) {
     // -0.0 and 0.0 are one place
     const std::array<double, 3> key = {vertex[0] + 0.0, vertex[1] + 0.0, vertex[2] + 0.0};
-    if (!seen_.insert(key).second) return {};
-    return keep_point(body, vertex, out.points.size(), out.points);
+    const auto [known, is_new] = seen_.try_emplace(key, out.points.size());
+    if (is_new) TRY_DO(keep_point(body, vertex, out.points.size(), out.points));
+    triangle_[corners_++] = known->second;
+    if (corners_ < 3) return {};
+    out.triangles.push_back(triangle_);
+    corners_ = 0;
+    return {};
   }
+  /// Whether every triangle has all of its corners.
+  [[nodiscard]] bool whole() const { return corners_ == 0; }
 
  private:
   struct Hash {
@@ -369,7 +375,9 @@ class Vertices {
       return out;
     }
   };
-  std::unordered_set<std::array<double, 3>, Hash> seen_;
+  std::unordered_map<std::array<double, 3>, std::size_t, Hash> seen_;
+  std::array<std::size_t, 3> triangle_ = {};
+  std::size_t corners_ = 0;  ///< Of the triangle so far.
 };
 
 constexpr std::size_t kStlHead = 84;
@@ -422,7 +430,11 @@ core::Result<Cloud> read_text_stl(std::string_view bytes, std::string_view name)
       return core::fail(too_many_rows().at(std::string(name)));
     }
   }
-  if (!ended) return body.fail(Code::kSyntax, "the STL file ends without endsolid: is it cut off?");
+  if (!ended || !vertices.whole()) {
+    return body.fail(Code::kSyntax,
+                     "the STL file ends without endsolid, or within a triangle: is "
+                     "it cut off?");
+  }
   return out;
 }
 

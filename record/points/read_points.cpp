@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -14,6 +15,7 @@
 #include "record/points/internal/cloud.h"
 #include "record/points/internal/encoding.h"
 #include "record/points/internal/text_table.h"
+#include "record/points/triangles.h"
 
 namespace rondure::record {
 namespace {
@@ -238,6 +240,18 @@ core::Result<ProfileTable> read_profile(std::string_view bytes, std::string_view
   table.rows.reserve(text.rows.size());
   for (const Eigen::Vector3d& values : text.rows) table.rows.emplace_back(values.head<2>());
   return table;
+}
+
+core::Result<Triangles> read_triangles(std::string_view bytes, std::string_view name,
+                                       LengthUnit unit) {
+  auto cloud = read_cloud(bytes, name);
+  if (cloud && !*cloud) return core::fail(cloud->error());
+  if (!cloud || (*cloud)->triangles.empty()) {
+    return core::fail(core::Code::kSyntax, "this is no STL file with triangles", std::string(name));
+  }
+  Triangles out{std::move((*cloud)->points), std::move((*cloud)->triangles)};
+  for (Eigen::Vector3d& point : out.points_mm) point *= mm_in(unit);
+  return out;
 }
 
 }  // namespace rondure::record

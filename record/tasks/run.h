@@ -43,6 +43,16 @@ struct HeadSettings {
   std::optional<std::string> logo;  ///< "data:image/png;base64,..." or of a JPEG.
 };
 
+/// On what the tip is qualified.
+enum class ReferenceArtefact { kSphere, kColumn };
+RONDURE_WORDS(ReferenceArtefact, {kSphere, "sphere"}, {kColumn, "column"});
+
+/// How the probe is qualified, where it is not on a sphere.
+struct QualificationSettings {
+  ReferenceArtefact artefact = ReferenceArtefact::kSphere;
+  double column_slope_deg = 30.0;  ///< Greatest slope of an approach that a column vouches for.
+};
+
 /// The fixture that carried the parts, at "fixture/".
 struct FixtureSettings {
   std::string id;
@@ -59,6 +69,7 @@ struct FixtureSettings {
   std::optional<std::string> calibration;  ///< The file, whole; none: the fixture is nominal.
   /// Id of the feature that calibrates it for those after it; the run takes note of what they take.
   std::optional<std::string> calibrated_by;
+  std::optional<std::string> bodies;  ///< Files of bodies that paths avoid, each with its SHA-256.
 };
 
 template <class Visitor>
@@ -66,6 +77,12 @@ void describe(Visitor& v, EnvironmentSettings& p) {
   v.text("declared", p.declared, {.meaning = "What the plan states."});
   v.number("assumed_degC", p.assumed_degC, within(1000.0, "Of part and scales."));
   v.number("max_drift_K", p.max_drift_K, range(0.0, 1000.0, "Of an analysis."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, QualificationSettings& p) {
+  v.text("artefact", p.artefact, {.meaning = "On what the tip is qualified."});
+  v.number("column_slope_deg", p.column_slope_deg, range(0.0, 90.0, "Of approaches."));
 }
 
 template <class Visitor>
@@ -104,6 +121,7 @@ void describe(Visitor& v, FixtureSettings& p) {
   v.number("max_residual_um", p.max_residual_um, range(0.0, 1e6, "Of the calibration."));
   v.text("calibration", p.calibration, {.meaning = "Its file, whole."});
   v.text("calibrated_by", p.calibrated_by, {.meaning = "The feature of this run that does it."});
+  v.text("bodies", p.bodies, {.meaning = "Files of the bodies that paths avoid: name, SHA-256."});
 }
 
 }  // namespace rondure::record

@@ -67,10 +67,17 @@ Json fixture_json(const std::optional<evaluation::FixtureUse>& use) {
 
 Json probe_json(const std::optional<fit::ProbeTip>& probe) {
   if (!probe) return nullptr;
-  return {{"sphere_center_mm", vector_json(probe->sphere_center_mm)},
-          {"tip_radius_mm", probe->radius_mm},
-          {"tip_radius_sigma_um", in_um(probe->radius_sigma_mm)},
-          {"form_um", in_um(probe->form_mm)}};
+  Json out;
+  if (probe->column_axis.squaredNorm() > 0.0) {
+    out = {{"column_point_mm", vector_json(probe->sphere_center_mm)},
+           {"column_axis", vector_json(probe->column_axis)}};
+  } else {
+    out = {{"sphere_center_mm", vector_json(probe->sphere_center_mm)}};
+  }
+  out["tip_radius_mm"] = probe->radius_mm;
+  out["tip_radius_sigma_um"] = in_um(probe->radius_sigma_mm);
+  out["form_um"] = in_um(probe->form_mm);
+  return out;
 }
 
 Json contacts_json(const std::vector<fit::Contact>& contacts,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/units.h"
 #include "record/tasks/settings.h"
 #include "reports/escaping.h"
 #include "reports/history/earlier_results.h"
@@ -42,6 +43,20 @@ std::string decision_html(const record::Decision& decision) {
                      english);
 }
 
+std::string artefact_row(double radius_mm, const fit::ProbeTip& tip) {
+  const Eigen::Vector3d& at = tip.sphere_center_mm;
+  if (tip.column_axis.squaredNorm() == 0.0) {
+    return property(tr("Reference sphere"),
+                    trf("radius {} mm, found at ({}, {}, {}) mm", fixed(radius_mm, 6),
+                        fixed(at.x(), 6), fixed(at.y(), 6), fixed(at.z(), 6)));
+  }
+  const double lean_deg = std::acos(std::min(1.0, std::abs(tip.column_axis.z()))) / core::kDegree;
+  return property(
+      tr("Reference column"),
+      trf("radius {} mm, axis through ({}, {}, {}) mm, {}° from upright", fixed(radius_mm, 6),
+          fixed(at.x(), 6), fixed(at.y(), 6), fixed(at.z(), 6), fixed(lean_deg, 3)));
+}
+
 std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {
   const record::Artefact& artefact = record.artefact;
   return property(tr("Effective tip radius"),
@@ -50,10 +65,7 @@ std::string qualification_rows(const record::RunRecord& record, const fit::Probe
                       fixed(artefact.nominal_tip_radius_mm, 6), um(artefact.radius_tolerance_mm))) +
          property(tr("Probing form"),
                   trf("{} µm, limit {} µm", um(tip.form_mm), um(artefact.form_limit_mm))) +
-         property(tr("Reference sphere"),
-                  trf("radius {} mm, found at ({}, {}, {}) mm", fixed(artefact.radius_mm, 6),
-                      fixed(tip.sphere_center_mm.x(), 6), fixed(tip.sphere_center_mm.y(), 6),
-                      fixed(tip.sphere_center_mm.z(), 6)));
+         artefact_row(artefact.radius_mm, tip);
 }
 
 std::string calibration_row(const std::optional<evaluation::FixtureUse>& use) {

@@ -248,6 +248,7 @@ TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
     SCOPED_TRACE(name);
     const TemporaryFolder folder;
     fs::copy(example("03_calibration"), folder / "03_calibration");
+    fs::copy(example("18_stand.stl"), folder / "18_stand.stl");
     const Simulator simulator(free_port(), "inf", name);
     std::vector<json> reports;
     for (const char* driver : {"ippdme", "simulated"}) {
@@ -278,6 +279,7 @@ TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
 TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
   const char* const name = "18_calibrate_and_inspect.json";
   const TemporaryFolder folder;
+  fs::copy(example("18_stand.stl"), folder / "18_stand.stl");
   const std::uint16_t port = free_port();
   write_wire_plan(folder / "plan.json", port, "ippdme", name);
   json plan = json::parse(read(folder / "plan.json"));

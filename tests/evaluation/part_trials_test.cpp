@@ -321,7 +321,7 @@ TEST(PartTrials, AScaleErrorIsThatOfTheQualificationToo) {
   }
   const std::vector<TrialQuestion> questions = {question_of({0}, gg_of(0), part.measured()),
                                                 question_of({1}, gg_of(1), part.measured())};
-  const auto spread = [&](const std::vector<Vector3d>& reference) {
+  const auto spread = [&](const ReferenceTouches& reference) {
     const auto found =
         PartTrials(part.surfaces(influences), reference, options_of(20'000)).answers(questions);
     return std::pair(uncertainty_um(found[0]), uncertainty_um(found[1]));
@@ -329,10 +329,20 @@ TEST(PartTrials, AScaleErrorIsThatOfTheQualificationToo) {
   // The radius of the part takes x and y by half each; the tip takes all three by a third each,
   // or as the touches of the sphere weigh them. Independent scales: squares add.
   const auto sphere = reference_touches(12.5 + kBall);
-  const auto [shaft, bore] = spread(sphere);
+  const auto [shaft, bore] = spread({sphere});
   const auto [shaft_alone, bore_alone] = spread({});
   EXPECT_NEAR(shaft_alone, 1e-2 * 2.0 * 13.5 * std::sqrt(0.5), 0.02 * 0.19);
   EXPECT_NEAR(bore_alone, 1e-2 * 2.0 * 11.5 * std::sqrt(0.5), 0.02 * 0.16);
+  // A column of the size of the shaft takes x and y as the shaft does.
+  ReferenceTouches column{{}, true};
+  for (int i = 0; i < 24; ++i) {
+    const double angle = i * core::kTwoPi / 8.0;
+    column.tips_mm.emplace_back(300.0 + 13.5 * std::cos(angle), 13.5 * std::sin(angle),
+                                10.0 * (i / 8));
+  }
+  const auto [shaft_by_column, bore_by_column] = spread(column);
+  EXPECT_LT(shaft_by_column, 0.002);
+  EXPECT_NEAR(bore_by_column, 1e-2 * (11.5 + 13.5) * std::sqrt(2.0), 0.02 * 0.35);
   // Weights of the fit of the sphere, by brute force: the radius with one scale stretched.
   std::array<double, 3> weight{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

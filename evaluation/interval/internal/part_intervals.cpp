@@ -114,9 +114,10 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
     options = declared->options;
     whole = declared->spectrum.has_value();
   }
-  std::vector<Eigen::Vector3d> reference;
+  ReferenceTouches reference{{}, probe && probe->column_axis.squaredNorm() > 0.0};
   for (const record::Touch& touch : record.touches) {
-    if (touch.purpose == record::Touch::Purpose::kQualification) reference.push_back(touch.tip_mm);
+    if (touch.purpose == record::Touch::Purpose::kQualification)
+      reference.tips_mm.push_back(touch.tip_mm);
   }
   std::vector<TrialQuestion> asked;
   std::vector<std::size_t> places;
@@ -142,7 +143,7 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
     asked.push_back(std::move(trial));
   }
   if (asked.empty()) return out;
-  const PartTrials trials(std::move(surfaces), std::move(reference), options);
+  const PartTrials trials(std::move(surfaces), reference, options);
   std::vector<TrialAnswer> answers = trials.answers(asked);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     PartInterval& interval = out[places[k]];

@@ -8,6 +8,7 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/analyses/internal/series_file.h"
+#include "plans/checks/internal/bodies.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/schema/json_text.h"
 #include "record/tasks/run.h"
@@ -138,6 +139,7 @@ std::vector<record::Setting> fixture_settings(const Plan& plan,
       out.setting_uncertainty_deg = fixture.reached_pose->setting_uncertainty_deg;
     }
   }
+  if (const std::string files = body_files(plan); !files.empty()) out.bodies = files;
   if (fixture.calibration) {
     out.max_age_days = fixture.calibration->max_age_days;
     out.max_residual_um = fixture.calibration->max_residual_um;

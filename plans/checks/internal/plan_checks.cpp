@@ -302,6 +302,7 @@ void check_equipment(const Plan& plan, Findings& findings) {
   check_drivers(plan, findings);
   check_environment(plan, findings);
   if (plan.probe) check_stylus(*plan.probe, findings);
+  check_qualification(plan, findings);
   check_sections(plan.part, findings);
   if (turns) {
     check_datum(*plan.fixture, findings);

@@ -18,6 +18,10 @@ void check_plan(const Plan& plan, Findings& findings);
 /// Checks travel, resolution, temperature limits, and everything that touched features need.
 void check_equipment(const Plan& plan, Findings& findings);
 
+/// Checks the keys of the sphere or column that qualifies the probe, and that a column can vouch
+/// for what is touched.
+void check_qualification(const Plan& plan, Findings& findings);
+
 /// Makes "fixed" the fixture of a plan that leaves it out and touches surfaces. With it the part
 /// stands where `part` says, what holds it takes the place of the clamping ring, and start-pose is
 /// the default of the pose search.

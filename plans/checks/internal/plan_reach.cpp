@@ -50,6 +50,34 @@ core::Result<void> check_park(const Plan& plan, double highest_mm) {
       "/machine/park_mm");
 }
 
+/// Centres of balls of its radius, and 1 mm more for a column, that together contain what the probe
+/// is qualified on.
+std::vector<Eigen::Vector3d> places_of_artefact(const Plan& plan) {
+  constexpr double kStep_mm = 2.0;
+  const QualificationPlan& q = plan.probe->qualification;
+  const Eigen::Vector3d place = vector3(q.place_mm());
+  if (!q.on_column()) return {place};
+  std::vector<Eigen::Vector3d> out;
+  const double foot_mm = std::min(plan.fixture->table_height_mm - place.z(), q.column_from_mm);
+  for (double height_mm = q.column_to_mm; height_mm > foot_mm - kStep_mm; height_mm -= kStep_mm) {
+    out.emplace_back(place + height_mm * Eigen::Vector3d::UnitZ());
+  }
+  return out;
+}
+
+double radius_of_artefact(const QualificationPlan& q) {
+  return 0.5 * q.diameter_mm() + (q.on_column() ? 1.0 : 0.0);
+}
+
+std::string name_of_artefact(const QualificationPlan& q) {
+  return q.on_column() ? "the reference column" : "the reference sphere";
+}
+
+std::string pointer_of_artefact(const QualificationPlan& q) {
+  return fmt::format("/probe/qualification/{}",
+                     q.on_column() ? "column_point_mm" : "sphere_center_mm");
+}
+
 }  // namespace
 
 core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_t index) {
@@ -75,19 +103,22 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
 
 core::Result<void> check_room_at(const Plan& plan, const Eigen::Isometry3d& X_WP) {
   const QualificationPlan& q = plan.probe->qualification;
-  const double radius_mm = 0.5 * q.sphere_diameter_mm;
-  const Eigen::Vector3d sphere = X_WP.inverse() * vector3(q.sphere_center_mm);
+  const double radius_mm = radius_of_artefact(q);
+  std::vector<Eigen::Vector3d> places = places_of_artefact(plan);
+  for (Eigen::Vector3d& place : places) place = X_WP.inverse() * place;
   const double up = X_WP.linear()(2, 2);
-  double highest_mm = q.sphere_center_mm[2] + radius_mm;
+  double highest_mm = q.place_mm()[2] + q.top_mm();
   double apart_mm = std::numeric_limits<double>::infinity();
   const auto add = [&](double from_mm, double to_mm, double outer_mm) {
     const double top_mm = std::max(up * from_mm, up * to_mm) +
                           outer_mm * std::sqrt(std::max(0.0, 1.0 - up * up)) +
                           plan.part.location_uncertainty_mm;
     highest_mm = std::max(highest_mm, X_WP.translation().z() + top_mm);
-    const double along_mm = std::max({0.0, from_mm - sphere.z(), sphere.z() - to_mm});
-    const double beside_mm = std::max(0.0, sphere.head<2>().norm() - outer_mm);
-    apart_mm = std::min(apart_mm, std::hypot(along_mm, beside_mm));
+    for (const Eigen::Vector3d& place : places) {
+      const double along_mm = std::max({0.0, from_mm - place.z(), place.z() - to_mm});
+      const double beside_mm = std::max(0.0, place.head<2>().norm() - outer_mm);
+      apart_mm = std::min(apart_mm, std::hypot(along_mm, beside_mm));
+    }
   };
   for (const FeaturePlan& feature : plan.features) {
     if (!is_touched(feature)) continue;
@@ -95,22 +126,27 @@ core::Result<void> check_room_at(const Plan& plan, const Eigen::Isometry3d& X_WP
     add(piece.from_mm(), piece.to_mm(), piece.radius_mm());
   }
   for (const SectionPlan& s : plan.part.sections) add(s.from_mm, s.to_mm, 0.5 * s.diameter_mm);
+  for (const BodyPlan& body : plan.fixture->bodies) {
+    const bool on_part = body.frame == BodyPlan::Frame::kPart;
+    for (const Eigen::Vector3d& corner : corners_of(body))
+      highest_mm = std::max(highest_mm, on_part ? (X_WP * corner).z() : corner.z());
+  }
   if (const auto& held = plan.part.held) add(held->from_mm, held->to_mm, 0.5 * held->diameter_mm);
   TRY_DO(check_park(plan, highest_mm));
   const double needed_mm = radius_mm + plan.probe->tip_diameter_mm + plan.machine->approach_mm +
                            plan.machine->clearance_mm + plan.part.location_uncertainty_mm;
   if (apart_mm >= needed_mm) return {};
   return core::fail(core::Code::kUnreachable,
-                    fmt::format("the centre of the reference sphere is {:.3f} mm from the part or "
-                                "what holds it, {:.3f} mm are needed; move it away",
-                                apart_mm, needed_mm),
-                    "/probe/qualification/sphere_center_mm");
+                    fmt::format("the centre of {} is {:.3f} mm from the part or what holds it, "
+                                "{:.3f} mm are needed; move it away",
+                                name_of_artefact(q), apart_mm, needed_mm),
+                    pointer_of_artefact(q));
 }
 
 core::Result<void> check_room(const Plan& plan) {
   const FixturePlan& fixture = *plan.fixture;
   if (is_fixed(plan)) return check_room_at(plan, standing_part(fixture));
-  const QualificationPlan& sphere = plan.probe->qualification;
+  const QualificationPlan& q = plan.probe->qualification;
   // Ball about the base-fixed axis that contains the part in every pose of the fixture.
   double reach_mm = 0.0;
   for (const FeaturePlan& feature : plan.features) {
@@ -131,12 +167,11 @@ core::Result<void> check_room(const Plan& plan) {
                                         feature.rotary_axes->uncertainty_mm);
     }
   }
-  double top_of_spheres_mm = sphere.sphere_center_mm[2] + 0.5 * sphere.sphere_diameter_mm;
+  double highest_mm = q.place_mm()[2] + q.top_mm();
   if (const auto& datum = fixture.datum) {
     for (const DatumSpherePlan& of : datum->spheres) {
-      top_of_spheres_mm =
-          std::max(top_of_spheres_mm,
-                   of.center_mm[2] + 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
+      highest_mm = std::max(
+          highest_mm, of.center_mm[2] + 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
     }
   }
   if (const auto& on_ring = fixture.reached_pose) {
@@ -145,22 +180,32 @@ core::Result<void> check_room(const Plan& plan) {
           std::max(reach_mm, vector3(of.center_mm).norm() + 0.5 * on_ring->sphere_diameter_mm);
     }
   }
+  for (const BodyPlan& body : fixture.bodies) {
+    for (const Eigen::Vector3d& corner : corners_of(body)) {
+      if (body.frame == BodyPlan::Frame::kBase) {
+        highest_mm = std::max(highest_mm, corner.z());
+      } else {
+        reach_mm = std::max(reach_mm, corner.norm());
+      }
+    }
+  }
   reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
               plan.part.location_uncertainty_mm;
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
   const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
-  const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
-  TRY_DO(check_park(plan, std::max(axis.z() + reach_mm, top_of_spheres_mm)));
-  const double apart_mm = (center - axis).norm();
+  TRY_DO(check_park(plan, std::max(axis.z() + reach_mm, highest_mm)));
+  double apart_mm = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& place : places_of_artefact(plan))
+    apart_mm = std::min(apart_mm, (place - axis).norm());
   const double needed_mm =
-      reach_mm + 0.5 * sphere.sphere_diameter_mm + 2.0 * tip_mm + plan.machine->approach_mm;
+      reach_mm + radius_of_artefact(q) + 2.0 * tip_mm + plan.machine->approach_mm;
   if (apart_mm < needed_mm) {
     return core::fail(
         core::Code::kUnreachable,
-        fmt::format("the reference sphere stands {:.3f} mm from the fixture's axis, the part "
-                    "can sweep it below {:.3f} mm; move it away",
-                    apart_mm, needed_mm),
-        "/probe/qualification/sphere_center_mm");
+        fmt::format("{} stands {:.3f} mm from the fixture's axis, the part can sweep it below "
+                    "{:.3f} mm; move it away",
+                    name_of_artefact(q), apart_mm, needed_mm),
+        pointer_of_artefact(q));
   }
   return {};
 }

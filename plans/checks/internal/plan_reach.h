@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "core/result.h"
 #include "plans/path/sampling.h"
 #include "plans/plan.h"

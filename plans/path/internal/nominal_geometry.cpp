@@ -8,6 +8,7 @@
 #include "cmm/simulated/part_surface.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
+#include "plans/path/solid_mesh.h"
 
 namespace rondure::plans {
 namespace {
@@ -25,6 +26,34 @@ Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {
   X_BP.translation() = vector3(fixture.part_position_mm);
   X_BP.linear() = fixture::turn_of_part(vector3(fixture.part_axis));
   return X_BP;
+}
+
+Eigen::Isometry3d placed_body(const BodyPlan& body) {
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.translation() = vector3(body.position_mm);
+  const Eigen::Vector3d turn_rad = vector3(body.rotation_deg) * core::kDegree;
+  out.rotate(Eigen::AngleAxisd(turn_rad.z(), Eigen::Vector3d::UnitZ()));
+  out.rotate(Eigen::AngleAxisd(turn_rad.y(), Eigen::Vector3d::UnitY()));
+  out.rotate(Eigen::AngleAxisd(turn_rad.x(), Eigen::Vector3d::UnitX()));
+  return out;
+}
+
+std::vector<Eigen::Vector3d> corners_of(const BodyPlan& body) {
+  std::vector<Eigen::Vector3d> out;
+  if (body.mesh) {
+    out = body.mesh->points_mm();
+  } else {
+    constexpr int kSides = 16;
+    const double corner_mm = 0.5 * body.diameter_mm / std::cos(core::kTwoPi / (2 * kSides));
+    for (int k = 0; k < kSides; ++k) {
+      const double theta_rad = core::kTwoPi * k / kSides;
+      for (const double z : {body.from_mm, body.to_mm})
+        out.emplace_back(corner_mm * std::cos(theta_rad), corner_mm * std::sin(theta_rad), z);
+    }
+  }
+  const Eigen::Isometry3d in_frame = placed_body(body);
+  for (Eigen::Vector3d& corner : out) corner = in_frame * corner;
+  return out;
 }
 
 Eigen::Isometry3d standing_part(const FixturePlan& fixture) {

@@ -30,6 +30,12 @@ namespace rondure::plans {
 /// The position of the part in the clamping ring as stated in the plan: X_BP.
 [[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
 
+/// A body of the plan in its frame.
+[[nodiscard]] Eigen::Isometry3d placed_body(const BodyPlan& body);
+
+/// Corners, in its frame, whose convex hull contains a body.
+[[nodiscard]] std::vector<Eigen::Vector3d> corners_of(const BodyPlan& body);
+
 /// Where the plan has a part without a fixture: X_WP.
 [[nodiscard]] Eigen::Isometry3d standing_part(const FixturePlan& fixture);
 

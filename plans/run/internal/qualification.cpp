@@ -13,6 +13,13 @@
 namespace rondure::plans {
 namespace {
 
+constexpr double kMostLean_deg = 2.0;
+
+/// What the probe is qualified on, for messages.
+const char* name_of(const QualificationPlan& plan) {
+  return plan.on_column() ? "reference column" : "reference sphere";
+}
+
 core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan) {
   const double nominal = 0.5 * plan.tip_diameter_mm;
   const QualificationPlan& limits = plan.qualification;
@@ -21,8 +28,15 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
     return core::fail_with(
         core::Code::kCalibration,
         "effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than {:g} um: "
-        "check tip_diameter_mm and the certified sphere diameter",
-        tip.radius_mm, nominal, limits.radius_tolerance_um);
+        "check tip_diameter_mm and the certified diameter of the {}",
+        tip.radius_mm, nominal, limits.radius_tolerance_um, name_of(limits));
+  }
+  const double lean_deg = std::acos(std::min(1.0, std::abs(tip.column_axis.z()))) / core::kDegree;
+  if (limits.on_column() && lean_deg > kMostLean_deg) {
+    return core::fail_with(core::Code::kCalibration,
+                           "the reference column leans {:.2f} deg, the limit is {:g} deg: set it "
+                           "upright",
+                           lean_deg, kMostLean_deg);
   }
   if (tip.form_mm > limits.form_limit_um * core::kMicrometre) {
     return core::fail_with(core::Code::kCalibration,
@@ -161,17 +175,75 @@ core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& featu
   return {};
 }
 
+namespace {
+
+/// Steps around a column, from its upper height down: along a polygon that keeps the distance of
+/// the pre-touch points, then straight down beside the column.
+core::Result<std::vector<TouchStep>> column_steps(const Plan& plan) {
+  const QualificationPlan& q = plan.probe->qualification;
+  const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
+  const double reach_mm = 0.5 * q.column_diameter_mm + tip_mm;
+  const double apart_mm = reach_mm + plan.machine->approach_mm;
+  const double step_rad = core::kTwoPi / q.points_per_height;
+  const auto at = [&](double radius_mm, double angle_rad, double height_mm) {
+    return Eigen::Vector3d(vector3(q.column_point_mm) +
+                           Eigen::Vector3d(radius_mm * std::cos(angle_rad),
+                                           radius_mm * std::sin(angle_rad), height_mm));
+  };
+  std::vector<TouchStep> steps;
+  for (int k = q.heights - 1; k >= 0; --k) {
+    const double height_mm =
+        q.column_from_mm + (q.column_to_mm - q.column_from_mm) * (k + 0.5) / q.heights;
+    for (int i = 0; i < q.points_per_height; ++i) {
+      const double angle_rad = i * step_rad;
+      const Eigen::Vector3d before = at(apart_mm, angle_rad, height_mm);
+      TouchStep step;
+      step.command.direction_W = -at(1.0, angle_rad, 0.0) + vector3(q.column_point_mm);
+      step.command.expected_tip_W_mm = at(reach_mm, angle_rad, height_mm);
+      step.command.approach_mm = plan.machine->approach_mm;
+      step.command.search_mm = plan.machine->search_mm;
+      step.row.purpose = record::Touch::Purpose::kQualification;
+      step.row.layer = k;
+      step.row.point = static_cast<int>(steps.size());
+      step.entry_W = {{before.x(), before.y(), std::max(before.z(), plan.machine->park_mm[2])},
+                      before};
+      step.way_W = step.entry_W;
+      if (!steps.empty()) {
+        const Eigen::Vector3d last = steps.back().way_W.back();
+        Eigen::Vector3d corner =
+            at(apart_mm / std::cos(0.5 * step_rad), angle_rad - 0.5 * step_rad, 0.0);
+        corner.z() = last.z();
+        step.way_W = {last, corner, {before.x(), before.y(), last.z()}};
+        if (i == 0) step.way_W.push_back(before);
+      }
+      steps.push_back(std::move(step));
+    }
+  }
+  return steps;
+}
+
+}  // namespace
+
 core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
-  const QualificationPlan& sphere = plan.probe->qualification;
-  return sphere_steps(plan, {vector3(sphere.sphere_center_mm), 0.5 * sphere.sphere_diameter_mm,
-                             sphere.points, 0.0});
+  const QualificationPlan& q = plan.probe->qualification;
+  TRY(auto steps, q.on_column() ? column_steps(plan)
+                                : sphere_steps(plan, {vector3(q.sphere_center_mm),
+                                                      0.5 * q.sphere_diameter_mm, q.points, 0.0}));
+  // check_room() keeps everything else away from it.
+  if (!plan.fixture->bodies.empty()) {
+    const auto X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
+    TRY_DO(check_sphere_steps(plan, plan.features.front(), X_WB, q.place_mm(), 0.0, steps,
+                              name_of(q)));
+  }
+  return steps;
 }
 
 core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
+  const QualificationPlan& q = context.plan.probe->qualification;
   TRY(const auto steps, qualification_steps(context.plan));
-  TRY(const auto tips, touch_sphere_steps(context, steps, "reference sphere"));
-  TRY(const auto tip,
-      fit::qualify_tip(tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm));
+  TRY(const auto tips, touch_sphere_steps(context, steps, name_of(q)));
+  TRY(const auto tip, q.on_column() ? fit::qualify_tip_on_column(tips, 0.5 * q.diameter_mm())
+                                    : fit::qualify_tip(tips, 0.5 * q.diameter_mm()));
   TRY_DO(check_limits(tip, *context.plan.probe));
   return tip;
 }

@@ -60,12 +60,13 @@ struct SphereToTouch {
                                                           const std::vector<Eigen::Vector3d>& tips,
                                                           const std::string& name);
 
-/// Steps that touch the reference sphere of the plan.
+/// Steps that touch the reference sphere or column of the plan. kUnreachable where a body of the
+/// plan is in the way.
 [[nodiscard]] core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan);
 
-/// Touches the reference sphere, journals the touches, and checks the effective tip radius and the
-/// probing form against the limits of the plan.
-/// @return kCalibration with value and limit when the probe exceeds a limit.
+/// Touches the reference sphere or column, journals the touches, and checks the effective tip
+/// radius, the probing form and the lean of a column against their limits.
+/// @return kCalibration with value and limit when one is exceeded.
 [[nodiscard]] core::Result<fit::ProbeTip> qualify_probe(RunContext& context);
 
 }  // namespace rondure::plans

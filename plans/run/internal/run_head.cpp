@@ -119,6 +119,12 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
 /// Settings of the whole run: the decision rule and the declared uncertainty, by their keys.
 std::vector<record::Setting> settings_of(const Plan& plan) {
   std::vector<record::Setting> out = record::settings_of_task(plan.decision_rule, "decision_rule/");
+  if (plan.probe && plan.probe->qualification.on_column()) {
+    const QualificationPlan& q = plan.probe->qualification;
+    append(record::settings_of_task(record::QualificationSettings{q.artefact, q.column_slope_deg},
+                                    "qualification/"),
+           out);
+  }
   if (plan.environment) {
     const EnvironmentPlan& environment = *plan.environment;
     append(record::settings_of_task(record::EnvironmentSettings{"limits", environment.assumed_degC,
@@ -157,11 +163,11 @@ record::Header header_of(const Plan& plan, const RunOptions& options, std::uint6
   return out;
 }
 
-/// The reference sphere; empty for a plan without a probe.
+/// What the probe is qualified on; empty for a plan without a probe.
 record::Artefact artefact_of(const Plan& plan) {
   if (!plan.probe) return {};
   const QualificationPlan& q = plan.probe->qualification;
-  return {0.5 * q.sphere_diameter_mm, 0.5 * plan.probe->tip_diameter_mm,
+  return {0.5 * q.diameter_mm(), 0.5 * plan.probe->tip_diameter_mm,
           q.radius_tolerance_um * core::kMicrometre, q.form_limit_um * core::kMicrometre};
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "plans/plan.h"
+#include "plans/schema/bodies_table.h"
 #include "plans/schema/contour_table.h"
 #include "plans/schema/five_axis_table.h"
 #include "plans/schema/internal/fixture_drivers_table.h"
@@ -245,6 +246,7 @@ void describe(Visitor& v, FixturePlan& p) {
                  "Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
                  "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
+  v.list("bodies", p.bodies, {.meaning = "What else paths keep clear of (docs/planning.md)."});
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base, touched before a run; axis_point_mm is then "
                        "in their base frame."});
@@ -261,6 +263,10 @@ void describe(Visitor& v, FixturePlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, QualificationPlan& p) {
+  v.text("artefact", p.artefact,
+         {.meaning =
+              "column: an upright certified cylinder, touched from its side; it says nothing of "
+              "approaches from above."});
   v.number("sphere_diameter_mm", p.sphere_diameter_mm,
            range(1.0, 200.0, "Certified diameter of the reference sphere."));
   v.numbers("sphere_center_mm", p.sphere_center_mm,
@@ -276,6 +282,17 @@ void describe(Visitor& v, QualificationPlan& p) {
       above(0.0, 1000.0, "Largest difference between the effective and the nominal tip radius."));
   v.number("stem_diameter_mm", p.stem_diameter_mm,
            range(0.0, 200.0, "Diameter of the stem below the sphere; 0: a third of the sphere's."));
+  v.number("column_diameter_mm", p.column_diameter_mm,
+           range(1.0, 500.0, "Certified diameter of the column. Needed with one."));
+  v.numbers("column_point_mm", p.column_point_mm,
+            within(kMaxCoordinate_mm, "A point of its axis, machine frame."));
+  v.number("column_from_mm", p.column_from_mm,
+           within(kMaxCoordinate_mm, "Lower end of what is touched, from that point up."));
+  v.number("column_to_mm", p.column_to_mm, within(kMaxCoordinate_mm, "Upper end of the column."));
+  v.whole("heights", p.heights, range(2, 20, "Of the touches, spread over the column."));
+  v.whole("points_per_height", p.points_per_height, range(6, 100, "Touches of each height."));
+  v.number("column_slope_deg", p.column_slope_deg,
+           range(0.0, 60.0, "What is approached more steeply is void."));
 }
 
 template <class Visitor>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,10 +17,11 @@ namespace rondure::record {
 /// Points of a format that states its columns, in the unit of the file.
 struct Cloud {
   std::vector<Eigen::Vector3d> points;
-  std::string read;                ///< "PLY, little endian, double x y z".
-  bool mesh = false;               ///< They are the vertices of triangles.
-  bool single = false;             ///< Stored with 32 bits.
-  std::optional<LengthUnit> unit;  ///< As the file states it.
+  std::vector<std::array<std::size_t, 3>> triangles = {};  ///< Of STL; numbers of their points.
+  std::string read;                                        ///< "PLY, little endian, double x y z".
+  bool mesh = false;                                       ///< They are the vertices of triangles.
+  bool single = false;                                     ///< Stored with 32 bits.
+  std::optional<LengthUnit> unit;                          ///< As the file states it.
 };
 
 /// The vertices of a PLY or STL file, or the points of a PCD file; nothing for another format. A
