@@ -11,6 +11,7 @@
 #include "cmm/simulated/part_surface.h"
 #include "core/round_values.h"
 #include "core/units.h"
+#include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/scene.h"
 
@@ -134,13 +135,15 @@ std::vector<DrawnShape> shapes_of(const Plan& plan, const ForecastStage& stage) 
                                : ball(at_artefact.translation(), 0.5 * q.sphere_diameter_mm),
                  "#c9d3dd", sphere});
   if (sphere) return out;
+  const FeaturePlan& feature = plan.features[static_cast<std::size_t>(stage.feature)];
+  const bool shows_part = is_touched(feature);
   for (const BodyPlan& body : fixture.bodies) {
+    if (body.frame == BodyPlan::Frame::kPart && !shows_part) continue;
     const Eigen::Isometry3d X_WF = frame_of(body.frame, fixture, stage.placement);
     DrawnShape drawn{corners_of(body), "#cfc8b8", true, body.mesh, X_WF * placed_body(body)};
     for (Vector3d& corner : drawn.points_W) corner = X_WF * corner;
     out.push_back(std::move(drawn));
   }
-  const FeaturePlan& feature = plan.features[static_cast<std::size_t>(stage.feature)];
   const Eigen::Isometry3d& X_WP = stage.placement.X_WP;
   if (fixture.ring_diameter_mm > 0.0 && fixture.clamp_from_mm < fixture.clamp_to_mm) {
     out.push_back({cylinder(stage.placement.X_WN, 0.5 * fixture.ring_diameter_mm,

@@ -141,7 +141,7 @@ Scene::Scene(const Plan& plan, const FeaturePlan& feature, const std::array<doub
   if (is_touched(feature)) add_part(plan, feature);
   add_cell(plan, feature);
   add_spheres(plan, feature, touched);
-  add_bodies(*plan.fixture);
+  add_bodies(*plan.fixture, is_touched(feature));
 }
 
 void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolved& shape) {
@@ -152,8 +152,10 @@ void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolve
   added.into_own.translation() = -origin_mm;
 }
 
-void Scene::add_bodies(const FixturePlan& fixture) {
+/// @param with_part  Whether the ring holds the part, not balls.
+void Scene::add_bodies(const FixturePlan& fixture, bool with_part) {
   for (const BodyPlan& body : fixture.bodies) {
+    if (body.frame == BodyPlan::Frame::kPart && !with_part) continue;
     const bool mesh = body.shape == BodyPlan::Shape::kMesh;
     Solid& added = solids_.emplace_back();
     added.body = mesh && body.frame == BodyPlan::Frame::kPart ? Body::kPartMesh : Body::kBody;

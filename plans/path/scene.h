@@ -123,7 +123,7 @@ class Scene {
 
   void add(Body body, Frame frame, const Eigen::Vector3d& origin_mm, const Revolved& shape);
   void add_part(const Plan& plan, const FeaturePlan& feature);
-  void add_bodies(const FixturePlan& fixture);
+  void add_bodies(const FixturePlan& fixture, bool with_part);
   void add_cell(const Plan& plan, const FeaturePlan& feature);
   void add_spheres(const Plan& plan, const FeaturePlan& feature,
                    const std::array<double, 3>* touched);

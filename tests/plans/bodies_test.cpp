@@ -223,6 +223,24 @@ TEST(Bodies, ThatAreThePartItselfStopNoTouch) {
               HasSubstr("to the part, body \"part\""));
 }
 
+TEST(Bodies, OfThePartAreNotThereWhileItsPlaceHoldsBalls) {
+  const record::Scratch scratch;
+  save(scratch / "part.stl", test::stl_text(cylinder_soup(25.0, -40.0, 40.0, 96)));
+  Json plan = Json::parse(testing::bytes_of(testing::example("18_calibrate_and_inspect.json")));
+  plan["fixture"]["bodies"] = Json::array({{{"id", "part"},
+                                            {"shape", "mesh"},
+                                            {"frame", "part"},
+                                            {"file", "part.stl"},
+                                            {"unit", "mm"}}});
+  const auto read = parse_plan(plan.dump(), scratch.path(), "plan.json");
+  ASSERT_TRUE(read) << lines_of(read);
+  const auto found = forecast(*read);
+  EXPECT_TRUE(found) << found.error().what;
+  plan["fixture"]["bodies"][0]["frame"] = "ring";
+  const auto ring = parse_plan(plan.dump(), scratch.path(), "plan.json");
+  EXPECT_FALSE(ring && forecast(*ring)) << "a ball stands within it";
+}
+
 TEST(Bodies, AreKeptAwayFromTheReferenceSphereAndBelowThePark) {
   const auto plan = with_bodies(Json::array({{{"id", "lamp"},
                                               {"shape", "box"},

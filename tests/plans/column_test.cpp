@@ -11,6 +11,7 @@
 #include "plans/forecast/forecast.h"
 #include "plans/run/internal/qualification.h"
 #include "plans/run/runner.h"
+#include "reports/html/report.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 
@@ -68,6 +69,9 @@ TEST(Column, GivesTheRadiusOfTheTipWhateverItsLean) {
     EXPECT_LT(found.probe->radius_sigma_mm, 2e-4);
     EXPECT_NEAR(std::acos(found.probe->column_axis.z()) * 180.0 / M_PI, lean_deg, 0.01);
     EXPECT_EQ(found.verdict, evaluation::Verdict::kConforms);
+    const std::string page = reports::write_html(run.record, found);
+    EXPECT_THAT(page, HasSubstr("Reference column"));
+    EXPECT_THAT(page, HasSubstr("° from upright"));
   }
   const ColumnRun run = run_on_column(leaning(2.5));
   ASSERT_TRUE(run.failure);

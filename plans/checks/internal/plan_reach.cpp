@@ -44,7 +44,7 @@ core::Result<void> check_park(const Plan& plan, double highest_mm) {
   if (plan.machine->park_mm[2] >= top_mm) return {};
   return core::fail(
       core::Code::kUnreachable,
-      fmt::format("park height {:g} mm is below {:.3f} mm, where part or reference sphere, "
+      fmt::format("park height {:g} mm is below {:.3f} mm, where all that stands there, "
                   "tip and clearance end; raise it",
                   plan.machine->park_mm[2], top_mm),
       "/machine/park_mm");
