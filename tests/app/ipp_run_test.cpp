@@ -289,8 +289,10 @@ TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
   part["features"].erase(0);
   part["fixture"].erase("calibration");
   write(folder / "part.json", part.dump());
-  const std::vector<std::string> resumed = {"run",  folder / "run", "--resume", "--archive",
-                                            "none", "--format",     "json"};
+  // With the plan, beside which its STL file is.
+  const std::vector<std::string> resumed = {"run",          folder / "plan.json", "--out",
+                                            folder / "run", "--resume",           "--archive",
+                                            "none",         "--format",           "json"};
   {
     const Simulator balls(port, "inf", name, "as-recorded");
     const Outcome alone = rondure({"run", folder / "plan.json", "--out", folder / "run",
@@ -298,7 +300,8 @@ TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
     EXPECT_EQ(alone.status, 3) << alone.out;
     EXPECT_THAT(alone.err, AllOf(HasSubstr("nobody can answer"),
                                  HasSubstr("clamp the part \"SP-50-80\" as the plan says"),
-                                 HasSubstr("to resume it after its last touch")));
+                                 HasSubstr("to resume it after its last touch: rondure run " +
+                                           (folder / "plan.json").string() + " --out ")));
     EXPECT_EQ(journal_of(folder / "run").decisions.back().message.code,
               core::MessageCode::kCalibrationTaken);
     OnTerminal asked(resumed);
