@@ -189,6 +189,9 @@ struct QualificationPlan {
   double column_slope_deg = record::QualificationSettings{}.column_slope_deg;
 
   [[nodiscard]] bool on_column() const { return artefact == record::ReferenceArtefact::kColumn; }
+  [[nodiscard]] const char* name() const {
+    return on_column() ? "reference column" : "reference sphere";
+  }
   /// Touches of the qualification.
   [[nodiscard]] int touches() const { return on_column() ? heights * points_per_height : points; }
   /// Where it stands: centre of the sphere, or point of the axis of the column.

@@ -33,11 +33,8 @@ bool archives_beside(const plans::Plan& plan) {
 bool needs_folder(const plans::Plan& plan, const RunArguments& arguments) {
   if (!arguments.plan_text.empty()) return false;  // its folder is the current one
   if (arguments.archive.empty() && archives_beside(plan)) return true;
-  if (plan.fixture && std::ranges::any_of(plan.fixture->bodies, [](const plans::BodyPlan& body) {
-        return body.shape == plans::BodyPlan::Shape::kMesh;
-      })) {
-    return true;
-  }
+  const auto of_file = [](const plans::BodyPlan& body) { return !body.file.empty(); };
+  if (plan.fixture && std::ranges::any_of(plan.fixture->bodies, of_file)) return true;
   return std::any_of(plan.features.begin(), plan.features.end(), [](const auto& feature) {
     return feature.source || plans::has_files(feature);
   });

@@ -19,7 +19,7 @@ constexpr std::size_t kFewStages = 4;  // identical stages in a row that are lis
 
 std::string feature_of(const plans::Plan& plan, const ForecastStage& stage) {
   if (stage.kind == ForecastStage::Kind::kBase) return "spheres of fixture";
-  return stage.feature < 0 ? "reference sphere"
+  return stage.feature < 0 ? plan.probe->qualification.name()
                            : plan.features[static_cast<std::size_t>(stage.feature)].id;
 }
 

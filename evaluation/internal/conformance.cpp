@@ -135,12 +135,13 @@ std::optional<core::Phrase> column_fault(const record::RunRecord& record,
       record::task_of<record::QualificationSettings>(record.settings, "qualification/");
   if (!said || said->artefact != record::ReferenceArtefact::kColumn) return std::nullopt;
   double steepest_1 = 0.0;
-  for (const record::Touch& touch : record.touches) {
-    if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose < 0) continue;
-    const record::PoseVisit& visit = record.poses[static_cast<std::size_t>(touch.pose)];
+  for (const record::PoseVisit& visit : record.poses) {
     const record::Feature& of = record.features[static_cast<std::size_t>(visit.feature)];
     if (!visit.final_cloud || of.id != result.feature.id) continue;
-    steepest_1 = std::max(steepest_1, std::abs(touch.approach.z()));
+    for (const record::Touch& touch : record.touches) {
+      if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose != visit.id) continue;
+      steepest_1 = std::max(steepest_1, std::abs(touch.approach.z()));
+    }
   }
   const double slope_deg = std::asin(std::min(1.0, steepest_1)) / core::kDegree;
   if (slope_deg <= said->column_slope_deg) return std::nullopt;

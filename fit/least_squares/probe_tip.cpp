@@ -14,7 +14,7 @@ namespace {
 /// How the distance from the surface changes with its place, its lean and its radius: a row for
 /// each touch, the radius last.
 Eigen::MatrixXd gradients(SpacePoints points, const ProbeTip& tip) {
-  const bool column = tip.column_axis.squaredNorm() > 0.0;
+  const bool column = tip.on_column();
   Eigen::MatrixXd out(static_cast<Eigen::Index>(points.size()), column ? 5 : 4);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d p = points[i] - tip.sphere_center_mm;
@@ -33,7 +33,7 @@ Eigen::MatrixXd gradients(SpacePoints points, const ProbeTip& tip) {
 void state_scatter(SpacePoints points, double rms_mm, ProbeTip& tip) {
   const Eigen::VectorXd weights = radius_weights(points, tip);
   const auto n = static_cast<double>(points.size());
-  const double unknowns = tip.column_axis.squaredNorm() > 0.0 ? 5.0 : 4.0;
+  const double unknowns = tip.on_column() ? 5.0 : 4.0;
   tip.radius_per_touch = weights.norm();
   tip.radius_sigma_mm = rms_mm * std::sqrt(n / (n - unknowns)) * tip.radius_per_touch;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 #include "core/result.h"
@@ -16,6 +18,12 @@ struct ProbeTip {
   double radius_per_touch = 0.0;  ///< The same for touches with standard deviation 1.
   double form_mm = 0.0;           ///< Probing form: peak to valley of the residuals.
   Eigen::Vector3d column_axis = Eigen::Vector3d::Zero();  ///< Unit vector; zero for a sphere.
+
+  [[nodiscard]] bool on_column() const { return column_axis.squaredNorm() > 0.0; }
+  /// Angle of the axis of a column to z; 0 for a sphere.
+  [[nodiscard]] double lean_rad() const {
+    return std::atan2(column_axis.head<2>().norm(), std::abs(column_axis.z()));
+  }
 };
 
 /// Determines the effective tip radius: fits a least-squares sphere to the tip centres and

@@ -278,7 +278,7 @@ std::string forecast_picture(const Plan& plan, const ForecastStage& stage) {
   const double height = kHead_px + kPanel_px + 50.0;
   const double bar = bar_mm(scale);
   const std::string name = stage.feature < 0
-                               ? "reference sphere"
+                               ? std::string(plan.probe->qualification.name())
                                : plan.features[static_cast<std::size_t>(stage.feature)].id;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "

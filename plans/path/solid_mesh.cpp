@@ -129,6 +129,9 @@ struct SolidMesh::Impl {
   Vector3d low_mm = Vector3d::Constant(std::numeric_limits<double>::infinity());
   Vector3d high_mm = -low_mm;
 
+  [[nodiscard]] double distance_mm(const Vector3d& p) const {
+    return std::sqrt(CGAL::to_double(tree.squared_distance(at(p))));
+  }
   /// Whether a piece of a sweep is nearer than `room_mm`.
   [[nodiscard]] bool nearer(const Sweep& s, double room_mm, int& asked) const {
     const Vector3d middle = s.start_mm + 0.5 * (s.along_mm + s.up_mm);
@@ -137,9 +140,9 @@ struct SolidMesh::Impl {
     const Vector3d outside = (low_mm - middle).cwiseMax(middle - high_mm).cwiseMax(0.0);
     if (outside.norm() > room_mm + half_mm) return false;
     if (++asked > kMostAsked) return true;
-    const double distance_mm = std::sqrt(CGAL::to_double(tree.squared_distance(at(middle))));
-    if (distance_mm > room_mm + half_mm) return false;
-    if (distance_mm <= room_mm || half_mm < kFine_mm) return true;
+    const double off_mm = distance_mm(middle);
+    if (off_mm > room_mm + half_mm) return false;
+    if (off_mm <= room_mm || half_mm < kFine_mm) return true;
     Sweep first = s;
     Sweep second = s;
     const bool along = s.along_mm.squaredNorm() >= s.up_mm.squaredNorm();
@@ -244,7 +247,7 @@ double SolidMesh::sag_mm() const {
 }
 
 double SolidMesh::distance_mm(const Vector3d& point_mm) const {
-  return std::sqrt(CGAL::to_double(impl_->tree.squared_distance(at(point_mm))));
+  return impl_->distance_mm(point_mm);
 }
 
 bool SolidMesh::meets(const Sweep& sweep, double room_mm) const {

@@ -68,7 +68,7 @@ Json fixture_json(const std::optional<evaluation::FixtureUse>& use) {
 Json probe_json(const std::optional<fit::ProbeTip>& probe) {
   if (!probe) return nullptr;
   Json out;
-  if (probe->column_axis.squaredNorm() > 0.0) {
+  if (probe->on_column()) {
     out = {{"column_point_mm", vector_json(probe->sphere_center_mm)},
            {"column_axis", vector_json(probe->column_axis)}};
   } else {

@@ -45,16 +45,15 @@ std::string decision_html(const record::Decision& decision) {
 
 std::string artefact_row(double radius_mm, const fit::ProbeTip& tip) {
   const Eigen::Vector3d& at = tip.sphere_center_mm;
-  if (tip.column_axis.squaredNorm() == 0.0) {
+  if (!tip.on_column()) {
     return property(tr("Reference sphere"),
                     trf("radius {} mm, found at ({}, {}, {}) mm", fixed(radius_mm, 6),
                         fixed(at.x(), 6), fixed(at.y(), 6), fixed(at.z(), 6)));
   }
-  const double lean_deg = std::acos(std::min(1.0, std::abs(tip.column_axis.z()))) / core::kDegree;
-  return property(
-      tr("Reference column"),
-      trf("radius {} mm, axis through ({}, {}, {}) mm, {}° from upright", fixed(radius_mm, 6),
-          fixed(at.x(), 6), fixed(at.y(), 6), fixed(at.z(), 6), fixed(lean_deg, 3)));
+  return property(tr("Reference column"),
+                  trf("radius {} mm, axis through ({}, {}, {}) mm, {}° from upright",
+                      fixed(radius_mm, 6), fixed(at.x(), 6), fixed(at.y(), 6), fixed(at.z(), 6),
+                      fixed(tip.lean_rad() / core::kDegree, 3)));
 }
 
 std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "record/points/points.h"
+#include "tests/record/sample_run.h"
 
 namespace rondure::plans::testing {
 
@@ -69,6 +71,25 @@ inline record::RunRecord journal_of(const std::filesystem::path& directory) {
   auto read = record::read_journal(directory);
   EXPECT_TRUE(read) << (read ? "" : read.error().what);
   return read ? std::move(read->record) : record::RunRecord();
+}
+
+/// A run in a folder that is not kept: what its journal holds, and why it did not finish.
+struct Ran {
+  std::optional<core::Error> failure;
+  record::RunRecord record;
+};
+
+/// Runs a plan; fails the test when it has problems or the run does not begin.
+inline Ran ran(const PlanOrProblems& plan) {
+  const record::Scratch scratch;
+  Ran out;
+  EXPECT_TRUE(plan) << lines_of(plan);
+  if (!plan) return out;
+  const auto run = run_plan(*plan, options_for(scratch / "run"));
+  EXPECT_TRUE(run) << (run ? "" : run.error().what);
+  if (run) out.failure = run->failure;
+  out.record = journal_of(scratch / "run");
+  return out;
 }
 
 }  // namespace rondure::plans::testing

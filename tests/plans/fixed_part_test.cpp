@@ -38,22 +38,12 @@ PlanOrProblems fixed_plan(const Json& patch = Json::object()) {
   return parse_plan(fixed_json(patch).dump(), "", "plan.json");
 }
 
-struct FixedRun {
-  std::optional<core::Error> failure;
-  record::RunRecord record;
+struct FixedRun : testing::Ran {
   std::size_t on_part = 0;  ///< Touches of the part.
 };
 
 FixedRun fixed_run(const Json& patch = Json::object()) {
-  const record::Scratch scratch;
-  FixedRun out;
-  const auto plan = fixed_plan(patch);
-  EXPECT_TRUE(plan) << lines_of(plan);
-  if (!plan) return out;
-  const auto done = run_plan(*plan, testing::options_for(scratch / "run"));
-  EXPECT_TRUE(done) << (done ? "" : done.error().what);
-  if (done) out.failure = done->failure;
-  out.record = testing::journal_of(scratch / "run");
+  FixedRun out{testing::ran(fixed_plan(patch))};
   out.on_part = static_cast<std::size_t>(
       std::count_if(out.record.touches.begin(), out.record.touches.end(),
                     [](const record::Touch& touch) { return touch.pose >= 0; }));

@@ -43,20 +43,9 @@ Plan plan_with_base(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
   return std::move(*plan);
 }
 
-struct Result {
-  std::optional<core::Error> failure;
-  record::RunRecord record;
-};
+using testing::Ran;
 
-Result run(const Plan& plan) {
-  const record::Scratch scratch;
-  Result out;
-  const auto run = run_plan(plan, options_for(scratch / "run"));
-  EXPECT_TRUE(run) << (run ? "" : run.error().what);
-  if (run) out.failure = run->failure;
-  out.record = record::read_journal(scratch / "run")->record;
-  return out;
-}
+Ran run(const Plan& plan) { return testing::ran(plan); }
 
 std::vector<std::vector<Vector3d>> base_touches(const record::RunRecord& record) {
   std::vector<std::vector<Vector3d>> out(3);
@@ -76,7 +65,7 @@ TEST(FixtureBase, IsRecoveredToANanometre) {
     const Vector3d offset(draw(1.0), draw(1.0), draw(1.0));
     const Vector3d rotation(draw(0.2), draw(0.2), draw(0.2));
     const Plan plan = plan_with_base(offset, rotation);
-    const Result result = run(plan);
+    const Ran result = run(plan);
     ASSERT_FALSE(result.failure) << result.failure->what;
     const auto found = fixture_base(plan, base_touches(result.record));
     ASSERT_TRUE(found) << found.error().what;
@@ -97,11 +86,11 @@ TEST(FixtureBase, BringsThePartUprightAndWithinTheFirstSearch) {
   // 1.4 mm and 0.5 deg off, far beyond what the location of the part may make good.
   Plan plan = plan_with_base({1.2, -0.7, 0.4}, {0.3, -0.4, 0.2});
   plan.part.location_uncertainty_mm = 0.3;
-  const Result with = run(plan);
+  const Ran with = run(plan);
   ASSERT_FALSE(with.failure) << with.failure->what;
   EXPECT_EQ(with.record.decisions.front().message.code, core::MessageCode::kFixtureBaseFound);
   plan.fixture->datum.reset();
-  const Result without = run(plan);
+  const Ran without = run(plan);
   ASSERT_TRUE(without.failure);
   EXPECT_EQ(without.failure->code, core::Code::kLocation) << without.failure->what;
 }

@@ -110,12 +110,9 @@ struct Row {
   }
 };
 
-/// The method gives 0.7 to 0.9 um and 7 to 12 urad, the range of a few fixtures: of 100 some noise
-/// is greater. All of these three, or 95 of 100; each less than a micrometre.
 int fixtures() { return std::getenv("RONDURE_FULL") != nullptr ? 100 : 3; }
 
 TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMethod) {
-  int beyond = 0;
   std::cout << "fixture  before rms  max um  after rms  max um  angle before  after urad\n";
   for (int seed = 1; seed <= fixtures(); ++seed) {
     SCOPED_TRACE(seed);
@@ -141,12 +138,9 @@ TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMe
         after.point_mm.rms() / kMicrometre, after.point_mm.largest / kMicrometre,
         before.angle_rad.rms() / kMicroradian, after.angle_rad.rms() / kMicroradian);
     EXPECT_GT(before.point_mm.rms(), 10.0 * kMicrometre);
-    EXPECT_LT(after.point_mm.rms(), 1.0 * kMicrometre);
-    const bool within =
-        after.point_mm.rms() <= 0.9 * kMicrometre && after.angle_rad.rms() <= 12.0 * kMicroradian;
-    beyond += within ? 0 : 1;
+    EXPECT_LE(after.point_mm.rms(), 0.9 * kMicrometre);
+    EXPECT_LE(after.angle_rad.rms(), 12.0 * kMicroradian);
   }
-  EXPECT_LE(beyond, fixtures() / 20);
 }
 
 TEST(FixtureCompensation, TheSplineOfTheFixtureIsThatOfTheFit) {

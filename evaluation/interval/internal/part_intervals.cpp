@@ -114,7 +114,7 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
     options = declared->options;
     whole = declared->spectrum.has_value();
   }
-  ReferenceTouches reference{{}, probe && probe->column_axis.squaredNorm() > 0.0};
+  ReferenceTouches reference{{}, probe && probe->on_column()};
   for (const record::Touch& touch : record.touches) {
     if (touch.purpose == record::Touch::Purpose::kQualification)
       reference.tips_mm.push_back(touch.tip_mm);

@@ -69,10 +69,6 @@ double radius_of_artefact(const QualificationPlan& q) {
   return 0.5 * q.diameter_mm() + (q.on_column() ? 1.0 : 0.0);
 }
 
-std::string name_of_artefact(const QualificationPlan& q) {
-  return q.on_column() ? "the reference column" : "the reference sphere";
-}
-
 std::string pointer_of_artefact(const QualificationPlan& q) {
   return fmt::format("/probe/qualification/{}",
                      q.on_column() ? "column_point_mm" : "sphere_center_mm");
@@ -137,9 +133,9 @@ core::Result<void> check_room_at(const Plan& plan, const Eigen::Isometry3d& X_WP
                            plan.machine->clearance_mm + plan.part.location_uncertainty_mm;
   if (apart_mm >= needed_mm) return {};
   return core::fail(core::Code::kUnreachable,
-                    fmt::format("the centre of {} is {:.3f} mm from the part or what holds it, "
+                    fmt::format("the centre of the {} is {:.3f} mm from the part or what holds it, "
                                 "{:.3f} mm are needed; move it away",
-                                name_of_artefact(q), apart_mm, needed_mm),
+                                q.name(), apart_mm, needed_mm),
                     pointer_of_artefact(q));
 }
 
@@ -202,9 +198,9 @@ core::Result<void> check_room(const Plan& plan) {
   if (apart_mm < needed_mm) {
     return core::fail(
         core::Code::kUnreachable,
-        fmt::format("{} stands {:.3f} mm from the fixture's axis, the part can sweep it below "
+        fmt::format("the {} stands {:.3f} mm from the fixture's axis, the part can sweep it below "
                     "{:.3f} mm; move it away",
-                    name_of_artefact(q), apart_mm, needed_mm),
+                    q.name(), apart_mm, needed_mm),
         pointer_of_artefact(q));
   }
   return {};

@@ -25,7 +25,8 @@ core::Result<fit::Registration> part_system(RunContext& context) {
   TRY(const auto steps, qualification_steps(context.plan));
   std::vector<Vector3d> in_part;
   std::vector<Vector3d> in_machine;
-  context.doing = "around the reference sphere, to read the part system of the control";
+  context.doing = fmt::format("around the {}, to read the part system of the control",
+                              context.plan.probe->qualification.name());
   for (const TouchStep& step : steps) {
     auto moved = context.follow(step.way_W);
     if (!moved && !context.retreating) return core::fail(moved.error());

@@ -15,11 +15,6 @@ namespace {
 
 constexpr double kMostLean_deg = 2.0;
 
-/// What the probe is qualified on, for messages.
-const char* name_of(const QualificationPlan& plan) {
-  return plan.on_column() ? "reference column" : "reference sphere";
-}
-
 core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan) {
   const double nominal = 0.5 * plan.tip_diameter_mm;
   const QualificationPlan& limits = plan.qualification;
@@ -29,10 +24,10 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
         core::Code::kCalibration,
         "effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than {:g} um: "
         "check tip_diameter_mm and the certified diameter of the {}",
-        tip.radius_mm, nominal, limits.radius_tolerance_um, name_of(limits));
+        tip.radius_mm, nominal, limits.radius_tolerance_um, limits.name());
   }
-  const double lean_deg = std::acos(std::min(1.0, std::abs(tip.column_axis.z()))) / core::kDegree;
-  if (limits.on_column() && lean_deg > kMostLean_deg) {
+  const double lean_deg = tip.lean_rad() / core::kDegree;
+  if (lean_deg > kMostLean_deg) {
     return core::fail_with(core::Code::kCalibration,
                            "the reference column leans {:.2f} deg, the limit is {:g} deg: set it "
                            "upright",
@@ -232,8 +227,8 @@ core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
   // check_room() keeps everything else away from it.
   if (!plan.fixture->bodies.empty()) {
     const auto X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
-    TRY_DO(check_sphere_steps(plan, plan.features.front(), X_WB, q.place_mm(), 0.0, steps,
-                              name_of(q)));
+    TRY_DO(
+        check_sphere_steps(plan, plan.features.front(), X_WB, q.place_mm(), 0.0, steps, q.name()));
   }
   return steps;
 }
@@ -241,7 +236,7 @@ core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
 core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   const QualificationPlan& q = context.plan.probe->qualification;
   TRY(const auto steps, qualification_steps(context.plan));
-  TRY(const auto tips, touch_sphere_steps(context, steps, name_of(q)));
+  TRY(const auto tips, touch_sphere_steps(context, steps, q.name()));
   TRY(const auto tip, q.on_column() ? fit::qualify_tip_on_column(tips, 0.5 * q.diameter_mm())
                                     : fit::qualify_tip(tips, 0.5 * q.diameter_mm()));
   TRY_DO(check_limits(tip, *context.plan.probe));
