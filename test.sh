@@ -6,8 +6,8 @@
 #   ./test.sh ROOM...              the tests of these rooms (./test.sh fit evaluation)
 #   ./test.sh --changed [COMMIT]   the tests of the rooms touched by uncommitted files and by the commits since COMMIT,
 #                                  and of the rooms above them; COMMIT: by default the last one that passed ./test.sh
-#   ./test.sh --sanitizers         all rooms under the address and undefined-behaviour sanitizers, but for what is named
-#                                  below
+#   ./test.sh --sanitizers         all rooms under the address and undefined-behaviour sanitizers, but for what
+#                                  tests/unsanitized.txt names
 #   ./test.sh --full               all rooms in release with the full counts behind the figures in docs/, the oracles of
 #                                  the fits and the judge of the intervals; then what runs in several threads under the
 #                                  thread sanitizer: the record that a run and its live page share, the live page, the
@@ -22,13 +22,8 @@ fi
 . .ci/packages.sh
 rooms="core fit wire record fixture cmm plans evaluation reports web app usb house benchmarks fuzz browser package"
 
-# Not run under the sanitizers: figures of many trials, what is held against the clock, and runs of the whole program that
-# take long; what these do, the tests of plans, record and reports do within one process.
-unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\."
-unsanitized+="|EveryFlippedByteIsTold|PlantedShafts|PlanVerb\\.(Proposes|SaysWhatLimits|Predicts)"
-unsanitized+="|FixedPart\\.BesideItsPlace|DrawingDatums\\.OfPerfect|WheelInterval\\.NoiseIsNoLoss|FilteredBelowTheCutOff"
-unsanitized+="|SpindleInterval\\.HasTheEnds|FiveAxis\\.(Reversed|ReadingsOf)|WheelRadiusFlow|KeptTrials"
-unsanitized+="|app\\.(Waiting\\.SaysNothing|Killed|SmallDisk|FullDisk|Resume|Watch|Language|HardPlan)"
+# Not run under the sanitizers.
+unsanitized=$(grep -v -e '^#' -e '^$' tests/unsanitized.txt | sed 's/\./\\./g' | paste -sd '|')
 
 usage() {
   sed -n '1,/^set /s/^#  \( .*\)/\1/p' test.sh
@@ -124,7 +119,7 @@ fi
 case "$mode" in
   --sanitizers)
     build asan ON all
-    echo "Not run under the sanitizers (figures of many trials, times, and long runs of the program):" "${unsanitized//\\/}"
+    echo "Not run under the sanitizers: tests/unsanitized.txt"
     exec ctest --preset asan -E "$unsanitized"
     ;;
   all | --full)

