@@ -112,6 +112,9 @@ std::optional<core::Error> explain_field(std::string_view field, std::string_vie
   const char* const end = digits.data() + digits.size();
   const auto [stop, problem] = std::from_chars(digits.data(), end, value);
   const bool whole = !digits.empty() && stop == end;
+  // Of a column without unit neither.
+  const std::string of_unit = unit.empty() ? "" : fmt::format(" {}", unit);
+  const std::string in_unit = unit.empty() ? "" : fmt::format(" in {}", unit);
   if (whole && problem == std::errc() && core::is_measurable(value)) return std::nullopt;
   if (whole && problem == std::errc::result_out_of_range) {
     return core::Error{core::Code::kNotFinite,
@@ -121,23 +124,23 @@ std::optional<core::Error> explain_field(std::string_view field, std::string_vie
   }
   if (whole && problem == std::errc() && std::isfinite(value)) {
     return core::Error{core::Code::kOutOfRange,
-                       fmt::format("{} is {} {}, beyond the limit of {:g} {} for any number; is it "
+                       fmt::format("{} is {}{}, beyond the limit of {:g}{} for any number; is it "
                                    "a mark for a missing value? Remove the row",
-                                   column, field, unit, core::kGreatestNumber, unit),
+                                   column, field, of_unit, core::kGreatestNumber, of_unit),
                        {}};
   }
   if (whole && problem == std::errc()) {
-    return core::Error{core::Code::kNotFinite,
-                       fmt::format("{} is {}; a finite number in {} is expected", column,
-                                   quoted_text(field), unit),
-                       {}};
+    return core::Error{
+        core::Code::kNotFinite,
+        fmt::format("{} is {}; a finite number{} is expected", column, quoted_text(field), in_unit),
+        {}};
   }
   if (field.empty()) {
     return syntax_error(
-        fmt::format("{} is empty; a number in {} such as 12.5 is expected", column, unit));
+        fmt::format("{} is empty; a number{} such as 12.5 is expected", column, in_unit));
   }
   return syntax_error(fmt::format(
-      "{} is {}; a number in {} such as 12.5 is expected{}", column, quoted_text(field), unit,
+      "{} is {}; a number{} such as 12.5 is expected{}", column, quoted_text(field), in_unit,
       field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
 }
 
