@@ -522,9 +522,9 @@ int main_of(int argc, char** argv) {
   add_verb(app, add_fit, fit_or_run, verbs);
   CLI::App& fit_verb = *app.get_subcommand("fit");
   add_verb(fit_verb, add_roundness, roundness, verbs);
-  add_verb(fit_verb, add_spindle, spindle, verbs);
-  add_verb(fit_verb, add_contour, contour, verbs);
-  add_verb(fit_verb, add_wheel, wheel, verbs);
+  add_verb(fit_verb, add_spindle, fit_analysis, verbs);
+  add_verb(fit_verb, add_contour, fit_analysis, verbs);
+  add_verb(fit_verb, add_wheel, fit_analysis, verbs);
   add_verb(fit_verb, add_rotary_axes, rotary_axes, verbs);
   add_verb(app, add_report, report, verbs);
   add_verb(app, add_verify, verify, verbs);

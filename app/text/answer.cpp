@@ -127,26 +127,6 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string why_no_interval(std::string_view shape) {
-  if (shape == "rotary-axes") {
-    return "u are standard uncertainties from the u of the balls; an interval needs the influences "
-           "that a plan declares: a feature of type rotary_axes with rotary_axes.uncertainty "
-           "(docs/fixture-calibration.md)";
-  }
-  return fmt::format(
-      "an interval needs the influences that a plan declares: a feature of type {0} with "
-      "{0}.uncertainty, as in plans/examples/16_four_analyses.json (docs/uncertainty.md)",
-      shape);
-}
-
-std::string no_interval_text(std::string_view shape) {
-  return wrapped(why_no_interval(shape), "  no interval is stated: ", "    ");
-}
-
-void add_no_interval(Json& found, std::string_view shape) {
-  found["no_interval_because"] = why_no_interval(shape);
-}
-
 int answer(const Json& found, bool as_json, const std::function<std::string()>& table) {
   if (const auto finite = check_finite(found); !finite) return refuse(finite.error());
   say(as_json ? found.dump(1) + "\n" : table());

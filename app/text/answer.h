@@ -50,14 +50,6 @@ enum Exit : int {
 /// A word of a command line, quoted for a shell if necessary.
 [[nodiscard]] std::string quoted(const std::string& word);
 
-/// Why a fit of an analysis states no coverage interval, and which plan gives one.
-/// @param shape  "spindle", "wheel", "contour" or "rotary-axes".
-[[nodiscard]] std::string why_no_interval(std::string_view shape);
-/// The same as the last lines of a table, and as the last key of a document
-/// (`no_interval_because`).
-[[nodiscard]] std::string no_interval_text(std::string_view shape);
-void add_no_interval(nlohmann::ordered_json& found, std::string_view shape);
-
 /// Prints a result, as JSON or as a table. If a number is not finite, only the error is printed.
 /// @return The exit status of the verb.
 [[nodiscard]] int answer(const nlohmann::ordered_json& found, bool as_json,

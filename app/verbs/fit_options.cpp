@@ -23,141 +23,31 @@ CLI::Option* add_list(CLI::App& verb, const char* name, std::vector<Value>& valu
       ->type_name(type);
 }
 
-void add_contour_files(CLI::App& verb, ContourArguments& arguments) {
-  constexpr const char* kFiles = "FILE,...";
-  add_list(verb, "--axes", arguments.axes,
-           "Traces of the control, one file a part; left out: f is t less the main journal",
-           kFiles);
-  add_list(verb, "--pin", arguments.pin, "Contours of the pins from the gauge, one file a part",
-           kFiles)
-      ->required();
-  add_list(verb, "--main", arguments.main,
-           "Contours of the neighbouring main journals, if measured", kFiles);
-  verb.add_option("--mapping", arguments.mapping, "JSON file that names the columns")
-      ->type_name("FILE");
-  verb.add_option("--column", arguments.columns,
-                  "One column: quantity=column[:unit[:sign]]; may be given several times")
+/// The keys of the plan, the questions, and where the result goes.
+void add_settings(CLI::App& verb, AnalysisArguments& a, const char* type, const char* forms) {
+  a.type = type;
+  verb.add_option("--set", a.settings,
+                  std::string("KEY=VALUE of the plan, may be given several times; KEY below ") +
+                      type +
+                      ",\nas uncertainty.point_um; behind a slash anywhere, as "
+                      "/decision_rule/rule")
       ->allow_extra_args(false)
-      ->type_name("TEXT");
-  verb.add_option("--curves", arguments.curves, "Writes t, f, n of all parts as CSV")
-      ->type_name("FILE");
-  verb.add_flag("--json", arguments.json, "JSON instead of text");
-}
-
-void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
-  using record::ContourTask;
-  ContourTask& task = arguments.task;
-  // An option of which -1 stands for a word of the plan.
-  const auto add_sign = [&](const char* name, auto& value, auto reversed, const char* meaning) {
-    verb.add_option_function<int>(
-            name,
-            [&value, reversed](int sign) {
-              if (sign < 0) value = reversed;
-            },
-            meaning)
-        ->check(CLI::IsMember({1, -1}));
-  };
-  verb.add_option("--crank-radius-mm", task.crank_radius_mm, "R (default: 49)");
-  verb.add_option("--wheel-radius-mm", task.wheel_radius_mm, "Rgw (default: 299.88)");
-  verb.add_option("--pin-radius-mm", task.pin_radius_mm, "r (default: 24.56)");
-  verb.add_option("--main-radius-mm", task.main_radius_mm, "Main journal (default: 30)");
-  verb.add_option("--cutoff-upr", task.cutoff_upr, "Gaussian low pass (default: 50)");
-  verb.add_option("--samples", task.samples, "Points of a contour (default: 1440)")
-      ->check(CLI::NonNegativeNumber);
-  verb.add_option("--phase-offset-deg", task.phase_offset_deg,
-                  "Gauge angle of the direction from the crankshaft's to the pin's axis");
-  verb.add_option("--main-phase-offset-deg", arguments.main_phase_offset_deg,
-                  "The same of the main journals (default: as the pins)");
-  add_sign("--gauge-direction", task.gauge, ContourTask::Gauge::kClockwise,
-           "1 (default), or -1: the gauge turns the other way");
-  add_sign("--c-direction", task.c_axis, ContourTask::CAxis::kAgainstWheel,
-           "1 (default), or -1: C turns the crank counter-clockwise under the wheel");
-  add_sign("--error-sign", task.error, ContourTask::Error::kCommandMinusActual,
-           "1 (default): actual minus command; -1: command minus actual, as a following error of "
-           "most controls");
-  add_words<ContourTask::BaseCircle>(verb, "--base", task.base_circle,
-                                     "Base circle: limacon (default) or geometric");
-  add_words<ContourTask::Method>(
-      verb, "--method", task.method,
-      "corrected (default), or as-published: each f is turned onto its t");
-  verb.add_flag_callback(
-      "--prefiltered", [&task] { task.filter = ContourTask::Filter::kDoneByGauge; },
-      "The gauge has filtered the contours");
-}
-
-void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {
-  using Layout = record::SpindleTask::Layout;
-  add_words<Layout>(verb, "--layout", a.task.layout, "published-a, published-b or reference",
-                    {Layout::kAngles});
-  verb.add_option("--p1-to-p2", a.task.p1_to_p2_deg,
-                  "deg from probe 1 to probe 2, against the rotation of the work");
-  verb.add_option("--p2-to-p3", a.task.p2_to_p3_deg, "deg from probe 2 to probe 3 (a difference)");
-  verb.add_option("--p1-to-p3", a.task.p1_to_p3_deg, "deg from probe 1 to probe 3 (cumulative)");
-  verb.add_option("--crank-radius", a.task.crank_radius_mm,
-                  "mm; the probes follow a crank pin (default: 0, an ordinary shaft)");
-  verb.add_option("--wheel-radius", a.task.wheel_radius_mm,
-                  "mm; the pivot of the arm is its centre");
-  verb.add_option("--pin-radius", a.task.pin_radius_mm, "mm; of the part that is measured");
-}
-
-void add_measuring(CLI::App& verb, WheelArguments& arguments) {
-  using record::WheelTask;
-  add_words<WheelTask::Mode>(
-      verb, "--mode", arguments.task.mode,
-      "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
-      "speed, points of the circle it sweeps. It decides what the result means")
-      ->required();
-  add_list(verb, "--axis-mm", arguments.axis_mm,
-           "Spindle axis (indexed): gives run-out and the effective radius", "X,Z")
-      ->expected(2);
-  verb.add_option("--nominal-radius-mm", arguments.task.nominal_radius_mm,
-                  "R must be within 5 % of it; also the path without compensation");
-  add_words<WheelTask::Center>(
-      verb, "--center", arguments.task.center,
-      "least-squares (default), or as-published: the mean of four-point centres");
-  verb.add_option("--seed", arguments.seed,
-                  "Of quadruples drawn of more than 20 points (default: 1)");
-  verb.add_option("--kappa-limit", arguments.task.kappa_limit,
-                  "Worst conditioning accepted (default: 5, or twice the best)");
-  verb.add_flag_callback(
-      "--robust", [&arguments] { arguments.task.robust = record::Switch::kOn; },
-      "Drop isolated points beyond 5 scales first");
-  verb.add_flag_callback(
-      "--override-arc", [&arguments] { arguments.task.short_arc = WheelTask::ShortArc::kAllowed; },
-      "Evaluate less than 20 deg, too");
-}
-
-void add_grinding(CLI::App& verb, WheelArguments& arguments) {
-  verb.add_option(
-      "--surface", arguments.surface,
-      "Surface z = f(x) to grind: polynomial:a0,a1,a2,... | asphere:R=120,K=-1,A4=2e-8\n"
-      "(c=1/mm for R; A2 to A20) | table:FILE.csv with the columns x,z (mm)");
-  verb.add_option("--removal", arguments.removal, "CSV x,depth_um: a depth to take off the surface")
-      ->type_name("FILE.csv");
-  add_list(verb, "--range-mm", arguments.range_mm, "Contacts from, to (default: the whole table)",
-           "X0,X1")
-      ->expected(2);
-  add_list(verb, "--surface-range-mm", arguments.surface_range_mm,
-           "Where the surface must not be cut into (default: the contacts)", "X0,X1")
-      ->expected(2);
-  verb.add_option("--step-mm", arguments.step_mm, "Step of x (default: 0.1)");
-  verb.add_option("--cusp-um", arguments.cusp_um, "Highest cusp between passes, for the step");
-  add_words<record::GroundSurfaceTask::Radius>(verb, "--radius", arguments.radius,
-                                               "Radius of the path: mean (default) or effective");
-  add_list(verb, "--wheel-arc-deg", arguments.wheel_arc_deg,
-           "Trued arc of the wheel about its lowest point", "A,B")
-      ->expected(2);
-  verb.add_option("--repeatability-um", arguments.repeatability_um,
-                  "Of the machine: limits the improvement (default: 0)");
-  verb.add_option("--touch-off-mm", arguments.touch_off_mm, "x of the touch-off (default: 0)");
-  verb.add_flag("--lowest-point", arguments.lowest_point,
-                "z of the wheel's lowest point in place of its centre");
-  verb.add_option("--path", arguments.path, "Writes the path as CSV")->type_name("FILE.csv");
-  verb.add_option("--gcode", arguments.gcode, "Writes the path as G-code")->type_name("FILE");
-  verb.add_option("--feed-mm-min", arguments.feed_mm_min, "Feed of the G-code (default: 100)")
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--retract-mm", arguments.retract_mm, "Above the path (default: 5)")
-      ->check(CLI::NonNegativeNumber);
+      ->type_name("KEY=VALUE");
+  verb.add_option("--ask", a.asked,
+                  std::string("FORM, or FORM=LIMIT in um, may be given several times:\n") + forms)
+      ->allow_extra_args(false)
+      ->type_name("FORM[=LIMIT]");
+  auto* const json = verb.add_flag("--json", a.json, "report.json of the run instead of text");
+  auto* const out = verb.add_option("--out", a.out,
+                                    "Run directory, absent or empty: with page, journal and "
+                                    "digests, that verify and\nsign take");
+  out->type_name("DIR")->excludes(json);
+  verb.add_option("--save-plan", a.save_plan,
+                  "Writes the plan of that run, to edit; without --out no run")
+      ->type_name("FILE")
+      ->excludes(json);
+  verb.add_option("--serial", a.serial, "Serial number of the part (with --out)")->needs(out);
+  verb.add_option("--operator", a.operator_name, "Who measures (with --out)")->needs(out);
 }
 
 /// Refuses what a page of one form does not show.
@@ -317,89 +207,62 @@ void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
       "Filters, formulas and end effects: docs/filters.md");
 }
 
-void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
+void add_spindle(CLI::App& fit_verb, AnalysisArguments& a) {
   auto* verb = fit_verb.add_subcommand(
       "spindle", "Separates the form of a part from the motion of its axis (three probes)");
-  verb->add_option("FILE", a.file,
+  verb->add_option("FILE", a.files,
                    "CSV with the columns alpha_deg,H1_um,H2_um,H3_um[,beta_deg]; alpha is not "
                    "wrapped")
-      ->required();
-  add_spindle_geometry(*verb, a);
-  verb->add_option("--samples", a.task.samples, "Of a revolution (default: 1024; 0: as recorded)");
-  verb->add_option("--highest-order", a.task.highest_order,
-                   "Highest harmonic recovered (default: 50)");
-  verb->add_option("--greatest-gain", a.task.greatest_gain,
-                   "Harmonics with a higher noise gain are not recovered (default: 100)");
-  verb->add_option("--probe-noise", a.task.probe_noise_um,
-                   "um, standard deviation of a reading (default: estimated)");
-  verb->add_option("--tip-width", a.task.tip_width_mm,
-                   "mm, diameter of tip or spot, taken out of the part (default: a point)");
-  add_words<record::SpindleTask::SecondOrder>(*verb, "--second-order", a.task.second_order,
-                                              "auto (default), on or off");
-  verb->add_option("--cutoff-upr", a.task.cutoff_upr,
-                   "Gaussian low pass of the profile (default: 50; 0: none)");
-  verb->add_flag_callback(
-      "--no-resampling", [&a] { a.task.resampling = record::Switch::kOff; },
-      "Readings count as uniform in the angle on the part; wrong for a crank pin");
-  verb->add_flag_callback(
-      "--as-published", [&a] { a.task.motion = record::SpindleTask::Motion::kAsPublished; },
-      "RY by the printed formula, which is wrong");
-  verb->add_flag("--inside", a.inside, "A bore: peaks point to the centre");
-  verb->add_flag("--json", a.json, "JSON instead of text");
+      ->required()
+      ->expected(1);
+  add_settings(*verb, a, "spindle",
+               "roundness, roundness-rms, motion-total, motion-synchronous (default: these),\n"
+               "motion-asynchronous");
   verb->footer(
-      "\nExample: rondure fit spindle tests/data/spindle_dynamic/readings.csv --layout reference "
-      "--crank-radius 49 --wheel-radius 299.88 --pin-radius 24.56\n"
-      "No interval is stated here: a plan with spindle.uncertainty gives it "
-      "(plans/examples/16_four_analyses.json).\n"
+      "\nExample: rondure fit spindle tests/data/spindle_dynamic/readings.csv \\\n"
+      "           --set layout=reference --set crank_radius_mm=49 --set wheel_radius_mm=299.88 \\\n"
+      "           --set pin_radius_mm=24.56\n"
       "Columns, keys and formulas: docs/spindle.md");
 }
 
-void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
+void add_contour(CLI::App& fit_verb, AnalysisArguments& a) {
+  constexpr const char* kFiles = "FILE,...";
   auto* verb = fit_verb.add_subcommand(
       "contour",
       "Crank pins in follow grinding: which share of the contour error follows the axes, and which "
       "share repeats");
-  add_contour_files(*verb, arguments);
-  add_contour_settings(*verb, arguments);
+  add_list(*verb, "--axes", a.axes,
+           "Traces of the control, one file a part; left out: f is t less the main journal",
+           kFiles);
+  add_list(*verb, "--pin", a.files, "Contours of the pins from the gauge, one file a part", kFiles)
+      ->required();
+  add_list(*verb, "--main", a.main, "Contours of the neighbouring main journals, if measured",
+           kFiles);
+  add_settings(*verb, a, "contour",
+               "contour-deviation, contour-spread (default: these), following-deviation");
   verb->footer(
-      "\nColumns without a mapping (CSV, a header line, a row a sample):\n"
+      "\nColumns (CSV, a header line, a row a sample); others by --set columns=[...]:\n"
       "  axes   c_deg, c_error_deg, x_error_mm: C position and the errors of both axes, with\n"
       "         d_cmd_mm, if recorded, to check crank, wheel and the zero of C; or\n"
       "         alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm: positions, 360 deg at least\n"
       "  pin, main   angle_deg, deviation_um: one turn, steps of at most 1 deg\n"
-      "Quantities of a mapping: c, c_error, x_error, alpha_cmd, d_cmd, alpha_act, d_act, angle,\n"
-      "deviation, main_angle, main_deviation. Units: deg, mdeg, arcsec, rad, mrad; mm, um, nm.\n"
-      "As a file: {\"columns\": {\"x_error\": {\"column\": \"X_FOLLOW\", \"unit\": \"um\", "
-      "\"sign\": "
-      "-1}}}\n"
-      "\nExample:\n"
-      "  rondure fit contour --axes tests/data/spec_contour/axes1.csv --pin "
-      "tests/data/spec_contour/pin1.csv --prefiltered\n"
-      "  rondure fit contour --axes a1.csv,a2.csv,a3.csv,a4.csv --pin p1.csv,p2.csv,p3.csv,p4.csv\n"
-      "      --column c_error=C_FOLLOW:mdeg:-1 --column x_error=X_FOLLOW:um:-1 "
-      "--phase-offset-deg 12.5\n"
-      "No interval is stated here: a plan with contour.uncertainty gives it\n"
-      "(plans/examples/16_four_analyses.json).\n"
-      "Method, columns, keys of the JSON: docs/contour.md");
+      "\nExample: rondure fit contour --axes tests/data/spec_contour/axes1.csv \\\n"
+      "           --pin tests/data/spec_contour/pin1.csv --set filter=done-by-gauge\n"
+      "Method, columns, keys: docs/contour.md");
 }
 
-void add_wheel(CLI::App& fit_verb, WheelArguments& arguments) {
+void add_wheel(CLI::App& fit_verb, AnalysisArguments& a) {
   auto* verb = fit_verb.add_subcommand(
       "wheel", "Centre, radius and run-out of a grinding wheel; path of its centre over a surface");
-  verb->add_option("FILE", arguments.file, "CSV with the columns x,z or x,y (mm), 8 points or more")
-      ->required();
-  add_measuring(*verb, arguments);
-  add_grinding(*verb, arguments);
-  verb->add_flag("--json", arguments.json, "JSON instead of text, with the whole path");
+  verb->add_option("FILE", a.files, "CSV with the columns x,z (mm), 8 points or more")
+      ->required()
+      ->expected(1);
+  add_settings(*verb, a, "wheel",
+               "roundness, radius, run-out (default: those that the keys allow)");
   verb->footer(
-      "\nExample: rondure fit wheel tests/data/spec_wheel/example1.csv --mode indexed "
-      "--axis-mm 12.02,-7 \\\n"
-      "           --nominal-radius-mm 50 --surface asphere:R=120,K=-1,A4=2e-8 --range-mm -40,40 "
-      "\\\n"
-      "           --cusp-um 0.1 --path path.csv --gcode path.nc\n"
-      "No interval is stated here: a plan with wheel.uncertainty gives it "
-      "(plans/examples/16_four_analyses.json).\n"
-      "Method, columns and JSON: docs/wheel.md");
+      "\nExample: rondure fit wheel tests/data/spec_wheel/example1.csv --set mode=indexed \\\n"
+      "           --set axis_x_mm=12.02 --set axis_z_mm=-7 --ask run-out\n"
+      "Method, columns and keys: docs/wheel.md");
 }
 
 void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& a) {

@@ -3,19 +3,14 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/text/terminal.h"
+#include "app/verbs/plan_in_memory.h"
 #include "app/verbs/verbs.h"
-#include "plans/schema/json_text.h"
-#include "plans/schema/utf8.h"
-#include "record/files.h"
 #include "record/tasks/form_facts.h"
 
 namespace rondure::app {
@@ -28,14 +23,6 @@ using Json = nlohmann::ordered_json;
 record::Form form_of(std::string_view shape) {
   if (shape == "cylinder") return record::Form::kCylindricity;
   return shape == "plane" ? record::Form::kFlatness : record::Form::kRoundness;
-}
-
-/// The points file as it is named in a plan that lies in this folder; empty: the current folder.
-std::string file_from(const std::string& file, const fs::path& folder) {
-  if (folder.empty() || fs::path(file).is_absolute()) return file;
-  std::error_code unknown;
-  const fs::path relative = fs::relative(file, folder, unknown);
-  return relative.empty() ? fs::absolute(file).string() : relative.string();
 }
 
 Json source_of(const FitArguments& arguments, const fs::path& folder) {
@@ -86,55 +73,28 @@ std::string place_name(const std::string& pointer) {
   return pointer.find("/source/columns") != std::string::npos ? "--columns" : pointer;
 }
 
-/// Checks that a plan can spell what names the points: JSON is UTF-8.
-core::Result<void> check_spelling(const FitArguments& arguments, const fs::path& folder) {
-  std::vector<std::pair<const char*, std::string>> names = {
-      {"FILE", file_from(arguments.file, folder)}, {"--feature", arguments.points.feature}};
-  for (const std::string& column : arguments.points.columns)
-    names.emplace_back("--columns", column);
-  for (const auto& [place, name] : names) {
-    const std::size_t at = plans::first_not_utf8(name);
-    if (at == name.size()) continue;
-    return core::fail(
-        core::Code::kBadOption,
-        fmt::format("{} contains {}, which is not UTF-8, so that no plan can name it; rename it",
-                    plans::in_quotes(name), plans::unshowable_in_words(name, at)),
-        place);
-  }
-  return {};
-}
-
 }  // namespace
 
 int fit_or_run(const FitArguments& arguments) {
   if (arguments.out.empty() && arguments.save_plan.empty()) return fit(arguments);
+  PlanInMemory plan;
+  plan.name = "fit " + arguments.shape;
+  plan.text = [&](const fs::path& folder) { return plan_text(arguments, folder); };
+  plan.place_name = place_name;
   const fs::path folder =
       arguments.save_plan.empty() ? fs::path() : fs::absolute(arguments.save_plan).parent_path();
-  if (auto good = check_spelling(arguments, folder); !good) return refuse(good.error());
+  plan.words = {{"FILE", file_from(arguments.file, folder)},
+                {"--feature", arguments.points.feature}};
+  for (const std::string& column : arguments.points.columns)
+    plan.words.emplace_back("--columns", column);
+  plan.out = arguments.out;
+  plan.save_plan = arguments.save_plan;
+  plan.serial = arguments.serial;
+  plan.operator_name = arguments.operator_name;
+  if (auto good = check_spelling(plan); !good) return refuse(good.error());
   // Before anything is written.
   if (auto points = load_points(arguments); !points) return refuse(points.error());
-  if (!arguments.save_plan.empty()) {
-    std::error_code unknown;
-    if (fs::exists(arguments.save_plan, unknown)) {
-      return refuse({core::Code::kFile, "the file exists; name another one, or remove it",
-                     arguments.save_plan});
-    }
-    if (auto saved = record::write_file(arguments.save_plan, plan_text(arguments, folder)); !saved)
-      return refuse(saved.error());
-    say_line(arguments.save_plan);
-    if (arguments.out.empty()) return kAllWell;
-  }
-  RunArguments run_arguments;
-  run_arguments.plan = arguments.save_plan;
-  if (arguments.save_plan.empty()) {
-    run_arguments.plan = "fit " + arguments.shape;
-    run_arguments.plan_text = plan_text(arguments, {});
-    run_arguments.place_name = place_name;
-  }
-  run_arguments.out = arguments.out;
-  run_arguments.serial = arguments.serial;
-  run_arguments.operator_name = arguments.operator_name;
-  return run(run_arguments);
+  return save_or_run(plan);
 }
 
 }  // namespace rondure::app

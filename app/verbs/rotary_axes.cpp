@@ -239,11 +239,16 @@ std::string axis_table(const RotaryAxisResult& result) {
   return out;
 }
 
+constexpr const char* kNoInterval =
+    "u are standard uncertainties from the u of the balls; an interval needs the influences that a "
+    "plan declares: a feature of type rotary_axes with rotary_axes.uncertainty "
+    "(docs/fixture-calibration.md)";
+
 nlohmann::ordered_json rotary_axes_json(std::span<const RotaryAxisResult> axes) {
   Json out;
   out["axes"] = Json::array();
   for (const RotaryAxisResult& result : axes) out["axes"].push_back(axis_json(result));
-  add_no_interval(out, "rotary-axes");
+  out["no_interval_because"] = kNoInterval;
   return out;
 }
 
@@ -253,7 +258,7 @@ std::string rotary_axes_table(std::span<const RotaryAxisResult> axes) {
     if (!out.empty()) out += '\n';
     out += axis_table(result);
   }
-  return out + no_interval_text("rotary-axes");
+  return out + wrapped(kNoInterval, "  no interval is stated: ", "    ");
 }
 
 /// One axis of the files.

@@ -12,9 +12,6 @@
 #include "record/archive/archive.h"
 #include "record/points/points.h"
 #include "record/report_words.h"
-#include "record/tasks/contour.h"
-#include "record/tasks/spindle.h"
-#include "record/tasks/wheel.h"
 
 namespace CLI {
 class App;
@@ -145,43 +142,23 @@ struct RoundnessArguments {
 };
 [[nodiscard]] int roundness(const RoundnessArguments& arguments);
 
-struct ContourArguments {
-  /// One file per part, also for `pin` and `main` (or no main at all).
-  std::vector<std::string> axes;
-  std::vector<std::string> pin;
-  std::vector<std::string> main;
-  std::string mapping;
-  std::vector<std::string> columns;
-  record::ContourTask task;
-  std::optional<double> main_phase_offset_deg;  ///< Absent: as of the pins.
-  std::string curves;                           ///< File for the curves; empty: none.
+/// A plan in memory: one feature of the type, its files and keys.
+struct AnalysisArguments {
+  std::string type;                   ///< "wheel", "spindle" or "contour".
+  std::vector<std::string> files;     ///< One; of a contour the gauge's, one a pin.
+  std::vector<std::string> axes;      ///< Of a contour, one a pin, or none.
+  std::vector<std::string> main;      ///< The same.
+  std::vector<std::string> settings;  ///< "KEY=VALUE" each.
+  std::vector<std::string> asked;     ///< "FORM" or "FORM=LIMIT" each; empty: the usual ones.
   bool json = false;
+  std::string out;        ///< Run directory; empty: the run leaves nothing behind.
+  std::string save_plan;  ///< File for the plan; empty: none.
+  std::string serial;
+  std::string operator_name;
 };
-[[nodiscard]] int contour(const ContourArguments& arguments);
-
-struct WheelArguments {
-  std::string file;
-  record::WheelTask task;       ///< Its mode must be given.
-  std::vector<double> axis_mm;  ///< x, z; empty: not known.
-  std::uint64_t seed = 1;
-  std::string surface;
-  std::string removal;
-  std::vector<double> range_mm;          ///< Contacts; empty: the table's range.
-  std::vector<double> surface_range_mm;  ///< Empty: the contacts.
-  double step_mm = record::GroundSurfaceTask().step_mm;
-  std::optional<double> cusp_um;
-  record::GroundSurfaceTask::Radius radius = record::GroundSurfaceTask().radius;
-  std::vector<double> wheel_arc_deg;
-  double repeatability_um = 0.0;
-  std::optional<double> touch_off_mm;
-  bool lowest_point = false;
-  double feed_mm_min = 100.0;
-  double retract_mm = 5.0;
-  std::string path;
-  std::string gcode;
-  bool json = false;
-};
-[[nodiscard]] int wheel(const WheelArguments& arguments);
+/// Evaluates the files as a run of that plan, and prints its summary or report.json, or writes the
+/// plan or the run.
+[[nodiscard]] int fit_analysis(const AnalysisArguments& arguments);
 
 struct RotaryAxesArguments {
   std::vector<std::string> files;
@@ -200,14 +177,6 @@ struct RotaryAxesArguments {
   bool json = false;
 };
 [[nodiscard]] int rotary_axes(const RotaryAxesArguments& arguments);
-
-struct SpindleArguments {
-  std::string file;
-  record::SpindleTask task;  ///< A cut-off of 0: no filter.
-  bool inside = false;
-  bool json = false;
-};
-[[nodiscard]] int spindle(const SpindleArguments& arguments);
 
 struct DesignArguments {
   fit::LayoutSearch search;                    ///< Its ranges come from the two members below.
@@ -246,9 +215,9 @@ struct ServerDeviceArguments {
 // The command line of `fit`, and of the verbs below it.
 void add_fit(CLI::App& app, FitArguments& arguments);
 void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments);
-void add_spindle(CLI::App& fit_verb, SpindleArguments& arguments);
-void add_contour(CLI::App& fit_verb, ContourArguments& arguments);
-void add_wheel(CLI::App& fit_verb, WheelArguments& arguments);
+void add_spindle(CLI::App& fit_verb, AnalysisArguments& arguments);
+void add_contour(CLI::App& fit_verb, AnalysisArguments& arguments);
+void add_wheel(CLI::App& fit_verb, AnalysisArguments& arguments);
 void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& arguments);
 
 }  // namespace rondure::app

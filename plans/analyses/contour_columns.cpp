@@ -87,7 +87,8 @@ core::Result<Values> read(std::string_view text, std::string_view name,
   std::vector<record::ColumnName> in_file;
   for (std::size_t i = 0; i < names.size(); ++i) {
     wanted.push_back({names[i], required});
-    in_file.push_back({names[i], name_in_file(quantities[i], columns)});
+    // Only a file whose columns are named may have others.
+    if (!columns.empty()) in_file.push_back({names[i], name_in_file(quantities[i], columns)});
   }
   TRY(const auto series, record::parse_series_csv(text, name, wanted, in_file));
   Values out;
@@ -174,8 +175,7 @@ core::Result<ContourTrace> read_trace(std::string_view text, std::string_view na
   if (!(alpha_cmd && d_cmd && alpha_act && d_act)) {
     return core::fail(
         Code::kMissingKey,
-        fmt::format("the file needs the columns {} or {}; name others with --column or "
-                    "--mapping, in a plan with contour.columns",
+        fmt::format("the file needs the columns {} or {}; name others with contour.columns",
                     list_of({Quantity::kC, Quantity::kCError, Quantity::kXError}, columns),
                     list_of({Quantity::kCommandedC, Quantity::kCommandedX, Quantity::kActualC,
                              Quantity::kActualX},

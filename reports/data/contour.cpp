@@ -207,24 +207,4 @@ Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOpt
   return out;
 }
 
-std::string contour_curves_csv(const fit::ContourStudy& study) {
-  std::string out = "beta_deg";
-  for (std::size_t i = 1; i <= study.parts.size(); ++i) {
-    out += fmt::format(",t{0}_um,f{0}_um,n{0}_um", i);
-    if (study.parts[i - 1].main) out += fmt::format(",main{}_um", i);
-  }
-  out += '\n';
-  const std::size_t count = study.parts.front().following.error_mm.size();
-  for (std::size_t m = 0; m < count; ++m) {
-    out += fmt::format("{:.10g}", 360.0 * static_cast<double>(m) / static_cast<double>(count));
-    for (const fit::ContourPartResult& part : study.parts) {
-      out += fmt::format(",{:.6f},{:.6f},{:.6f}", in_um(part.pin.contour.error_mm[m]),
-                         in_um(part.following.error_mm[m]), in_um(part.direct.rest_mm[m]));
-      if (part.main) out += fmt::format(",{:.6f}", in_um(part.main->contour.error_mm[m]));
-    }
-    out += '\n';
-  }
-  return out;
-}
-
 }  // namespace rondure::reports

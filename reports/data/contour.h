@@ -10,8 +10,8 @@
 
 namespace rondure::reports {
 
-/// A study of crank pins as JSON, keys in their published order (docs/contour.md): output of `fit
-/// contour`, and a contour feature in report.json.
+/// A study of crank pins as JSON, keys in their published order (docs/contour.md): a contour
+/// feature in report.json.
 /// @param names  One per part.
 [[nodiscard]] nlohmann::ordered_json contour_document(const fit::ContourStudy& study,
                                                       const fit::ContourStudyOptions& options,
@@ -23,9 +23,5 @@ namespace rondure::reports {
 /// Conclusions from the stability indices, one sentence each; below 4 parts one sentence that there
 /// are too few.
 [[nodiscard]] std::vector<core::Phrase> contour_verdicts(const fit::ContourStudy& study);
-
-/// The curves of all parts as CSV: beta_deg, then t, f, n (and the main journal) of each part in
-/// um.
-[[nodiscard]] std::string contour_curves_csv(const fit::ContourStudy& study);
 
 }  // namespace rondure::reports

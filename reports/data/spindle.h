@@ -6,7 +6,7 @@
 
 namespace rondure::reports {
 
-/// A separation as JSON, as report.json and `rondure fit spindle --json` have it.
+/// A separation as report.json has it.
 [[nodiscard]] nlohmann::ordered_json separation_json(const evaluation::SpindleResult& facts);
 
 }  // namespace rondure::reports

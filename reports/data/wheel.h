@@ -9,8 +9,7 @@
 
 namespace rondure::reports {
 
-/// A wheel evaluation with its settings and limits: the JSON of `rondure fit wheel` and of
-/// report.json (docs/wheel.md). A number that is not finite is written as null. Deviations, path
+/// A wheel evaluation with its settings and limits, in report.json (docs/wheel.md). A number that is not finite is written as null. Deviations, path
 /// and residual form are under "curves", one list per column.
 [[nodiscard]] nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
                                                 const fit::WheelTask& task);

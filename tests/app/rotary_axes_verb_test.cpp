@@ -95,6 +95,13 @@ TEST(FitRotaryAxes, FindsThePlantedFixtureWithinItsUncertainties) {
   }
 }
 
+TEST(FitRotaryAxes, SaysWhyThereIsNoIntervalAndWhichPlanGivesIt) {
+  const Outcome text = rondure({"fit", "rotary-axes", rotary_data("c_axis.csv")});
+  EXPECT_THAT(text.out, HasSubstr("no interval is stated: "));
+  EXPECT_THAT(found_in({rotary_data("c_axis.csv")}).at("no_interval_because").get<std::string>(),
+              HasSubstr("rotary_axes.uncertainty"));
+}
+
 TEST(FitRotaryAxes, TableFitsATerminal) {
   const Outcome outcome = rondure({"fit", "rotary-axes", rotary_data("fixture.csv"), "--origin",
                                    "250,180,320", "--at", "250,180,380"});

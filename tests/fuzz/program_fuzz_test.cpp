@@ -81,5 +81,40 @@ TEST(ProgramFuzz, NoDamagedFileUpsetsAPlan) {
   });
 }
 
+/// A file of an analysis, and the words of the command that reads it.
+struct SeriesDoor {
+  std::vector<std::string> tables;
+  std::vector<std::string> before;  ///< The file.
+  std::vector<std::string> behind = {};
+};
+
+TEST(ProgramFuzz, NoDamagedSeriesUpsetsAnAnalysis) {
+  const auto kept = [](const char* name, const std::string& text) {
+    app::testing::write(work_folder() / name, text);
+    return (work_folder() / name).string();
+  };
+  const std::string axes = kept("axes.csv", contour_tables().at(0));
+  const std::string pin = kept("pin.csv", contour_tables().at(1));
+  const std::vector<SeriesDoor> doors = {
+      {wheel_tables(),
+       {"fit", "wheel"},
+       {"--set", "mode=indexed", "--set", "axis_x_mm=12.02", "--set", "axis_z_mm=-7", "--set",
+        "uncertainty.point_um=0.4"}},
+      {spindle_tables(),
+       {"fit", "spindle"},
+       {"--set", "layout=reference", "--set", "samples=128", "--set", "highest_order=20",
+        "--json"}},
+      {contour_tables(), {"fit", "contour", "--set", "samples=360", "--pin", pin, "--axes"}},
+      {contour_tables(), {"fit", "contour", "--json", "--axes", axes, "--pin"}}};
+  try_cases({16, 900}, [&](unsigned seed) {
+    const SeriesDoor& door = doors[seed % doors.size()];
+    const TableMutation rows(door.tables);
+    std::vector<std::string> words = door.before;
+    words.push_back(kept("damaged.csv", rows.input(seed)));
+    words.insert(words.end(), door.behind.begin(), door.behind.end());
+    return wrong_with_call(words);
+  });
+}
+
 }  // namespace
 }  // namespace rondure::fuzz

@@ -54,10 +54,8 @@ const std::vector<std::string>& roundness_tables() {
 }
 
 const std::vector<std::string>& wheel_tables() {
-  static const std::vector<std::string> tables = {
-      thinned("spec_wheel/example1.csv", 1), thinned("spec_wheel/example2.csv", 1),
-      "# surface\nx,z\n-20,0.8\n-10,0.2\n-5,0.05\n0,0\n5,0.05\n10,0.2\n20,0.8\n",
-      "x,depth_um\n-20,1\n-10,2\n-3,2.5\n0,3\n10,2\n20,1\n"};
+  static const std::vector<std::string> tables = {thinned("spec_wheel/example1.csv", 1),
+                                                  thinned("spec_wheel/example2.csv", 1)};
   return tables;
 }
 

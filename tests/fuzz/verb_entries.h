@@ -10,11 +10,6 @@ namespace rondure::fuzz {
 
 [[nodiscard]] std::string try_fit(std::string_view bytes);
 [[nodiscard]] std::string try_rotary_axes(std::string_view bytes);
-[[nodiscard]] std::string try_spindle(std::string_view bytes);
 [[nodiscard]] std::string try_roundness(std::string_view bytes);
-/// The points of a wheel, the table of a surface, or that of a removal.
-[[nodiscard]] std::string try_wheel(std::string_view bytes);
-/// The axes, a pin, a main journal, or the names of the columns.
-[[nodiscard]] std::string try_contour(std::string_view bytes);
 
 }  // namespace rondure::fuzz

@@ -23,14 +23,10 @@ using core::Code;
 constexpr std::array kContourForms = {record::Form::kContourDeviation, record::Form::kContourSpread,
                                       record::Form::kHarmonicLimits,
                                       record::Form::kFollowingDeviation};
-constexpr std::array<record::WantedColumn, 4> kAxes = {
-    {{"c_deg"}, {"c_error_deg"}, {"x_error_mm"}, {"d_cmd_mm", false}}};
-constexpr std::array<record::WantedColumn, 2> kGauge = {{{"angle_deg"}, {"deviation_um"}}};
 constexpr std::array<record::WantedColumn, 2> kTable = {{{"c_deg"}, {"x_um"}}};
 
-/// A trace of other columns.
-core::Result<record::Series> mapped_trace(const record::ContourTask& task, std::string_view text,
-                                          const std::string& name) {
+core::Result<record::Series> trace_of(const record::ContourTask& task, std::string_view text,
+                                      const std::string& name) {
   TRY(auto trace, read_trace(text, name, task.columns));
   if (trace.positions && task.error != record::ContourTask::Error::kActualMinusCommand) {
     return core::fail_with(Code::kMeaning,
@@ -44,28 +40,23 @@ core::Result<record::Series> mapped_trace(const record::ContourTask& task, std::
 std::vector<SeriesFile> contour_files(const FeaturePlan& feature) {
   std::vector<SeriesFile> out;
   if (!feature.contour) return out;
-  const auto add = [&](std::size_t part, std::string_view key, const std::string& file,
-                       std::span<const record::WantedColumn> wanted) {
+  const auto add = [&](std::size_t part, std::string_view key, const std::string& file) {
     SeriesFile one;
     one.series = fmt::format("{} {}", key, part + 1);
     one.file = file;
     one.where = fmt::format("/contour/parts/{}/{}", part, key);
-    one.wanted.assign(wanted.begin(), wanted.end());
-    if (!feature.contour->columns.empty()) {
-      one.read = [task = *feature.contour, kind = std::string(key)](
-                     std::string_view text,
-                     const std::string& name) -> core::Result<record::Series> {
-        if (kind == "axes") return mapped_trace(task, text, name);
-        return read_gauge(text, name, kind == "main", task.columns);
-      };
-    }
+    one.read = [task = *feature.contour, kind = std::string(key)](
+                   std::string_view text, const std::string& name) -> core::Result<record::Series> {
+      if (kind == "axes") return trace_of(task, text, name);
+      return read_gauge(text, name, kind == "main", task.columns);
+    };
     out.push_back(std::move(one));
   };
   for (std::size_t i = 0; i < feature.contour->parts.size(); ++i) {
     const record::ContourPartTask& part = feature.contour->parts[i];
-    if (!part.axes.empty()) add(i, "axes", part.axes, kAxes);
-    add(i, "pin", part.pin, kGauge);
-    if (!part.main.empty()) add(i, "main", part.main, kGauge);
+    if (!part.axes.empty()) add(i, "axes", part.axes);
+    add(i, "pin", part.pin);
+    if (!part.main.empty()) add(i, "main", part.main);
   }
   if (const auto& repeat = feature.contour->repeat; repeat && !repeat->table.empty()) {
     SeriesFile table;

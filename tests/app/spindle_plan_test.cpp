@@ -1,6 +1,5 @@
-// rondure fit spindle, rondure design-probes, and spindle plans with data from a file.
+// Spindle plans with data from a file, and rondure design-probes.
 #include <algorithm>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,77 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 std::string data_file() {
   return (fs::path(RONDURE_SOURCE_DIR) / "tests/data/spindle_dynamic/readings.csv").string();
-}
-
-std::vector<std::string> with_geometry(std::vector<std::string> words) {
-  for (const char* word :
-       {"--crank-radius", "49", "--wheel-radius", "299.88", "--pin-radius", "24.56"}) {
-    words.emplace_back(word);
-  }
-  return words;
-}
-
-TEST(FitSpindle, GivesThePlantedPart) {
-  const Outcome outcome =
-      rondure(with_geometry({"fit", "spindle", data_file(), "--layout", "reference", "--json"}));
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const json found = json::parse(outcome.out);
-  EXPECT_EQ(found.at("mode"), "tracking");
-  EXPECT_TRUE(found.at("unrecovered").empty());
-  EXPECT_TRUE(found.at("warnings").empty()) << found.at("warnings");
-  const std::map<int, double> planted = {{2, 3.0},  {3, 2.0},  {5, 0.8},  {7, 0.6},
-                                         {11, 0.4}, {16, 0.5}, {23, 0.3}, {40, 0.2}};
-  for (const json& h : found.at("harmonics")) {
-    const auto at = planted.find(h.at("order"));
-    EXPECT_NEAR(h.at("amplitude_um"), at == planted.end() ? 0.0 : at->second, 1e-4) << h;
-  }
-  EXPECT_NEAR(found.at("harmonics").at(0).at("phase_deg"), 20.0, 1e-3);
-  EXPECT_EQ(found.at("curves").at("profile_um").size(), 1024U);
-  const Outcome text =
-      rondure(with_geometry({"fit", "spindle", data_file(), "--layout", "reference"}));
-  EXPECT_THAT(text.out, HasSubstr("tracking: 1024 readings, 1 revolution"));
-}
-
-TEST(FitSpindle, TakesAnglesAsDifferencesAndCumulative) {
-  const auto base =
-      with_geometry({"fit", "spindle", data_file(), "--json", "--p1-to-p2", "52.3828125"});
-  auto differences = base;
-  differences.insert(differences.end(), {"--p2-to-p3", "248.90625"});
-  auto cumulative = base;
-  cumulative.insert(cumulative.end(), {"--p1-to-p3", "301.2890625"});
-  const json a = json::parse(rondure(differences).out);
-  const json b = json::parse(rondure(cumulative).out);
-  EXPECT_NEAR(a.at("layout").at("p2_to_p3_deg"), b.at("layout").at("p2_to_p3_deg"), 1e-12);
-  EXPECT_NEAR(a.at("part").at("mz").at("RONt_um"), b.at("part").at("mz").at("RONt_um"), 1e-9);
-}
-
-TEST(FitSpindle, RefusesBadInput) {
-  const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& text, std::vector<std::string> more) {
-    write(folder / "in.csv", text);
-    more.insert(more.begin(), {"fit", "spindle", (folder / "in.csv").string()});
-    const Outcome outcome = rondure(more);
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.out, IsEmpty());
-    return outcome.err;
-  };
-  const std::string good = read(data_file());
-  EXPECT_THAT(refusal(good, {}), HasSubstr("the probe angles are not stated"));
-  EXPECT_THAT(refusal(good, {"--p1-to-p2", "52", "--p2-to-p3", "180"}), HasSubstr("in line"));
-  EXPECT_THAT(refusal(good, {"--layout", "reference", "--p1-to-p2", "52"}), HasSubstr("not both"));
-  EXPECT_THAT(refusal(good, {"--layout", "reference", "--crank-radius", "400", "--wheel-radius",
-                             "300", "--pin-radius", "25"}),
-              HasSubstr("not below wheel radius + pin radius"));
-  EXPECT_THAT(refusal("alpha_rad,H1_um,H2_um,H3_um\n0,1,1,1\n", {"--layout", "reference"}),
-              HasSubstr("\"alpha_rad\" is not in deg"));
-  EXPECT_THAT(refusal("alpha_deg,H1_um,H2_um,H3_um\n0,1,,1\n", {"--layout", "reference"}),
-              HasSubstr("in.csv:2: H2_um is empty"));
-  EXPECT_THAT(refusal("alpha_deg,H1_um,H2_um,H3_um\n0,1,1,1\n1,1,1,1\n", {"--layout", "reference"}),
-              HasSubstr("2 readings do not carry 50 undulations"));
 }
 
 TEST(DesignProbes, NamesTheLayoutsBesideTheKnownOnes) {
