@@ -434,6 +434,11 @@ using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
                                         std::string_view name);
 
+/// The plan that a journal holds: its keys and values, each within its limits. What no single key
+/// can say is not checked again, and no other file is read.
+/// @return kJournal with the first fault and its place.
+[[nodiscard]] core::Result<Plan> recorded_plan(std::string_view text);
+
 /// The paper that the plan in a journal asks for; of text that is no plan, what plans default to.
 [[nodiscard]] record::Paper recorded_paper(std::string_view text);
 

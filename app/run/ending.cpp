@@ -11,7 +11,7 @@
 #include "app/text/answer.h"
 #include "app/text/terminal.h"
 #include "evaluation/results/evaluation.h"
-#include "plans/checks/record.h"
+#include "plans/run/record.h"
 #include "record/files.h"
 #include "record/signature.h"
 #include "reports/data/corrections.h"

@@ -9,7 +9,7 @@
 #include "app/text/terminal.h"
 #include "evaluation/defect.h"
 #include "evaluation/uncertainty/kept_draws.h"
-#include "plans/checks/record.h"
+#include "plans/run/record.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

@@ -11,7 +11,7 @@
 #include "app/verbs/verbs.h"
 #include "core/utf8.h"
 #include "evaluation/evaluate.h"
-#include "plans/checks/record.h"
+#include "plans/run/record.h"
 #include "record/archive/queue.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

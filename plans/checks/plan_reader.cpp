@@ -53,23 +53,29 @@ void complete_simulation(Plan& plan, const JsonValue& json) {
   plan.simulation->machine.errors = SimulatedMachinePlan::Errors::kTypical;
 }
 
+/// Reads the keys of a plan and what follows of them alone.
+Plan read_keys(const JsonValue& json, std::string_view text, Findings& findings) {
+  Plan plan;
+  plan.text = text;
+  TableReader reader(json, "", findings);
+  describe(reader, plan);
+  reader.finish();
+  complete_circles(plan, findings);
+  complete_simulation(plan, json);
+  measure_datums_in_one_pose(plan, findings);
+  stand_without_fixture(plan, findings);
+  return plan;
+}
+
 }  // namespace
 
 PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
                           std::string_view name) {
   const auto json = parse_json(text, name);
   if (!json) return refuse(json.error());
-  Plan plan;
-  plan.folder = folder;
-  plan.text = text;
   Findings findings;
-  TableReader reader(*json, "", findings);
-  describe(reader, plan);
-  reader.finish();
-  complete_circles(plan, findings);
-  complete_simulation(plan, *json);
-  measure_datums_in_one_pose(plan, findings);
-  stand_without_fixture(plan, findings);
+  Plan plan = read_keys(*json, text, findings);
+  plan.folder = folder;
   read_bodies(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();
@@ -89,6 +95,19 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
     }
   }
   if (!problems.empty()) return tl::unexpected(std::move(problems));
+  return plan;
+}
+
+core::Result<Plan> recorded_plan(std::string_view text) {
+  constexpr std::string_view kName = "the plan in the journal";
+  const auto fault = [&](const core::Error& e) {
+    return core::fail_with(Code::kJournal, "{}: {}: {}", kName, e.where, e.what);
+  };
+  const auto json = parse_json(text, kName);
+  if (!json) return fault(json.error());
+  Findings findings;
+  Plan plan = read_keys(*json, text, findings);
+  if (const auto problems = findings.take(); !problems.empty()) return fault(problems.front());
   return plan;
 }
 

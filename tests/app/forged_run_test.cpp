@@ -2,6 +2,7 @@
 // nothing in a journal is run; and where digests were made again so that they fit, the program ends
 // in a sentence.
 
+#include <algorithm>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -277,21 +278,22 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
   };
   const std::vector<Resealed> cases = {
       {"05_spindle_three_probe", rename_series("data", "x"), "series \"x\" is none of a spindle"},
-      {"05_spindle_three_probe", set("samples", 1e9), "setting \"samples\" is 1e+09, outside"},
-      {"05_spindle_three_probe", rename("layout", "x"), "setting \"layout\" is missing"},
-      {"05_spindle_three_probe", rename("filter", "x"), "setting \"filter\" is missing"},
+      {"05_spindle_three_probe", set("samples", 1e9),
+       "setting \"samples\" is 1e+09, its plan says 1024"},
+      {"05_spindle_three_probe", rename("layout", "x"),
+       "setting \"x\" stands where its plan has \"layout\""},
       {"05_spindle_three_probe",
        [](auto& run) {
          run.features.front().settings.push_back({"x", 1.0, {}});
        },
-       "setting \"x\" is none of this run"},
+       "setting \"x\" is not of its plan"},
       {"05_spindle_three_probe",
        [](auto& run) {
          std::erase_if(run.settings, [](const record::Setting& setting) {
            return setting.name == "decision_rule/measurand";
          });
        },
-       "setting \"decision_rule/measurand\" is missing"},
+       "stands where its plan has \"decision_rule/measurand\""},
       {"05_spindle_three_probe", [](auto& run) { run.series.front().columns.front().name = "x"; },
        "has no column alpha_deg"},
       {"05_spindle_three_probe", [](auto& run) { run.series.clear(); }, "series are missing"},
@@ -304,14 +306,33 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
          run.features.front().characteristics.front().form = record::Form::kHarmonicLimits;
          run.features.front().characteristics.front().harmonic_limits = {{2, 2147483647, 0.001}};
        },
-       "a mask goes from order 2 to 2147483647"},
-      {"03_calibrate_fixture", rename("balls/id", "x"), "setting \"balls/id\" is missing"},
+       "the form is harmonic-limits, its plan says contour-deviation"},
+      {"03_calibrate_fixture", rename("balls/id", "x"),
+       "setting \"x\" stands where its plan has \"balls/id\""},
+      {"03_calibrate_fixture",  // the same settings, as items of other balls
+       [](auto& run) {
+         std::ranges::stable_sort(run.features.front().settings, {}, &record::Setting::name);
+       },
+       "stands where its plan has"},
       {"03_calibrate_fixture", [](auto& run) { run.touches.back().layer = 17; },
        "layer 17 is none of its feature"},
       {"09_axle_points_file", set("uncertainty/most_trials", 1e9),
-       "setting \"uncertainty/most_trials\" is 1e+09, outside"},
+       "setting \"uncertainty/most_trials\" is 1e+09, its plan says"},
       {"09_axle_points_file", [](auto& run) { run.header.decision_rule = "simple-acceptance"; },
-       "the head names the decision rule \"simple-acceptance\", the settings \"n-to-1\""},
+       "the decision rule is \"simple-acceptance\", its plan says \"n-to-1\""},
+      {"09_axle_points_file", [](auto& run) { run.features.front().layers = -1; }, "-1 layers of "},
+      {"09_axle_points_file",
+       [](auto& run) { run.features.front().characteristics.front().tolerance_mm = 1.0; },
+       "the upper limit in mm is 1, its plan says 0.0"},
+      {"09_axle_points_file", [](auto& run) { run.features.front().characteristics.clear(); },
+       "of its plan is missing"},
+      {"07_crank_pin",
+       [](auto& run) {
+         run.features.front().characteristics.back().harmonic_limits.front().amplitude_mm = 1.0;
+       },
+       "its mask is not that of its plan"},
+      {"01_spool_simulated", [](auto& run) { run.artefact.form_limit_mm = 1.0; },
+       "the limit of the probing form is 1, its plan says"},
       {"01_spool_simulated", [](auto& run) { run.touches.back().approach *= 1e8; },
        "its direction has the length 1e+08, not 1"},
       {"01_spool_simulated", [](auto& run) { run.touches.back().layer = 2147483647; },
@@ -319,12 +340,12 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
       {"01_spool_simulated", [](auto& run) { run.touches.back().pose = 4711; },
        "pose 4711 is not there"},
       {"01_spool_simulated", [](auto& run) { run.features.front().points_per_layer = 2147483647; },
-       "layers of 2147483647 points"},
+       "the number of points of a layer is 2147483647"},
       {"13_pose_search_virtual",
        [](auto& run) { run.features.front().search_steps_deg.front() = 1e-300; },
-       "a search step of 1e-300 deg"},
+       "the steps of its search are not those of its plan"},
       {"01_spool_simulated", [](auto& run) { run.features.front().shape = record::Shape::kWheel; },
-       "a wheel is not measured by the strategy"},
+       "the shape is wheel, its plan says cylinder"},
   };
   for (const Resealed& c : cases) {
     SCOPED_TRACE(std::string(c.example) + ": " + c.told);

@@ -10,7 +10,7 @@
 
 #include "core/json_text.h"
 #include "fixture/calibration.h"
-#include "plans/checks/record.h"
+#include "plans/run/record.h"
 #include "record/archive/archive.h"
 #include "record/checksums.h"
 #include "record/files.h"

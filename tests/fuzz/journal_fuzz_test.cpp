@@ -9,7 +9,7 @@
 #include "evaluation/defect.h"
 #include "evaluation/factors/study.h"
 #include "evaluation/results/evaluation.h"
-#include "plans/checks/record.h"
+#include "plans/run/record.h"
 #include "record/journal/journal.h"
 #include "reports/data/factors.h"
 #include "reports/formats/exports.h"

@@ -12,8 +12,8 @@ namespace rondure::fuzz {
 void damage_rows(const std::filesystem::path& file, const std::vector<std::string>& tables,
                  std::mt19937& random);
 
-/// Writes the links, digests and SHA256SUMS that the rows of a journal would have had, whatever they
-/// are now: whoever can write into a run directory can do this.
+/// Writes the links, digests and SHA256SUMS that the rows of a journal would have had, whatever
+/// they are now: whoever can write into a run directory can do this.
 void reseal(const std::filesystem::path& directory);
 
 }  // namespace rondure::fuzz
