@@ -1,4 +1,6 @@
 #include <cstdlib>
+#include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,6 +19,10 @@ namespace {
 /// What run_examples.sh makes: folders `runs` and `told`.
 fs::path made_examples() {
   const char* const made = std::getenv("RONDURE_EXAMPLE_RUNS");
+  if (made != nullptr && std::string_view(made) == "none") {
+    throw std::runtime_error(
+        "this test reads the runs of the examples: name it in EXAMPLES of its CMakeLists.txt");
+  }
   if (made != nullptr) return made;
   static const TemporaryFolder folder;
   static const int status = std::system(

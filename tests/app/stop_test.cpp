@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// A run of 4000 points in some eighty poses: most of a minute.
+/// A run of 500 points in some eighty poses, which no test waits for.
 class LongRun {
  public:
   explicit LongRun(const Surroundings& surroundings = {}) : program_(start(folder_), surroundings) {
@@ -27,8 +27,8 @@ class LongRun {
 
  private:
   static std::vector<std::string> start(const TemporaryFolder& folder) {
-    write_plan(folder / "plan.json", {{"/features/0/sampling/layers", 40},
-                                      {"/features/0/sampling/points_per_layer", 100},
+    write_plan(folder / "plan.json", {{"/features/0/sampling/layers", 20},
+                                      {"/features/0/sampling/points_per_layer", 25},
                                       {"/features/0/pose_search", {{"strategy", "refined"}}}});
     return {"run", folder / "plan.json", "--out", folder / "run"};
   }

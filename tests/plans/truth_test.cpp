@@ -13,6 +13,7 @@
 #include "core/noise.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/cell/internal/hidden_errors.h"
+#include "tests/core/full.h"
 #include "tests/plans/least_greatest.h"
 #include "tests/plans/random_inspection.h"
 #include "tests/plans/true_part.h"
@@ -236,7 +237,8 @@ TEST(Truth, OfSimpleFormsIsPlain) {
 }
 
 TEST(Truth, OfARandomFormIsTheMinimumZoneOfItsPoints) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (int number = 0; number < test::cases(3, 10); ++number) {
+    const auto seed = static_cast<std::uint64_t>(number);
     SCOPED_TRACE(seed);
     core::KeyedNoise random(seed, {1});
     Asked asked = part();
