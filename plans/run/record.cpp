@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,191 +42,137 @@ core::Result<void> refused(const std::string& place, const std::string& fault) {
                          fault);
 }
 
-using Settings = std::span<const record::Setting>;
+/// What was asked of the part, as a list: by name, and each a number or a text.
+using List = std::vector<record::Setting>;
+
+void add(const char* name, const std::string& text, List& out) {
+  out.push_back({name, std::nullopt, text});
+}
+void add(const char* name, std::optional<double> number, List& out) {
+  if (number) out.push_back({name, number, {}});
+}
+void add(std::span<const record::Setting> settings, List& out) {
+  out.insert(out.end(), settings.begin(), settings.end());
+}
+
+List asked_of(const record::Characteristic& c) {
+  List out;
+  add("characteristic", c.id, out);
+  add("form", std::string(name_of(c.form)), out);
+  add("reference", std::string(name_of(c.reference)), out);
+  add("upper limit in mm", c.tolerance_mm, out);
+  add("lower limit in mm", c.lower_mm, out);
+  add("drawing zone", c.drawing_zone, out);
+  for (const record::HarmonicLimit& limit : c.harmonic_limits) {
+    add("mask from order", limit.first, out);
+    add("mask to order", limit.last, out);
+    add("mask in mm", limit.amplitude_mm, out);
+  }
+  add(record::settings_of_task(c.indication), out);
+  return out;
+}
+
+/// @param of_file  The file says how many layers there are.
+List asked_of(const record::Feature& f, bool of_file) {
+  List out;
+  add("feature", f.id, out);
+  add("shape", std::string(name_of(f.shape)), out);
+  add("side", std::string(name_of(f.side)), out);
+  add("nominal diameter in mm", f.nominal_diameter_mm, out);
+  add("strategy", std::string(name_of(f.strategy)), out);
+  if (!of_file) add("number of layers", f.layers, out);
+  if (!of_file) add("points of a layer", f.points_per_layer, out);
+  for (const double step_deg : f.search_steps_deg) add("search step in deg", step_deg, out);
+  add("data file", f.points_file, out);
+  add("tip radius in mm", f.tip_radius_mm, out);
+  for (const record::Characteristic& c : f.characteristics) add(asked_of(c), out);
+  add(f.settings, out);
+  return out;
+}
+
+List asked_of_run(const RunRecord& run) {
+  const record::Header& h = run.header;
+  List out;
+  add("SHA-256 of the plan", h.plan_sha256, out);
+  add("name of the plan", h.plan_name, out);
+  add("revision", h.plan_revision, out);
+  add("part", h.part_id, out);
+  add("name of the part", h.part_name, out);
+  add("drawing", h.drawing, out);
+  add("decision rule", h.decision_rule, out);
+  add("lowest temperature", h.temperature_min_degC, out);
+  add("highest temperature", h.temperature_max_degC, out);
+  add("radius of the artefact in mm", run.artefact.radius_mm, out);
+  add("nominal tip radius in mm", run.artefact.nominal_tip_radius_mm, out);
+  add("limit of the tip radius in mm", run.artefact.radius_tolerance_mm, out);
+  add("limit of the probing form in mm", run.artefact.form_limit_mm, out);
+  add(run.settings, out);
+  return out;
+}
 
 std::string shown(const record::Setting& setting) {
   return setting.number ? fmt::format("{:g}", *setting.number) : in_quotes(setting.text);
 }
 
-/// Whether a setting is that of the plan. Another processor may have rounded a computed number the
-/// other way.
-bool alike(const record::Setting& a, const record::Setting& b) {
+/// Another processor may have rounded a computed number the other way.
+bool agree(const record::Setting& a, const record::Setting& b) {
   if (!a.number || !b.number) return a.number == b.number && a.text == b.text;
   return std::abs(*a.number - *b.number) <= 1e-12 * std::max(1.0, std::abs(*b.number));
 }
 
-using KnownNames = std::set<std::string_view>;
-
-KnownNames names_of(Settings settings) {
-  KnownNames out;
-  for (const record::Setting& setting : settings) out.insert(setting.name);
+/// Of a list what the other one knows too, and what the run does not find out while it begins.
+List compared(const List& of, const List& other, bool strict) {
+  constexpr std::array<std::string_view, 3> kFoundOut = {"fixture/", "head/", "source/read"};
+  std::set<std::string_view> known;
+  for (const record::Setting& setting : other) known.insert(setting.name);
+  List out;
+  std::ranges::copy_if(of, std::back_inserter(out), [&](const record::Setting& setting) {
+    const bool found_out = std::ranges::any_of(
+        kFoundOut, [&](std::string_view path) { return setting.name.starts_with(path); });
+    return !found_out && (strict || known.contains(setting.name));
+  });
   return out;
 }
 
-/// Compares the settings that the run has taken down with those of its plan, in their order: an
-/// item of a list begins where its first key recurs. Those of `later` are found out while the run
-/// begins.
+/// Compares two lists, in their order: an item of a list begins where its first key recurs.
 /// @param strict  Otherwise another version may have had more keys, or fewer.
-Fault compare_settings(Settings found, Settings planned, std::span<const std::string_view> later,
-                       bool strict) {
-  const auto kept = [&](Settings settings, const KnownNames& known) {
-    std::vector<const record::Setting*> out;
-    for (const record::Setting& setting : settings) {
-      const bool found_out = std::ranges::any_of(
-          later, [&](std::string_view path) { return setting.name.starts_with(path); });
-      if (!found_out && (strict || known.contains(setting.name))) out.push_back(&setting);
-    }
-    return out;
-  };
-  const auto here = kept(found, names_of(planned));
-  const auto there = kept(planned, names_of(found));
+Fault compare(const List& found, const List& planned, bool strict) {
+  const List here = compared(found, planned, strict);
+  const List there = compared(planned, found, strict);
   for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i) {
-    const std::string name = in_quotes(there[i]->name);
-    if (here[i]->name != there[i]->name) {
-      return fmt::format("setting {} stands where its plan has {}", in_quotes(here[i]->name), name);
+    const std::string name = in_quotes(there[i].name);
+    if (here[i].name != there[i].name) {
+      return fmt::format("{} stands where its plan has {}", in_quotes(here[i].name), name);
     }
-    if (alike(*here[i], *there[i])) continue;
-    return fmt::format("setting {} is {}, its plan says {}", name, shown(*here[i]),
-                       shown(*there[i]));
-  }
-  if (here.size() > there.size()) {
-    return fmt::format("setting {} is not of its plan", in_quotes(here[there.size()]->name));
+    if (agree(here[i], there[i])) continue;
+    return fmt::format("{} is {}, its plan says {}", name, shown(here[i]), shown(there[i]));
   }
   if (here.size() == there.size()) return {};
-  return fmt::format("setting {} of its plan is missing", in_quotes(there[here.size()]->name));
-}
-
-/// "limit is 20, its plan says 10", where they differ.
-template <class Value>
-Fault differ(const char* what, const Value& found, const Value& planned) {
-  if (found == planned) return {};
-  const auto words = [](const Value& value) {
-    if constexpr (record::Worded<Value>) {
-      return std::string(name_of(value));
-    } else if constexpr (std::is_same_v<Value, std::string>) {
-      return in_quotes(value);
-    } else if constexpr (requires { value.has_value(); }) {
-      return value ? fmt::format("{:g}", *value) : std::string("none");
-    } else {
-      return fmt::format("{}", value);
-    }
-  };
-  return fmt::format("{} is {}, its plan says {}", what, words(found), words(planned));
-}
-
-/// The first fault.
-Fault first(std::initializer_list<Fault> faults) {
-  for (const Fault& fault : faults) {
-    if (fault) return fault;
-  }
-  return {};
-}
-
-Fault compare_masks(const record::Characteristic& found, const record::Characteristic& planned) {
-  const auto same = [](const record::HarmonicLimit& a, const record::HarmonicLimit& b) {
-    return a.first == b.first && a.last == b.last && a.amplitude_mm == b.amplitude_mm;
-  };
-  if (std::ranges::equal(found.harmonic_limits, planned.harmonic_limits, same)) return {};
-  return "its mask is not that of its plan";
-}
-
-Fault compare_characteristics(const record::Characteristic& found,
-                              const record::Characteristic& planned, bool strict) {
-  return first({differ("the form", found.form, planned.form),
-                differ("the reference", found.reference, planned.reference),
-                differ("the upper limit in mm", found.tolerance_mm, planned.tolerance_mm),
-                differ("the lower limit in mm", found.lower_mm, planned.lower_mm),
-                differ("the drawing zone", found.drawing_zone, planned.drawing_zone),
-                compare_masks(found, planned),
-                compare_settings(record::settings_of_task(found.indication),
-                                 record::settings_of_task(planned.indication), {}, strict)});
-}
-
-Fault compare_features(const record::Feature& found, const record::Feature& planned, bool strict) {
-  constexpr std::array<std::string_view, 1> kLater = {"source/read"};
-  const bool of_file = planned.strategy == Strategy::kPointsFile;  // layers as the file has them
-  if (auto fault =
-          first({differ("the shape", found.shape, planned.shape),
-                 differ("the side", found.side, planned.side),
-                 differ("the nominal diameter in mm", found.nominal_diameter_mm,
-                        planned.nominal_diameter_mm),
-                 differ("the strategy", found.strategy, planned.strategy),
-                 of_file ? Fault() : differ("the number of layers", found.layers, planned.layers),
-                 of_file ? Fault()
-                         : differ("the number of points of a layer", found.points_per_layer,
-                                  planned.points_per_layer),
-                 differ("the data file", found.points_file, planned.points_file),
-                 differ("the tip radius in mm", found.tip_radius_mm, planned.tip_radius_mm),
-                 compare_settings(found.settings, planned.settings, kLater, strict)})) {
-    return fault;
-  }
-  if (found.search_steps_deg != planned.search_steps_deg) {
-    return "the steps of its search are not those of its plan";
-  }
-  for (std::size_t i = 0; i < planned.characteristics.size(); ++i) {
-    const record::Characteristic& asked = planned.characteristics[i];
-    if (i == found.characteristics.size() || found.characteristics[i].id != asked.id) {
-      return fmt::format("characteristic {} of its plan is missing", in_quotes(asked.id));
-    }
-    if (auto fault = compare_characteristics(found.characteristics[i], asked, strict)) {
-      return fmt::format("characteristic {}: {}", in_quotes(asked.id), *fault);
-    }
-  }
-  if (found.characteristics.size() == planned.characteristics.size()) return {};
-  return fmt::format("characteristic {} is not of its plan",
-                     in_quotes(found.characteristics[planned.characteristics.size()].id));
-}
-
-/// What the run takes down of itself, beside what its plan says.
-Fault check_own_settings(Settings settings) {
-  const auto has = [&](std::string_view path) {
-    return std::ranges::any_of(settings,
-                               [&](const record::Setting& s) { return s.name.starts_with(path); });
-  };
-  if (!has("fixture/")) return {};
-  const auto fixture = record::task_of<record::FixtureSettings>(settings, "fixture/");
-  return fixture ? Fault() : fixture.error().what;
+  return here.size() > there.size()
+             ? fmt::format("{} is not of its plan", in_quotes(here[there.size()].name))
+             : fmt::format("{} of its plan is missing", in_quotes(there[here.size()].name));
 }
 
 /// Compares the head of a journal with that of its plan.
 core::Result<void> compare_heads(const RunRecord& found, const RunRecord& planned, bool strict) {
-  constexpr std::array<std::string_view, 2> kLater = {"fixture/", "head/"};
-  const record::Header& head = found.header;
-  const record::Header& asked = planned.header;
-  const record::Artefact& ball = planned.artefact;
-  if (auto fault = first(
-          {differ("the digest of the plan", head.plan_sha256, asked.plan_sha256),
-           differ("the name of the plan", head.plan_name, asked.plan_name),
-           differ("the revision", head.plan_revision, asked.plan_revision),
-           differ("the part", head.part_id, asked.part_id),
-           differ("the name of the part", head.part_name, asked.part_name),
-           differ("the drawing", head.drawing, asked.drawing),
-           differ("the decision rule", head.decision_rule, asked.decision_rule),
-           differ("the lowest temperature", head.temperature_min_degC, asked.temperature_min_degC),
-           differ("the highest temperature", head.temperature_max_degC, asked.temperature_max_degC),
-           differ("the radius of the reference", found.artefact.radius_mm, ball.radius_mm),
-           differ("the nominal tip radius", found.artefact.nominal_tip_radius_mm,
-                  ball.nominal_tip_radius_mm),
-           differ("the limit of the tip radius", found.artefact.radius_tolerance_mm,
-                  ball.radius_tolerance_mm),
-           differ("the limit of the probing form", found.artefact.form_limit_mm,
-                  ball.form_limit_mm),
-           compare_settings(found.settings, planned.settings, kLater, strict),
-           check_own_settings(found.settings)})) {
+  if (auto fault = compare(asked_of_run(found), asked_of_run(planned), strict)) {
     return refused("the run", *fault);
   }
+  // The fixture is as it was found, and no plan says it.
+  const auto fixture = record::task_of<record::FixtureSettings>(found.settings, "fixture/");
+  if (!fixture) return refused("the run", fixture.error().what);
+  if (found.features.size() != planned.features.size()) {
+    return refused("the run", fmt::format("it has {} features, its plan {}", found.features.size(),
+                                          planned.features.size()));
+  }
   for (std::size_t i = 0; i < planned.features.size(); ++i) {
-    const record::Feature& feature = planned.features[i];
-    if (i == found.features.size() || found.features[i].id != feature.id) {
-      return refused("feature " + in_quotes(feature.id), "it is missing");
-    }
-    if (auto fault = compare_features(found.features[i], feature, strict)) {
-      return refused("feature " + in_quotes(feature.id), *fault);
+    const bool of_file = planned.features[i].strategy == Strategy::kPointsFile;
+    if (auto fault = compare(asked_of(found.features[i], of_file),
+                             asked_of(planned.features[i], of_file), strict)) {
+      return refused("feature " + in_quotes(found.features[i].id), *fault);
     }
   }
-  if (found.features.size() == planned.features.size()) return {};
-  return refused("feature " + in_quotes(found.features[planned.features.size()].id),
-                 "it is not of the plan");
+  return {};
 }
 
 /// Columns that the evaluation of a series reads, with the name of the series.
@@ -384,9 +329,9 @@ core::Result<void> check_record(const record::ReadJournal& read) {
   TRY_DO(compare_heads(record, run_head(plan, {}, record.header.seed), strict));
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     const record::Feature& feature = record.features[i];
-    if (auto fault = first({check_layers(feature), check_series(record, static_cast<int>(i))})) {
-      return refused("feature " + in_quotes(feature.id), *fault);
-    }
+    auto fault = check_layers(feature);
+    if (!fault) fault = check_series(record, static_cast<int>(i));
+    if (fault) return refused("feature " + in_quotes(feature.id), *fault);
   }
   std::vector<std::int64_t> layers;
   for (const record::Feature& feature : record.features) layers.push_back(layers_of(feature));

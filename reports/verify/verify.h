@@ -38,9 +38,9 @@ struct Verification {
 /// was written.
 ///
 /// Bits must be equal for the version and the kind of processor that measured. On another
-/// processor, where the last bit of sin and atan2 differs, numbers may differ by 1e-9. When another
-/// version measured, numbers that both versions give are compared within 1e-9, and only SHA256SUMS
-/// covers the wording of reports. `what_was_compared` states which comparison was made.
+/// processor, where the last bit of sin and atan2 differs, and when another version measured,
+/// numbers that both give are compared within 1e-9, and only SHA256SUMS covers the wording of
+/// reports. `what_was_compared` states which comparison was made.
 ///
 /// Without a key this finds accidents: anybody who can write into the directory can also write new
 /// digests. With a key it finds forgery, too: a file that the list names must then exist, and a

@@ -278,15 +278,14 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
   };
   const std::vector<Resealed> cases = {
       {"05_spindle_three_probe", rename_series("data", "x"), "series \"x\" is none of a spindle"},
-      {"05_spindle_three_probe", set("samples", 1e9),
-       "setting \"samples\" is 1e+09, its plan says 1024"},
+      {"05_spindle_three_probe", set("samples", 1e9), "\"samples\" is 1e+09, its plan says 1024"},
       {"05_spindle_three_probe", rename("layout", "x"),
-       "setting \"x\" stands where its plan has \"layout\""},
+       "\"x\" stands where its plan has \"layout\""},
       {"05_spindle_three_probe",
        [](auto& run) {
          run.features.front().settings.push_back({"x", 1.0, {}});
        },
-       "setting \"x\" is not of its plan"},
+       "\"x\" is not of its plan"},
       {"05_spindle_three_probe",
        [](auto& run) {
          std::erase_if(run.settings, [](const record::Setting& setting) {
@@ -297,8 +296,8 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
       {"05_spindle_three_probe", [](auto& run) { run.series.front().columns.front().name = "x"; },
        "has no column alpha_deg"},
       {"05_spindle_three_probe", [](auto& run) { run.series.clear(); }, "series are missing"},
-      {"06_wheel", set("nominal_radius_mm", -5.0), "setting \"nominal_radius_mm\" is -5"},
-      {"06_wheel", set("surface/step_mm", -1.0), "setting \"surface/step_mm\" is -1"},
+      {"06_wheel", set("nominal_radius_mm", -5.0), "\"nominal_radius_mm\" is -5, its plan says 50"},
+      {"06_wheel", set("surface/step_mm", -1.0), "\"surface/step_mm\" is -1, its plan says 0.1"},
       {"07_crank_pin", rename_series("pin 2", "pin 9"), "series \"pin 2\" is missing"},
       {"07_crank_pin", rename_series("axes 1", "x"), "series \"x\" is none of a contour"},
       {"07_crank_pin",
@@ -306,9 +305,9 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
          run.features.front().characteristics.front().form = record::Form::kHarmonicLimits;
          run.features.front().characteristics.front().harmonic_limits = {{2, 2147483647, 0.001}};
        },
-       "the form is harmonic-limits, its plan says contour-deviation"},
+       "\"form\" is \"harmonic-limits\", its plan says \"contour-deviation\""},
       {"03_calibrate_fixture", rename("balls/id", "x"),
-       "setting \"x\" stands where its plan has \"balls/id\""},
+       "\"x\" stands where its plan has \"balls/id\""},
       {"03_calibrate_fixture",  // the same settings, as items of other balls
        [](auto& run) {
          std::ranges::stable_sort(run.features.front().settings, {}, &record::Setting::name);
@@ -317,22 +316,22 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
       {"03_calibrate_fixture", [](auto& run) { run.touches.back().layer = 17; },
        "layer 17 is none of its feature"},
       {"09_axle_points_file", set("uncertainty/most_trials", 1e9),
-       "setting \"uncertainty/most_trials\" is 1e+09, its plan says"},
+       "\"uncertainty/most_trials\" is 1e+09, its plan says"},
       {"09_axle_points_file", [](auto& run) { run.header.decision_rule = "simple-acceptance"; },
-       "the decision rule is \"simple-acceptance\", its plan says \"n-to-1\""},
+       "\"decision rule\" is \"simple-acceptance\", its plan says \"n-to-1\""},
       {"09_axle_points_file", [](auto& run) { run.features.front().layers = -1; }, "-1 layers of "},
       {"09_axle_points_file",
        [](auto& run) { run.features.front().characteristics.front().tolerance_mm = 1.0; },
-       "the upper limit in mm is 1, its plan says 0.0"},
+       "\"upper limit in mm\" is 1, its plan says 0.0"},
       {"09_axle_points_file", [](auto& run) { run.features.front().characteristics.clear(); },
-       "of its plan is missing"},
+       "\"characteristic\" of its plan is missing"},
       {"07_crank_pin",
        [](auto& run) {
          run.features.front().characteristics.back().harmonic_limits.front().amplitude_mm = 1.0;
        },
-       "its mask is not that of its plan"},
+       "\"mask in mm\" is 1, its plan says"},
       {"01_spool_simulated", [](auto& run) { run.artefact.form_limit_mm = 1.0; },
-       "the limit of the probing form is 1, its plan says"},
+       "\"limit of the probing form in mm\" is 1, its plan says"},
       {"01_spool_simulated", [](auto& run) { run.touches.back().approach *= 1e8; },
        "its direction has the length 1e+08, not 1"},
       {"01_spool_simulated", [](auto& run) { run.touches.back().layer = 2147483647; },
@@ -340,12 +339,12 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
       {"01_spool_simulated", [](auto& run) { run.touches.back().pose = 4711; },
        "pose 4711 is not there"},
       {"01_spool_simulated", [](auto& run) { run.features.front().points_per_layer = 2147483647; },
-       "the number of points of a layer is 2147483647"},
+       "\"points of a layer\" is 2.14748e+09"},
       {"13_pose_search_virtual",
        [](auto& run) { run.features.front().search_steps_deg.front() = 1e-300; },
-       "the steps of its search are not those of its plan"},
+       "\"search step in deg\" is 1e-300"},
       {"01_spool_simulated", [](auto& run) { run.features.front().shape = record::Shape::kWheel; },
-       "the shape is wheel, its plan says cylinder"},
+       "\"shape\" is \"wheel\", its plan says \"cylinder\""},
   };
   for (const Resealed& c : cases) {
     SCOPED_TRACE(std::string(c.example) + ": " + c.told);

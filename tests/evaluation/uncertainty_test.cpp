@@ -641,9 +641,27 @@ TEST(Uncertainty, RefusesWhatItCannotUse) {
   }
 }
 
-// The figure: 10 000 trials of 28 points with all influences in under 1 s on two cores. Held
-// against processor time, which other programs do not change: 2 s of it. With the whole surface too
-// it is not met (docs/developer/accuracy.md): that may take as much again, and no more.
+/// Processor time of one minimum zone of 28 points, in which the speed of a machine is told.
+double zone_s() {
+  constexpr int kZones = 20'000;
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 28; ++i) {
+    const double angle = core::kTwoPi * (i % 7) / 7.0;
+    const double r = 25.0 + 3e-3 * std::cos(3.0 * angle + i);
+    points.emplace_back(r * std::cos(angle), r * std::sin(angle), 20.0 * (i / 7));
+  }
+  fit::CylinderZoneFitter fitter;
+  const double before_s = test::processor_seconds();
+  for (int i = 0; i < kZones; ++i) {
+    points.front().x() += 1e-9;
+    EXPECT_TRUE(fitter.fit(points, Vector3d::UnitZ()));
+  }
+  return (test::processor_seconds() - before_s) / kZones;
+}
+
+// The figure: 10 000 trials of 28 points with all influences in under 1 s on two cores, 2 s of
+// processor time, on a machine that finds a zone in 5.2 us. With the whole surface too it is not
+// met (docs/developer/accuracy.md): that may take as much again, and no more.
 TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
   const auto timed = [&](int threads, const std::optional<evaluation::FormSpectrum>& stated) {
     evaluation::UncertaintyOptions options =
@@ -660,6 +678,7 @@ TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
     return processor;
   };
   // The least of three: what else runs on the machine can only add to it.
+  const double zone = std::min({zone_s(), zone_s(), zone_s()});
   const auto least = [&](const std::optional<evaluation::FormSpectrum>& stated) {
     return std::min({timed(2, stated), timed(2, stated), timed(2, stated)});
   };
@@ -668,7 +687,9 @@ TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
   timed(1, spectrum());
   const double both = least(spectrum());
 #ifndef __SANITIZE_ADDRESS__
-  EXPECT_LT(sampled, 2.0);
+  std::printf("a zone %.2f us, a trial %.1f zones\n", 1e6 * zone,
+              sampled / test::cases(1000, 10000) / zone);
+  EXPECT_LT(sampled, 2.0 * zone / 5.2e-6);
   EXPECT_LT(both, 2.0 * sampled);
 #else
   EXPECT_GT(sampled + both, 0.0);

@@ -1,7 +1,6 @@
 #include "reports/verify/internal/compare_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,81 +15,11 @@ namespace {
 
 using SortedJson = nlohmann::json;
 
-/// A piece of a line: a number, or the text between two numbers.
-struct Token {
-  std::string_view text;
-  std::size_t at = 0;  ///< Its position in the line [bytes].
-  std::optional<double> number;
-};
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Whether a number may begin at `i`: a digit, or a sign or point before one.
-bool begins_number(std::string_view line, std::size_t i) {
-  if (line[i] == '-') ++i;
-  if (i < line.size() && line[i] == '.') ++i;
-  return i < line.size() && is_digit(line[i]);
-}
-
-std::vector<Token> tokens_of(std::string_view line) {
-  std::vector<Token> tokens;
-  std::size_t text_from = 0;
-  const auto end_text = [&](std::size_t at) {
-    if (at > text_from) tokens.push_back({line.substr(text_from, at - text_from), text_from, {}});
-  };
-  for (std::size_t i = 0; i < line.size();) {
-    if (!begins_number(line, i)) {
-      ++i;
-      continue;
-    }
-    double value = 0.0;
-    const char* const first = line.data() + i;
-    const auto [stop, problem] = std::from_chars(first, line.data() + line.size(), value);
-    const auto length = static_cast<std::size_t>(stop - first);
-    if (problem == std::errc()) {  // digits beyond the range of doubles stay text
-      end_text(i);
-      tokens.push_back({line.substr(i, length), i, value});
-      text_from = i + length;
-    }
-    i += length;
-  }
-  end_text(line.size());
-  return tokens;
-}
-
-/// Whether two tokens are equal. Whole numbers (counts, digits of a digest) must match as text:
-/// only a number with a point or an exponent was computed in floating point.
-bool same(const Token& a, const Token& b, double tolerance) {
-  if (a.text == b.text) return true;
-  if (!a.number || !b.number) return false;
-  const auto computed = [](const Token& t) {
-    return t.text.find_first_of(".eE") != std::string_view::npos;
-  };
-  return (computed(a) || computed(b)) && std::abs(*a.number - *b.number) <= tolerance;
-}
-
-/// Positions in both lines where they begin to differ, or none.
-std::optional<std::pair<std::size_t, std::size_t>> first_difference(std::string_view expected,
-                                                                    std::string_view found,
-                                                                    double tolerance) {
-  if (expected == found) return std::nullopt;
-  if (tolerance <= 0.0) {
-    const auto [a, b] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
-    const auto at = static_cast<std::size_t>(a - expected.begin());
-    return std::pair(at, at);
-  }
-  const std::vector<Token> left = tokens_of(expected);
-  const std::vector<Token> right = tokens_of(found);
-  const auto [a, b] =
-      std::mismatch(left.begin(), left.end(), right.begin(), right.end(),
-                    [&](const Token& x, const Token& y) { return same(x, y, tolerance); });
-  if (a == left.end() && b == right.end()) return std::nullopt;
-  return std::pair(a == left.end() ? expected.size() : a->at,
-                   b == right.end() ? found.size() : b->at);
-}
-
-/// A few quoted words around a place of a line; control characters as \x1b.
-std::string excerpt(std::string_view line, std::size_t at) {
+/// A few quoted words around the place where a line begins to differ from another one; control
+/// characters as \x1b.
+std::string excerpt(std::string_view line, std::string_view other) {
+  const auto at = static_cast<std::size_t>(
+      std::mismatch(line.begin(), line.end(), other.begin(), other.end()).first - line.begin());
   constexpr std::size_t kBefore = 20;
   constexpr std::size_t kLength = 60;
   const std::size_t from = at > kBefore ? at - kBefore : 0;
@@ -154,24 +83,6 @@ std::vector<std::string_view> csv_fields(std::string_view line) {
   return fields;
 }
 
-/// Compares one line of a table; `names` are its columns.
-std::optional<std::string> row_difference(std::string_view expected, std::string_view found,
-                                          const std::vector<std::string_view>& names,
-                                          double tolerance) {
-  const auto left = csv_fields(expected);
-  const auto right = csv_fields(found);
-  for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
-    const auto differs = first_difference(left[i], right[i], tolerance);
-    if (!differs) continue;
-    const std::string column =
-        i < names.size() ? std::string(names[i]) : fmt::format("number {}", i + 1);
-    return fmt::format("column {}: the file says {}, the journal gives {}", column,
-                       excerpt(right[i], differs->second), excerpt(left[i], differs->first));
-  }
-  if (left.size() == right.size()) return std::nullopt;
-  return fmt::format("the file has {} fields, the journal gives {}", right.size(), left.size());
-}
-
 using CsvRow = std::vector<std::string_view>;
 
 /// The rows of a table, the header line first, without comments.
@@ -203,18 +114,37 @@ bool same_field(std::string_view a, std::string_view b, double tolerance) {
   return x && y ? is_close(*x, *y, tolerance) : a == b;
 }
 
+/// "the file says "7.43", the journal gives "7.42"".
+std::string both(std::string_view expected, std::string_view found) {
+  return fmt::format("the file says {}, the journal gives {}", excerpt(found, expected),
+                     excerpt(expected, found));
+}
+
+/// Compares one line of a table; `names` are its columns.
+std::optional<std::string> row_difference(std::string_view expected, std::string_view found,
+                                          const std::vector<std::string_view>& names,
+                                          double tolerance) {
+  const auto left = csv_fields(expected);
+  const auto right = csv_fields(found);
+  for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+    if (left[i] == right[i] || (tolerance > 0.0 && same_field(left[i], right[i], tolerance)))
+      continue;
+    return fmt::format("column {}: {}",
+                       i < names.size() ? std::string(names[i]) : fmt::format("number {}", i + 1),
+                       both(left[i], right[i]));
+  }
+  if (left.size() == right.size()) return std::nullopt;
+  return fmt::format("the file has {} fields, the journal gives {}", right.size(), left.size());
+}
+
 }  // namespace
 
-std::optional<std::string> first_text_difference(std::string_view expected, std::string_view found,
-                                                 double tolerance) {
-  if (expected == found) return std::nullopt;
+std::optional<std::string> first_text_difference(std::string_view expected,
+                                                 std::string_view found) {
   const auto left = lines_of(expected);
   const auto right = lines_of(found);
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
-    const auto differs = first_difference(left[i], right[i], tolerance);
-    if (!differs) continue;
-    return fmt::format("line {}: the file says {}, the journal gives {}", i + 1,
-                       excerpt(right[i], differs->second), excerpt(left[i], differs->first));
+    if (left[i] != right[i]) return fmt::format("line {}: {}", i + 1, both(left[i], right[i]));
   }
   if (left.size() == right.size()) return std::nullopt;
   return fmt::format("the file has {} lines, the journal gives {}", right.size(), left.size());
@@ -238,11 +168,10 @@ std::optional<std::string> first_json_difference(std::string_view expected, std:
     return fmt::format("{}: the file says {}, the journal gives nothing there", pointer,
                        shown(value));
   }
-  const auto written = first_text_difference(expected, found, tolerance);
-  if (!written) return std::nullopt;
+  if (tolerance > 0.0) return std::nullopt;
   return "the values are equal, but written differently (spaces, order of keys, a repeated key or "
          "digits): " +
-         *written;
+         first_text_difference(expected, found).value_or("");
 }
 
 std::optional<std::string> first_csv_difference(std::string_view expected, std::string_view found,
@@ -253,6 +182,7 @@ std::optional<std::string> first_csv_difference(std::string_view expected, std::
   std::vector<std::string_view> names;  // names of the columns; empty before the header line
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
     if (names.empty() && !left[i].starts_with('#')) names = csv_fields(left[i]);
+    if (tolerance > 0.0 && left[i].starts_with('#')) continue;  // sentences
     if (auto difference = row_difference(left[i], right[i], names, tolerance)) {
       return fmt::format("line {}, {}", i + 1, *difference);
     }
@@ -260,9 +190,9 @@ std::optional<std::string> first_csv_difference(std::string_view expected, std::
   if (left.size() != right.size()) {
     return fmt::format("the file has {} lines, the journal gives {}", right.size(), left.size());
   }
-  const auto written = first_text_difference(expected, found, tolerance);
-  if (!written) return std::nullopt;
-  return "the fields are equal, but the line ends differ: " + *written;
+  if (tolerance > 0.0) return std::nullopt;
+  return "the fields are equal, but the line ends differ: " +
+         first_text_difference(expected, found).value_or("");
 }
 
 std::optional<std::string> compare_json_values(std::string_view expected, std::string_view found,

@@ -12,8 +12,7 @@ namespace rondure::reports {
 // or nothing when the two are equal.
 //
 // `tolerance` is absolute, in the unit of the numbers, >= 0. With 0 every byte must match. Above 0,
-// for reports written on another kind of processor, two numbers that differ by no more are equal,
-// and all text between them must match.
+// for reports written on another kind of processor, two numbers that differ by no more are equal.
 
 /// JSON: names the place by its JSON pointer, "/features/0/mz/deviation_um: the file says 7.43, the
 /// journal gives 7.42"; also finds missing and added keys, text that is no longer JSON, and equal
@@ -27,10 +26,9 @@ namespace rondure::reports {
                                                               std::string_view found,
                                                               double tolerance);
 
-/// Any text, such as HTML: names the line and shows a few words of both.
+/// Any text, such as HTML, byte for byte: names the line and shows a few words of both.
 [[nodiscard]] std::optional<std::string> first_text_difference(std::string_view expected,
-                                                               std::string_view found,
-                                                               double tolerance);
+                                                               std::string_view found);
 
 // The same for runs written by another version of the program: its wording and layout may differ,
 // its numbers may not.
