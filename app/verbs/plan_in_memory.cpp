@@ -1,6 +1,5 @@
 #include "app/verbs/plan_in_memory.h"
 
-#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "plans/schema/json_text.h"
 #include "plans/schema/utf8.h"
 #include "record/files.h"
+#include "record/private_folder.h"
 #include "reports/terminal/summary.h"
 #include "reports/words/language.h"
 
@@ -20,28 +20,6 @@ namespace rondure::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for as long as it is needed.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::error_code none;
-    const fs::path parent = fs::temp_directory_path(none);
-    std::string name = (parent / "rondure-XXXXXX").string();
-    if (!none && ::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~PassingFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }  ///< Empty: there is none.
-
- private:
-  fs::path path_;
-};
 
 RunArguments arguments_of(const PlanInMemory& plan) {
   RunArguments out;
@@ -104,14 +82,14 @@ int save_or_run(const PlanInMemory& plan) {
 }
 
 int run_in_passing(const PlanInMemory& plan, bool json) {
-  const PassingFolder folder;
+  const record::PrivateFolder folder("rondure-fit");
   if (folder.path().empty()) {
     return refuse({core::Code::kFile,
                    "no folder can be made for the run; set TMPDIR to one that can be written",
                    {}});
   }
   RunArguments arguments = arguments_of(plan);
-  arguments.out = (folder.path() / "in-passing").string();
+  arguments.out = (folder / "in-passing").string();
   arguments.archive = "none";
   arguments.formats = {"json"};
   arguments.quiet = true;

@@ -141,10 +141,7 @@ record::Series series_of(std::initializer_list<std::pair<Quantity, const Column*
 
 core::Result<void> check_column(const record::ContourColumnTask& column) {
   const std::string_view name = name_of(column.quantity);
-  if (column.in_file.empty()) {
-    return core::fail_with(Code::kBadOption, "the column of {} has no name", name);
-  }
-  if (column.scale == 0.0 || !std::isfinite(column.scale)) {
+  if (column.scale == 0.0) {
     return core::fail_with(Code::kBadOption, "the scale of {} is {}: every value would be the same",
                            name, column.scale);
   }

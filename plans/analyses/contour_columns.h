@@ -13,7 +13,7 @@ namespace rondure::plans {
 
 using ContourColumns = std::span<const record::ContourColumnTask>;
 
-/// Whether a column has a name, a unit of its quantity and a scale.
+/// Whether a column has a unit of its quantity and a scale.
 /// @return kBadOption.
 [[nodiscard]] core::Result<void> check_column(const record::ContourColumnTask& column);
 

@@ -16,7 +16,9 @@
 #include <fmt/format.h>
 
 #include "core/result.h"
+#include "core/units.h"
 #include "core/version.h"
+#include "plans/checks/internal/calibration_use.h"
 #include "plans/plan.h"
 #include "plans/run/internal/run_head.h"
 #include "plans/schema/json_text.h"
@@ -42,7 +44,8 @@ core::Result<void> refused(const std::string& place, const std::string& fault) {
                          fault);
 }
 
-/// What was asked of the part, as a list: by name, and each a number or a text.
+/// What was asked of the part, as a list: by name, and each a number or a text. Names with a blank
+/// are those of this list, others those of settings, which versions may differ in.
 using List = std::vector<record::Setting>;
 
 void add(const char* name, const std::string& text, List& out) {
@@ -57,16 +60,16 @@ void add(std::span<const record::Setting> settings, List& out) {
 
 List asked_of(const record::Characteristic& c) {
   List out;
-  add("characteristic", c.id, out);
-  add("form", std::string(name_of(c.form)), out);
-  add("reference", std::string(name_of(c.reference)), out);
-  add("upper limit in mm", c.tolerance_mm, out);
-  add("lower limit in mm", c.lower_mm, out);
-  add("drawing zone", c.drawing_zone, out);
+  add("the characteristic", c.id, out);
+  add("the form", std::string(name_of(c.form)), out);
+  add("the reference", std::string(name_of(c.reference)), out);
+  add("the upper limit in mm", c.tolerance_mm, out);
+  add("the lower limit in mm", c.lower_mm, out);
+  add("the drawing zone", c.drawing_zone, out);
   for (const record::HarmonicLimit& limit : c.harmonic_limits) {
-    add("mask from order", limit.first, out);
-    add("mask to order", limit.last, out);
-    add("mask in mm", limit.amplitude_mm, out);
+    add("the mask from order", limit.first, out);
+    add("the mask to order", limit.last, out);
+    add("the mask in mm", limit.amplitude_mm, out);
   }
   add(record::settings_of_task(c.indication), out);
   return out;
@@ -75,16 +78,16 @@ List asked_of(const record::Characteristic& c) {
 /// @param of_file  The file says how many layers there are.
 List asked_of(const record::Feature& f, bool of_file) {
   List out;
-  add("feature", f.id, out);
-  add("shape", std::string(name_of(f.shape)), out);
-  add("side", std::string(name_of(f.side)), out);
-  add("nominal diameter in mm", f.nominal_diameter_mm, out);
-  add("strategy", std::string(name_of(f.strategy)), out);
-  if (!of_file) add("number of layers", f.layers, out);
-  if (!of_file) add("points of a layer", f.points_per_layer, out);
-  for (const double step_deg : f.search_steps_deg) add("search step in deg", step_deg, out);
-  add("data file", f.points_file, out);
-  add("tip radius in mm", f.tip_radius_mm, out);
+  add("the feature", f.id, out);
+  add("the shape", std::string(name_of(f.shape)), out);
+  add("the side", std::string(name_of(f.side)), out);
+  add("the nominal diameter in mm", f.nominal_diameter_mm, out);
+  add("the strategy", std::string(name_of(f.strategy)), out);
+  if (!of_file) add("the number of layers", f.layers, out);
+  if (!of_file) add("the points of a layer", f.points_per_layer, out);
+  for (const double step_deg : f.search_steps_deg) add("the search step in deg", step_deg, out);
+  add("the data file", f.points_file, out);
+  add("the tip radius in mm", f.tip_radius_mm, out);
   for (const record::Characteristic& c : f.characteristics) add(asked_of(c), out);
   add(f.settings, out);
   return out;
@@ -93,19 +96,19 @@ List asked_of(const record::Feature& f, bool of_file) {
 List asked_of_run(const RunRecord& run) {
   const record::Header& h = run.header;
   List out;
-  add("SHA-256 of the plan", h.plan_sha256, out);
-  add("name of the plan", h.plan_name, out);
-  add("revision", h.plan_revision, out);
-  add("part", h.part_id, out);
-  add("name of the part", h.part_name, out);
-  add("drawing", h.drawing, out);
-  add("decision rule", h.decision_rule, out);
-  add("lowest temperature", h.temperature_min_degC, out);
-  add("highest temperature", h.temperature_max_degC, out);
-  add("radius of the artefact in mm", run.artefact.radius_mm, out);
-  add("nominal tip radius in mm", run.artefact.nominal_tip_radius_mm, out);
-  add("limit of the tip radius in mm", run.artefact.radius_tolerance_mm, out);
-  add("limit of the probing form in mm", run.artefact.form_limit_mm, out);
+  add("the SHA-256 of the plan", h.plan_sha256, out);
+  add("the name of the plan", h.plan_name, out);
+  add("the revision", h.plan_revision, out);
+  add("the part", h.part_id, out);
+  add("the name of the part", h.part_name, out);
+  add("the drawing", h.drawing, out);
+  add("the decision rule", h.decision_rule, out);
+  add("the lowest temperature", h.temperature_min_degC, out);
+  add("the highest temperature", h.temperature_max_degC, out);
+  add("the radius of the artefact in mm", run.artefact.radius_mm, out);
+  add("the nominal tip radius in mm", run.artefact.nominal_tip_radius_mm, out);
+  add("the limit of the tip radius in mm", run.artefact.radius_tolerance_mm, out);
+  add("the limit of the probing form in mm", run.artefact.form_limit_mm, out);
   add(run.settings, out);
   return out;
 }
@@ -120,16 +123,14 @@ bool agree(const record::Setting& a, const record::Setting& b) {
   return std::abs(*a.number - *b.number) <= 1e-12 * std::max(1.0, std::abs(*b.number));
 }
 
-/// Of a list what the other one knows too, and what the run does not find out while it begins.
+/// Of a list what the other one knows too.
 List compared(const List& of, const List& other, bool strict) {
-  constexpr std::array<std::string_view, 3> kFoundOut = {"fixture/", "head/", "source/read"};
   std::set<std::string_view> known;
   for (const record::Setting& setting : other) known.insert(setting.name);
   List out;
   std::ranges::copy_if(of, std::back_inserter(out), [&](const record::Setting& setting) {
-    const bool found_out = std::ranges::any_of(
-        kFoundOut, [&](std::string_view path) { return setting.name.starts_with(path); });
-    return !found_out && (strict || known.contains(setting.name));
+    const bool of_list = setting.name.find(' ') != std::string::npos;
+    return strict || of_list || known.contains(setting.name);
   });
   return out;
 }
@@ -153,14 +154,42 @@ Fault compare(const List& found, const List& planned, bool strict) {
              : fmt::format("{} of its plan is missing", in_quotes(there[here.size()].name));
 }
 
+/// Adds to the head of a plan what a run finds out while it begins: the bytes of a calibration and
+/// of bodies, the resolution of a driver, the laboratory, how a file was read.
+/// @return kMeaning names a setting that is none of these.
+core::Result<void> add_found(const RunRecord& found, const Plan& plan, RunRecord& planned) {
+  TRY(const auto fixture, record::task_of<record::FixtureSettings>(found.settings, "fixture/"));
+  std::optional<UsedCalibration> calibration;
+  const bool of_file = plan.fixture && plan.fixture->calibration &&
+                       plan.fixture->calibration->feature.empty();  // else a feature finds it
+  if (of_file && fixture.calibration) calibration.emplace().text = *fixture.calibration;
+  std::optional<double> resolution_rad;
+  if (fixture.resolution_deg) resolution_rad = *fixture.resolution_deg * core::kDegree;
+  for (record::Setting& setting : fixture_settings(plan, calibration, resolution_rad)) {
+    if (setting.name == "fixture/bodies") setting.text = fixture.bodies.value_or("");
+    planned.settings.push_back(std::move(setting));
+  }
+  TRY(auto head, record::task_of<record::HeadSettings>(found.settings, "head/"));
+  add(record::settings_of_task(std::move(head), "head/"), planned.settings);
+  for (std::size_t i = 0; i < std::min(found.features.size(), planned.features.size()); ++i) {
+    TRY(auto source,
+        record::task_of<record::SourceSettings>(found.features[i].settings, "source/"));
+    record::SourceSettings read;
+    read.read = std::move(source.read);
+    add(record::settings_of_task(std::move(read), "source/"), planned.features[i].settings);
+  }
+  return {};
+}
+
 /// Compares the head of a journal with that of its plan.
-core::Result<void> compare_heads(const RunRecord& found, const RunRecord& planned, bool strict) {
+core::Result<void> compare_heads(const RunRecord& found, const Plan& plan, bool strict) {
+  RunRecord planned = run_head(plan, {}, found.header.seed);
+  if (const auto known = add_found(found, plan, planned); !known) {
+    return refused("the run", known.error().what);
+  }
   if (auto fault = compare(asked_of_run(found), asked_of_run(planned), strict)) {
     return refused("the run", *fault);
   }
-  // The fixture is as it was found, and no plan says it.
-  const auto fixture = record::task_of<record::FixtureSettings>(found.settings, "fixture/");
-  if (!fixture) return refused("the run", fixture.error().what);
   if (found.features.size() != planned.features.size()) {
     return refused("the run", fmt::format("it has {} features, its plan {}", found.features.size(),
                                           planned.features.size()));
@@ -326,7 +355,7 @@ core::Result<void> check_record(const record::ReadJournal& read) {
   const RunRecord& record = read.record;
   TRY(const auto plan, recorded_plan(record.header.plan_text));
   const bool strict = record.header.version == core::kVersion;
-  TRY_DO(compare_heads(record, run_head(plan, {}, record.header.seed), strict));
+  TRY_DO(compare_heads(record, plan, strict));
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     const record::Feature& feature = record.features[i];
     auto fault = check_layers(feature);

@@ -10,6 +10,7 @@
 #include "core/watch.h"
 #include "record/external_program.h"
 #include "record/files.h"
+#include "record/private_folder.h"
 #include "record/sha256.h"
 #include "reports/html/report.h"
 
@@ -36,35 +37,6 @@ std::string_view print_statement(std::string_view pdf) {
   return rest.substr(0, rest.find_first_of(")\n"));
 }
 
-/// A private folder, removed at the end with the profile that Chromium creates in it.
-class PrintFolder {
- public:
-  PrintFolder() {
-    std::error_code problem;
-    const fs::path place = fs::temp_directory_path(problem);
-    std::string name = ((problem ? fs::path("/tmp") : place) / "rondure-pdf-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~PrintFolder() {
-    std::error_code problem;
-    // A process that was just killed may still write a file into a folder that is being emptied.
-    for (int i = 0; i < 5; ++i) {
-      fs::remove_all(path_, problem);
-      if (!problem) return;
-      ::usleep(20'000);
-    }
-  }
-  PrintFolder(const PrintFolder&) = delete;
-  PrintFolder& operator=(const PrintFolder&) = delete;
-
-  /// Empty when the folder cannot be created (errno).
-  [[nodiscard]] const fs::path& path() const { return path_; }
-  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
 std::string file_url(const fs::path& file) {
   std::string out = "file://";
   for (const char c : file.string()) {
@@ -77,7 +49,7 @@ std::string file_url(const fs::path& file) {
 
 /// Environment for Chromium, which needs no desktop. Its home is the folder, which is removed
 /// afterwards; fonts installed by the user are still found.
-std::vector<std::string> print_environment(const PrintFolder& folder) {
+std::vector<std::string> print_environment(const record::PrivateFolder& folder) {
   const std::string place = folder.path().string();
   std::vector<std::string> out = {"HOME=" + place, "TMPDIR=" + place, "LANG=C.UTF-8", "TZ=UTC",
                                   "DBUS_SESSION_BUS_ADDRESS=disabled:"};
@@ -91,7 +63,7 @@ std::vector<std::string> print_environment(const PrintFolder& folder) {
   return out;
 }
 
-std::vector<std::string> print_arguments(const PrintFolder& folder) {
+std::vector<std::string> print_arguments(const record::PrivateFolder& folder) {
   std::vector<std::string> out = {"--headless",
                                   "--disable-gpu",
                                   "--log-level=3",  // fatal only: others concern the desktop
@@ -135,7 +107,7 @@ core::Result<fs::path> find_browser() {
 core::Result<std::string> print_pdf(std::string_view html, Paper paper,
                                     std::chrono::milliseconds time_limit) {
   TRY(const auto browser, find_browser());
-  const PrintFolder folder;
+  const record::PrivateFolder folder("rondure-pdf");  // Chromium creates its profile in it
   if (folder.path().empty()) return not_printed(record::system_reason(errno));
   std::string page(html);
   page.insert(std::min(page.find("</head>"), page.size()),

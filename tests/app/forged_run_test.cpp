@@ -305,7 +305,7 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
          run.features.front().characteristics.front().form = record::Form::kHarmonicLimits;
          run.features.front().characteristics.front().harmonic_limits = {{2, 2147483647, 0.001}};
        },
-       "\"form\" is \"harmonic-limits\", its plan says \"contour-deviation\""},
+       "\"the form\" is \"harmonic-limits\", its plan says \"contour-deviation\""},
       {"03_calibrate_fixture", rename("balls/id", "x"),
        "\"x\" stands where its plan has \"balls/id\""},
       {"03_calibrate_fixture",  // the same settings, as items of other balls
@@ -313,25 +313,40 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
          std::ranges::stable_sort(run.features.front().settings, {}, &record::Setting::name);
        },
        "stands where its plan has"},
+      {"03_inspect_calibrated", set("fixture/max_residual_um", 1e5),
+       "\"fixture/max_residual_um\" is 100000, its plan says "},
+      {"03_inspect_calibrated", set("fixture/axis_point_mm", 1e5),
+       "\"fixture/axis_point_mm\" is 100000, its plan says "},
+      {"01_spool_simulated",
+       [](auto& run) {
+         run.settings.push_back({"head/x", std::nullopt, "y"});
+       },
+       "\"head/x\" is not of its plan"},
       {"03_calibrate_fixture", [](auto& run) { run.touches.back().layer = 17; },
        "layer 17 is none of its feature"},
       {"09_axle_points_file", set("uncertainty/most_trials", 1e9),
        "\"uncertainty/most_trials\" is 1e+09, its plan says"},
       {"09_axle_points_file", [](auto& run) { run.header.decision_rule = "simple-acceptance"; },
-       "\"decision rule\" is \"simple-acceptance\", its plan says \"n-to-1\""},
+       "\"the decision rule\" is \"simple-acceptance\", its plan says \"n-to-1\""},
       {"09_axle_points_file", [](auto& run) { run.features.front().layers = -1; }, "-1 layers of "},
       {"09_axle_points_file",
        [](auto& run) { run.features.front().characteristics.front().tolerance_mm = 1.0; },
-       "\"upper limit in mm\" is 1, its plan says 0.0"},
+       "\"the upper limit in mm\" is 1, its plan says 0.0"},
+      {"09_axle_points_file",  // what another version may leave out are settings
+       [](auto& run) {
+         run.header.version = "0.0.9";
+         run.features.front().characteristics.front().tolerance_mm.reset();
+       },
+       "stands where its plan has \"the upper limit in mm\""},
       {"09_axle_points_file", [](auto& run) { run.features.front().characteristics.clear(); },
-       "\"characteristic\" of its plan is missing"},
+       "stands where its plan has \"the characteristic\""},
       {"07_crank_pin",
        [](auto& run) {
          run.features.front().characteristics.back().harmonic_limits.front().amplitude_mm = 1.0;
        },
-       "\"mask in mm\" is 1, its plan says"},
+       "\"the mask in mm\" is 1, its plan says"},
       {"01_spool_simulated", [](auto& run) { run.artefact.form_limit_mm = 1.0; },
-       "\"limit of the probing form in mm\" is 1, its plan says"},
+       "\"the limit of the probing form in mm\" is 1, its plan says"},
       {"01_spool_simulated", [](auto& run) { run.touches.back().approach *= 1e8; },
        "its direction has the length 1e+08, not 1"},
       {"01_spool_simulated", [](auto& run) { run.touches.back().layer = 2147483647; },
@@ -339,12 +354,12 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
       {"01_spool_simulated", [](auto& run) { run.touches.back().pose = 4711; },
        "pose 4711 is not there"},
       {"01_spool_simulated", [](auto& run) { run.features.front().points_per_layer = 2147483647; },
-       "\"points of a layer\" is 2.14748e+09"},
+       "\"the points of a layer\" is 2.14748e+09"},
       {"13_pose_search_virtual",
        [](auto& run) { run.features.front().search_steps_deg.front() = 1e-300; },
-       "\"search step in deg\" is 1e-300"},
+       "\"the search step in deg\" is 1e-300"},
       {"01_spool_simulated", [](auto& run) { run.features.front().shape = record::Shape::kWheel; },
-       "\"shape\" is \"wheel\", its plan says \"cylinder\""},
+       "\"the shape\" is \"wheel\", its plan says \"cylinder\""},
   };
   for (const Resealed& c : cases) {
     SCOPED_TRACE(std::string(c.example) + ": " + c.told);
