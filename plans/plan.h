@@ -259,7 +259,7 @@ struct PoseSearchPlan {
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
-  double min_step_deg = 0.05;  ///< End of step halving (refined, virtual).
+  double min_step_deg = 0.05;  ///< End of step halving (virtual).
   int max_poses = 6;           ///< guided: limit of levelling poses.
   int repeats = 5;             ///< Touches of each point of the final cloud.
 };

@@ -70,7 +70,6 @@ enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaxi
 /// poses. kStations: balls of a calibration.
 enum class Strategy {
   kGuided,
-  kRefined,
   kAsPublished,
   kVirtual,
   kPointsFile,
@@ -110,9 +109,9 @@ RONDURE_WORDS(Form, {kCylindricity, "cylindricity"}, {kRoundness, "roundness"},
               {kLocation, "location"});
 RONDURE_WORDS(Reference, {kMinimumZone, "mz"}, {kLeastSquares, "ls"}, {kMinimumCircumscribed, "mc"},
               {kMaximumInscribed, "mi"});
-RONDURE_WORDS(Strategy, {kGuided, "guided"}, {kRefined, "refined"}, {kAsPublished, "as-published"},
-              {kVirtual, "virtual"}, {kStartPose, "start-pose"}, {kMerged, "merged"},
-              {kPointsFile, "points-file"}, {kSeries, "series"}, {kStations, "stations"});
+RONDURE_WORDS(Strategy, {kGuided, "guided"}, {kAsPublished, "as-published"}, {kVirtual, "virtual"},
+              {kStartPose, "start-pose"}, {kMerged, "merged"}, {kPointsFile, "points-file"},
+              {kSeries, "series"}, {kStations, "stations"});
 RONDURE_WORDS(Merge, {kJoint, "joint"}, {kKinematics, "kinematics"});
 RONDURE_WORDS(SamplingMethod, {kTouch, "touch"}, {kScan, "scan"});
 

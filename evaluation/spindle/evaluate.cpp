@@ -35,9 +35,6 @@ std::optional<core::Phrase> obstacle_of(const SpindleTask& task) {
         "the motion is as published, for comparison only; make it "
         "\"least-squares\"");
   }
-  if (task.resampling == record::Switch::kOff) {
-    return core::phrase("without resampling there is no interval; make it \"on\"");
-  }
   return std::nullopt;
 }
 
@@ -117,7 +114,6 @@ fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
     // Declared gains and angles take the place of the bare noise: see gates.cpp.
     out.judge_first_harmonic = !(declared.gain_1 && declared.angle_deg);
   }
-  out.resample = task.resampling == record::Switch::kOn;
   out.second_order = second_order_of(task.second_order);
   if (task.motion == SpindleTask::Motion::kAsPublished) out.motion = Options::Motion::kAsPublished;
   return out;

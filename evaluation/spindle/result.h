@@ -41,7 +41,7 @@ struct SpindleResult {
   double greatest_gain = HUGE_VAL;
   std::optional<double> probe_range_mm = {};  ///< Whole range of a probe, where the plan states it.
   double greatest_reading_mm = 0.0;           ///< Largest distance of a reading from 0.
-  /// Why the settings allow no interval: the printed formula, no resampling.
+  /// Why the settings allow no interval: the printed formula.
   std::optional<core::Phrase> no_interval_because = {};
   std::optional<core::Phrase> void_because = {};  ///< The gate that voids every value.
 

@@ -36,7 +36,6 @@ struct ThreeProbeOptions {
   double warn_gain = 25.0;         ///< A harmonic with a greater gain is named in a warning.
   std::optional<double> noise_mm;  ///< Standard deviation of a reading; none: estimated.
   double tip_width_mm = 0.0;       ///< Of tips or spots, 2 b; needs the radius of the part.
-  bool resample = true;            ///< false: readings are taken as uniform in theta.
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
   /// false: content at one undulation above its limit is no contradiction, because the caller

@@ -271,11 +271,6 @@ void find_contradictions(const ProbeReadings& readings, const ProbeSamples& samp
                            "{:.3f} deg (limit 0.05 deg)",
                            swing / core::kDegree));
   }
-  if (!options.resample && arm.swings()) {
-    contradict(result, Code::kInconsistent,
-               "the readings were taken as uniform in the angle on the part (no resampling): with "
-               "a swinging arm the profile is grossly wrong");
-  }
 }
 
 }  // namespace rondure::fit

@@ -49,15 +49,13 @@ core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOpt
 }
 
 /// Returns theta of every row, strictly increasing; refuses work that turns backwards.
-core::Result<std::vector<double>> travel(const ProbeReadings& readings, const SwingArm& arm,
-                                         bool resample) {
+core::Result<std::vector<double>> travel(const ProbeReadings& readings, const SwingArm& arm) {
   std::vector<double> theta;
   theta.reserve(readings.alpha_rad.size());
   for (std::size_t m = 0; m < readings.alpha_rad.size(); ++m) {
     const double alpha = readings.alpha_rad[m];
     const double beta = readings.beta_rad.empty() ? arm.beta_rad(alpha) : readings.beta_rad[m];
-    // Without resampling the rows count as uniform in theta, so their swing is ignored.
-    theta.push_back(resample ? alpha + beta : alpha);
+    theta.push_back(alpha + beta);
     if (m == 0 || theta[m] > theta[m - 1]) continue;
     return core::fail_with(Code::kAngleOrder,
                            "the angle on the part does not increase in row {}: {:.6f} deg after "
@@ -87,7 +85,7 @@ core::Result<Extent> whole_revolutions(const std::vector<double>& theta,
                            "undulations need at least {:.0f}: is the angle in deg?",
                            theta.size(), revolutions, each, options.highest, needed);
   }
-  if (options.resample && revolutions * options.samples > kMostProbeSamples) {
+  if (revolutions * options.samples > kMostProbeSamples) {
     return core::fail_with(Code::kBadOption,
                            "{:.0f} revolutions of {} samples are {:.3g}, the limit is {:g}: take "
                            "fewer samples a revolution",
@@ -180,7 +178,7 @@ void average(ProbeSamples& out) {
 core::Result<ProbeSamples> sample_readings(const ProbeReadings& readings, const SwingArm& arm,
                                            const ThreeProbeOptions& options) {
   TRY_DO(check_rows(readings, options));
-  TRY(const auto theta, travel(readings, arm, options.resample));
+  TRY(const auto theta, travel(readings, arm));
   TRY(const auto extent, whole_revolutions(theta, options));
   const auto turns = static_cast<std::size_t>(extent.revolutions);
   ProbeSamples out;
@@ -188,14 +186,11 @@ core::Result<ProbeSamples> sample_readings(const ProbeReadings& readings, const 
   out.rows = extent.rows;
   out.start_rad = theta.front();
   const std::size_t each = extent.rows / turns;
-  const bool recorded = options.samples == 0 || !options.resample;
-  out.count = recorded ? each : static_cast<std::size_t>(options.samples);
+  out.count = options.samples == 0 ? each : static_cast<std::size_t>(options.samples);
   for (std::size_t m = 1; m < extent.rows; ++m) {
     out.largest_gap_rad = std::max(out.largest_gap_rad, theta[m] - theta[m - 1]);
   }
-  const bool as_they_are =
-      out.count * turns == extent.rows && (!options.resample || is_uniform(theta, extent));
-  if (as_they_are) {
+  if (out.count * turns == extent.rows && is_uniform(theta, extent)) {
     take_rows(readings, extent.rows, out);
   } else {
     interpolate(readings, theta, extent, options.highest, out);

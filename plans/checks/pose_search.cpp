@@ -102,16 +102,12 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings) 
                                  "\"{}\"; leave them out or change it",
                                  name_of(search.strategy)));
   }
-  const bool refined = search.strategy == record::Strategy::kRefined;
-  if (feature.type != record::Shape::kCylinder ||
-      (!refined && search.strategy != record::Strategy::kAsPublished))
+  if (feature.type != record::Shape::kCylinder || search.strategy != record::Strategy::kAsPublished)
     return;
   for (std::size_t i = 0; i < search.steps_deg.size(); ++i) {
     check_fineness(search.steps_deg[i], fixture.resolution_deg,
                    item_pointer(where + "/steps_deg", i), findings);
   }
-  if (refined)
-    check_fineness(search.min_step_deg, fixture.resolution_deg, where + "/min_step_deg", findings);
 }
 
 }  // namespace rondure::plans

@@ -30,7 +30,6 @@ struct SpindleTask {
   int highest_order = 50;
   double greatest_gain = 100.0;
   std::optional<double> probe_noise_um;  ///< None: estimated from the readings.
-  Switch resampling = Switch::kOn;
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
   Filter filter = Filter::kGaussian;  ///< Filter of the profile.
@@ -112,10 +111,6 @@ void describe(Visitor& v, SpindleTask& p) {
   describe_probe_angles(v, p);
   describe_swing_arm(v, p);
   describe_recovery(v, p);
-  v.text("resampling", p.resampling,
-         {.one_of = {name_of(Switch::kOn), name_of(Switch::kOff)},
-          .meaning = "off: readings are taken as uniform in the angle on the part, a gross error "
-                     "for a crank pin; for comparison only."});
   v.text(
       "second_order", p.second_order,
       {.meaning = "Correction for the sideways shift of the profile under a probe; auto: above 10 "

@@ -1,6 +1,7 @@
 // Damaged, half-written and foreign run directories: verify ends in a clear sentence and the right
 // exit status, and never calls equal what is not. 200 flipped bytes a file of a run with intervals
-// and 100 cuts with RONDURE_FULL=1 (./test.sh --full); else a tenth of them, without intervals.
+// and 100 cuts with RONDURE_FULL=all, a third of them with ./test.sh --full; else a tenth, without
+// intervals.
 
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include "record/journal/journal.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
+#include "tests/core/full.h"
 
 namespace rondure::app::testing {
 namespace {
@@ -24,17 +26,16 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
-
-int count(int all) { return full() ? all : all / 10; }
+int count(int all) { return test::cases(all / 10, all / 3, all); }
 
 /// A finished run of 24 points from a file.
 class DamagedRun : public ::testing::Test {
  protected:
   void SetUp() override {
     const Outcome ran =
-        full() ? rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet"})
-               : run_without_intervals("09_axle_points_file", {"--out", run_, "--quiet"});
+        test::full()
+            ? rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet"})
+            : run_without_intervals("09_axle_points_file", {"--out", run_, "--quiet"});
     ASSERT_EQ(ran.status, 0);
     ASSERT_EQ(verify().status, 0);
   }

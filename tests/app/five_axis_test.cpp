@@ -264,7 +264,7 @@ TEST(FiveAxis, WithoutTheSlidesThereIsNoInterval) {
 
 // 300 twins with RONDURE_FULL=1, 1000 with RONDURE_FULL=all.
 TEST(FiveAxis, StatedIntervalsHoldTheTruthAndTheTableDoesWhatWasForecast) {
-  const int twins = test::cases(12, 300, 1000);
+  const int twins = test::cases(12, 120, 1000);
   const TemporaryFolder folder;
   ordered_json plan = head_plan();
   plan["reports"]["formats"] = {"json"};

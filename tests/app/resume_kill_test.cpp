@@ -1,6 +1,6 @@
 // The program killed by kill -9 at random moments of a run, on a real disk, and resumed: every
 // result is that of the run without interruption, no touch lost or doubled. 6 runs without
-// intervals; with RONDURE_FULL=1 (./test.sh --full) 60 with them. Prints what docs/reliability.md
+// intervals; with RONDURE_FULL=1 (./test.sh --full) 25 with them. Prints what docs/reliability.md
 // says of 500 (RONDURE_FULL=all).
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-std::size_t runs() { return static_cast<std::size_t>(test::cases(6, 60, 500)); }
+std::size_t runs() { return static_cast<std::size_t>(test::cases(6, 25, 500)); }
 
 /// The first example; without intervals, which only its end would compute, where time counts.
 fs::path plan_in(const TemporaryFolder& folder) {
@@ -200,7 +200,7 @@ TEST(KilledWhile, ItBeginsSealsWritesReportsOrArchives) {
   const TemporaryFolder plans;
   const fs::path plan = plan_in(plans);
   const Whole whole(plan);
-  const int rounds = test::cases(1, 4, 20);
+  const int rounds = test::cases(1, 2, 20);
   for (int i = 0; i < rounds; ++i) {
     const auto later = std::chrono::microseconds(i * 150);
     expect_survives_kill_when(whole, plan, "journal.db", true, later);       // head

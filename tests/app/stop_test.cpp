@@ -29,7 +29,7 @@ class LongRun {
   static std::vector<std::string> start(const TemporaryFolder& folder) {
     write_plan(folder / "plan.json", {{"/features/0/sampling/layers", 20},
                                       {"/features/0/sampling/points_per_layer", 25},
-                                      {"/features/0/pose_search", {{"strategy", "refined"}}}});
+                                      {"/features/0/pose_search", {{"strategy", "as-published"}}}});
     return {"run", folder / "plan.json", "--out", folder / "run"};
   }
 

@@ -72,7 +72,7 @@ test('the page follows the run and shows its verdict', async () => {
 });
 
 test('the button stops the run after a question, by keyboard alone', async () => {
-  const run = await watch('12_pose_search_refined.json', 60, ['--control']);
+  const run = await watch('11_pose_search_as_published.json', 60, ['--control']);
   const {page, said} = await open(run.url, {online: true});
   const button = page.locator('button#stop');
   await button.waitFor({state: 'visible'});
@@ -98,7 +98,7 @@ test('the button stops the run after a question, by keyboard alone', async () =>
 });
 
 test('without the token of the address there is no button', async () => {
-  const run = await watch('12_pose_search_refined.json', 60, ['--control']);
+  const run = await watch('11_pose_search_as_published.json', 60, ['--control']);
   const {page} = await open(run.url.replace(/#.*/, ''), {online: true});
   await page.waitForSelector('#drawing svg.polar');
   assert.equal(await page.locator('button#stop').isVisible(), false);

@@ -8,7 +8,7 @@ import {expected} from './support/plots.mjs';
 import {run} from './support/runs.mjs';
 
 for (const plan of ['01_spool_simulated', '03_calibrate_fixture', '04_part_in_two_poses', '05_spindle_three_probe',
-                    '06_wheel', '07_crank_pin', '08_shaft_scanned', '09_axle_points_file', '12_pose_search_refined',
+                    '06_wheel', '07_crank_pin', '08_shaft_scanned', '09_axle_points_file', '11_pose_search_as_published',
                     '15_shaft_points_file']) {
   test(`the page of ${plan} opens from a file, says nothing on the console, and has every plot`, async () => {
     const {html, report} = run(plan);

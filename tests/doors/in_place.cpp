@@ -1,6 +1,7 @@
 // In place of plans/checks/internal/plan_reach.cpp, plans/analyses/contour_simulation.cpp,
-// fit/profiles/roundness.cpp, the least-squares fits and web/page.cpp, which need half of the
-// program and read nothing: they work with what was read and checked, and the page goes out.
+// plans/path/solid_mesh.cpp, fit/profiles/roundness.cpp, the least-squares fits and web/page.cpp,
+// which need half of the program or CGAL and read nothing: they work with what was read and
+// checked, and the page goes out.
 
 #include "core/decompositions.h"
 #include "fit/least_squares/circle.h"
@@ -10,6 +11,7 @@
 #include "fit/profiles/roundness_evaluation.h"
 #include "plans/analyses/internal/contour_kind.h"
 #include "plans/checks/internal/plan_reach.h"
+#include "plans/path/solid_mesh.h"
 #include "web/page.h"
 
 // Of the decompositions of core/decompositions.cpp the readers use two.
@@ -55,6 +57,24 @@ std::optional<Eigen::Vector3d> layer_normal(SpacePoints /*points_mm*/,
 
 }  // namespace fit
 namespace plans {
+
+struct SolidMesh::Impl {
+  std::vector<Eigen::Vector3d> points_mm;
+};
+SolidMesh::SolidMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SolidMesh::~SolidMesh() = default;
+const std::vector<Eigen::Vector3d>& SolidMesh::points_mm() const { return impl_->points_mm; }
+
+core::Result<std::shared_ptr<const SolidMesh>> SolidMesh::build(
+    std::span<const Eigen::Vector3d> points_mm,
+    std::span<const std::array<std::size_t, 3>> /*corners*/) {
+  auto impl = std::make_unique<Impl>(Impl{{points_mm.begin(), points_mm.end()}});
+  return std::shared_ptr<const SolidMesh>(new SolidMesh(std::move(impl)));
+}
+
+core::Result<std::shared_ptr<const SolidMesh>> SolidMesh::box(const Eigen::Vector3d& size_mm) {
+  return build(std::array<Eigen::Vector3d, 2>{-0.5 * size_mm, 0.5 * size_mm}, {});
+}
 
 core::Result<void> check_room(const Plan& /*plan*/) { return {}; }
 

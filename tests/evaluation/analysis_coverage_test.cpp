@@ -1,5 +1,5 @@
 // How often the intervals of spindle, wheel and contour hold the truth, on inspections that are
-// simulated by other code (simulated_analyses.h), each drawn anew with all that is declared. 250
+// simulated by other code (simulated_analyses.h), each drawn anew with all that is declared. 150
 // inspections with RONDURE_FULL=1 (./test.sh --full), 100 of asynchronous motion and contour; 1 000
 // of each with RONDURE_FULL=all, without ctest. Else a few, whose mean U is held against that of
 // 1 000: so few show a wrong width before they show a wrong coverage.
@@ -145,7 +145,7 @@ FeatureResult without_intervals(record::RunRecord run) {
 /// Evaluates inspections and counts, for each of their characteristics.
 void expect_covered(const std::vector<Figure>& figures,
                     const std::function<Inspection(std::uint64_t)>& inspect, int few,
-                    int full = 250) {
+                    int full = 150) {
   std::vector<CountedFigure> tallies(figures.begin(), figures.end());
   const int inspections = test::cases(few, full, kAll);
   for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(inspections); ++k) {

@@ -1,5 +1,5 @@
 // How often the interval of measurement_uncertainty() holds the truth, on simulated inspections
-// whose surfaces and errors are made here, by other code. 200 inspections a scenario with
+// whose surfaces and errors are made here, by other code. 80 to 150 inspections a scenario with
 // RONDURE_FULL=1 (./test.sh --full), 1 000 with RONDURE_FULL=all; else a few of fewer trials, whose
 // mean width is held against that of docs/developer/accuracy.md, because so few show a wrong width
 // before they show a wrong coverage.
@@ -31,7 +31,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of a scenario. The sanitizers take few.
-int inspections(int few, int of_full = 200) {
+int inspections(int few, int of_full = 100) {
 #ifdef __SANITIZE_ADDRESS__
   few = few / 2;
 #endif
@@ -362,7 +362,7 @@ evaluation::FormSpectrum short_spectrum() {
 
 Tally tally_whole(const Scenario& now, const evaluation::FormSpectrum& declared, int few) {
   Tally tally;
-  tally.count = inspections(few, 200);
+  tally.count = inspections(few, 80);
   for (int k = 0; k < tally.count; ++k) {
     const auto key = static_cast<std::uint64_t>(k);
     const SpectralForm form(true_spectrum(), core::KeyedNoise(kSeed, {3, key}));
@@ -514,7 +514,7 @@ struct TouchedShaft {
 // The section that reads most is the one that noise raises most: its interval alone lies too high,
 // and is as wide as that of 8 points.
 TEST(Coverage, OfRoundnessInSeveralSectionsHoldsTheTruth) {
-  const int count = inspections(12, 300);
+  const int count = inspections(12, 150);
   constexpr double kSigma = 0.5e-3;
   std::array<Tally, 2> tallies{};
   for (int p = 0; p < count; ++p) {

@@ -484,7 +484,7 @@ void compare_extremes(const FeatureResult& found, const Oracle& of) {
 
 /// All with RONDURE_FULL=1. The first four hold every kind: on one axis or not, a shaft or a bore
 /// for C.
-int shafts() { return test::cases(4, 100, 200); }
+int shafts() { return test::cases(4, 50, 200); }
 
 }  // namespace
 

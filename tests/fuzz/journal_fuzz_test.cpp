@@ -58,7 +58,7 @@ std::string try_run(const std::filesystem::path& directory, unsigned seed) {
 TEST(JournalFuzz, NoResealedJournalUpsetsTheEvaluation) {
   const auto directory = work_folder() / "resealed";
   ASSERT_FALSE(sample_runs().empty());
-  try_cases({40, 2'000}, [&](unsigned seed) {
+  try_cases({20, 2'000}, [&](unsigned seed) {
     write_resealed_run(directory, seed);
     return try_run(directory, seed);
   });

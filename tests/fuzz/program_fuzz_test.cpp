@@ -50,7 +50,7 @@ TEST(ProgramFuzz, NoResealedRunUpsetsAVerb) {
   const fs::path run = work_folder() / "program-run";
   const std::string archive = (work_folder() / "program-archive.db").string();
   ASSERT_FALSE(sample_runs().empty());
-  try_cases({25, 700}, [&](unsigned seed) {
+  try_cases({15, 700}, [&](unsigned seed) {
     write_resealed_run(run, seed);
     const std::vector<std::vector<std::string>> calls = {
         {"verify", run.string()},

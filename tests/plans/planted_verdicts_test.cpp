@@ -382,7 +382,7 @@ TEST_P(PlantedShafts, ConformOnlyWithinTheirLimits) {
       std::to_string(sampling.layers) + " x " + std::to_string(sampling.points);
   study(
       title.c_str(), [&](std::uint64_t seed) { return shaft(sampling, seed); }, 1,
-      sampling.points > 36 ? 3 : 6, 200, 30);
+      sampling.points > 36 ? 1 : 2, 200, 30);
 }
 INSTANTIATE_TEST_SUITE_P(Samplings, PlantedShafts,
                          ::testing::Values(Sampling{2, 8}, Sampling{3, 12}, Sampling{4, 8},
@@ -390,7 +390,7 @@ INSTANTIATE_TEST_SUITE_P(Samplings, PlantedShafts,
 
 TEST(PlantedAnalyses, SpindlesConformOnlyWithinTheirLimits) {
   study(
-      "spindle", [](std::uint64_t seed) { return analysis(record::Shape::kSpindle, seed); }, 1, 4,
+      "spindle", [](std::uint64_t seed) { return analysis(record::Shape::kSpindle, seed); }, 1, 3,
       200, 40);
 }
 TEST(PlantedAnalyses, WheelsConformOnlyWithinTheirLimits) {
@@ -401,7 +401,7 @@ TEST(PlantedAnalyses, WheelsConformOnlyWithinTheirLimits) {
 TEST(PlantedAnalyses, PinsConformOnlyWithinTheirLimits) {
   if (!test::full()) GTEST_SKIP() << "takes 6 s of processor time: run by ./test.sh --full";
   study(
-      "pin", [](std::uint64_t seed) { return analysis(record::Shape::kContour, seed); }, 1, 4, 200,
+      "pin", [](std::uint64_t seed) { return analysis(record::Shape::kContour, seed); }, 1, 2, 200,
       40);
 }
 TEST(PlantedAnalyses, HeadsConformOnlyWithinTheirLimits) {

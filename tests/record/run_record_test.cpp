@@ -17,7 +17,6 @@ TEST(RunRecord, SpellsWordsAsPlansDo) {
   EXPECT_EQ(name_of(Reference::kMinimumCircumscribed), "mc");
   EXPECT_EQ(name_of(Reference::kMaximumInscribed), "mi");
   EXPECT_EQ(name_of(Strategy::kGuided), "guided");
-  EXPECT_EQ(name_of(Strategy::kRefined), "refined");
   EXPECT_EQ(name_of(Strategy::kAsPublished), "as-published");
   EXPECT_EQ(name_of(Strategy::kVirtual), "virtual");
   EXPECT_EQ(name_of(Strategy::kPointsFile), "points-file");
@@ -42,7 +41,7 @@ TEST(RunRecord, ReadsEachWordBackAndNoOther) {
   read_back<Side>(2);
   read_back<Form>(29);
   read_back<Reference>(4);
-  read_back<Strategy>(9);
+  read_back<Strategy>(8);
   read_back<Merge>(2);
   read_back<SamplingMethod>(2);
   read_back<Touch::Purpose>(4);

@@ -85,7 +85,6 @@ SpindleTask full_spindle() {
   out.probe_noise_um = kOdd / 3.0;
   out.probe_range_um = kOdd / 5.0;
   out.tip_width_mm = kOdd / 7.0;
-  out.resampling = Switch::kOff;
   out.second_order = SpindleTask::SecondOrder::kOff;
   out.motion = SpindleTask::Motion::kAsPublished;
   out.filter = SpindleTask::Filter::kNone;

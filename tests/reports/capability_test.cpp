@@ -92,7 +92,7 @@ TEST(CapabilityBetween, TwoLimitsIsTheLesserOfBothSides) {
 
 TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
   // Of the small samples alone, where a bound of another method is farthest off, unless in full.
-  const int rounds = test::cases(1'000, 3'000, 10'000);
+  const int rounds = test::cases(1'000, 2'000, 10'000);
   const std::vector<int> sizes =
       test::full() ? std::vector<int>{30, 50, 200} : std::vector<int>{30};
   std::uint64_t state = 7;

@@ -129,9 +129,8 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
   return finish(session, feature);
 }
 
-/// Searches the published grid, or also with step halving; then measures the best pose again.
-core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool as_published) {
-  const PoseSearchPlan& plan = feature.pose_search;
+/// Searches the published grid; then measures the best pose again.
+core::Result<void> grid(PoseSession& session, const FeaturePlan& feature) {
   const auto f = [&](const core::Pose& pose) -> core::Result<double> {
     const auto cloud = session.measure(pose);
     if (!cloud) {
@@ -140,13 +139,12 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
       return core::fail(unreachable ? core::Code::kPoseRange : cloud.error().code,
                         cloud.error().what);
     }
-    const double value = f_of(*cloud, as_published);
+    const double value = f_of(*cloud, true);
     session.show(value);
     return value;
   };
-  const auto steps =
-      as_published ? plan.steps_deg : fit::halved_steps(plan.steps_deg, plan.min_step_deg);
-  TRY(const auto walk, fit::walk_poses(f, start_pose(session, feature), steps));
+  TRY(const auto walk,
+      fit::walk_poses(f, start_pose(session, feature), feature.pose_search.steps_deg));
   const fit::PoseStep& best = walk.visited[walk.best];
   auto noted = session.note(
       message_at(best.pose, core::MessageCode::kPoseSearchEnded,
@@ -217,9 +215,8 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
       return merged(session, feature);
     case Strategy::kGuided:
       return guided(session, feature, pose);
-    case Strategy::kRefined:
     case Strategy::kAsPublished:
-      return grid(session, feature, strategy == Strategy::kAsPublished);
+      return grid(session, feature);
     case Strategy::kPointsFile:
     case Strategy::kSeries:
     case Strategy::kStations:

@@ -54,7 +54,7 @@ class PoseSession {
   virtual void show(double f_mm) = 0;
 };
 
-/// Runs the pose search of a feature: `guided`, `refined`, `as-published` or `virtual` (DESIGN: the
+/// Runs the pose search of a feature: `guided`, `as-published` or `virtual` (DESIGN: the
 /// result is always the minimum zone of the final cloud, never the least f found during the
 /// search). A circle, and the strategy `start-pose`, is located, then measured in its start pose; a
 /// plane, cone or sphere the same without locating. `merged` is measured in each of its poses

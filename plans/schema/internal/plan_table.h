@@ -406,12 +406,12 @@ void describe(Visitor& v, PoseSearchPlan& p) {
                             .code = core::Code::kPoseRange,
                             .meaning = "Angle of the fixture before the first touch."};
   v.text("strategy", p.strategy,
-         {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kRefined),
-                     name_of(Strategy::kAsPublished), name_of(Strategy::kVirtual),
-                     name_of(Strategy::kStartPose), name_of(Strategy::kMerged)},
+         {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kAsPublished),
+                     name_of(Strategy::kVirtual), name_of(Strategy::kStartPose),
+                     name_of(Strategy::kMerged)},
           .meaning =
               "How the levelling pose is found. guided: each cloud predicts the next pose. "
-              "as-published: grid of steps_deg. refined: that grid, then halved steps. virtual: "
+              "as-published: grid of steps_deg. virtual: "
               "one cloud, turned in software. start-pose: no search, so that several features "
               "share one clamping; the default for a datum and what refers to it, and without a "
               "fixture; always so "
@@ -425,19 +425,18 @@ void describe(Visitor& v, PoseSearchPlan& p) {
                      "the part. kinematics: the fixture is believed."});
   v.number("start_alpha_deg", p.start_alpha_deg, start);
   v.number("start_beta_deg", p.start_beta_deg, start);
-  v.numbers(
-      "steps_deg", p.steps_deg,
-      {.at_least = 0.0,
-       .at_most = kMaxStep_deg,
-       .above = true,
-       .code = core::Code::kStep,
-       .meaning = "Steps of the grid, from coarse to fine (as-published, refined, virtual)."});
+  v.numbers("steps_deg", p.steps_deg,
+            {.at_least = 0.0,
+             .at_most = kMaxStep_deg,
+             .above = true,
+             .code = core::Code::kStep,
+             .meaning = "Steps of the grid, from coarse to fine (as-published, virtual)."});
   v.number("min_step_deg", p.min_step_deg,
            {.at_least = 0.0,
             .at_most = kMaxStep_deg,
             .above = true,
             .code = core::Code::kStep,
-            .meaning = "Step halving ends below this step (refined, virtual)."});
+            .meaning = "Step halving ends below this step (virtual)."});
   v.whole("max_poses", p.max_poses,
           range(1, 100, "Levelling gives up after so many poses (guided)."));
   v.whole("repeats", p.repeats,
