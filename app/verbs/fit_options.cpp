@@ -114,7 +114,7 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
       ->check(CLI::IsMember({"circle", "cylinder", "cone", "sphere", "plane", "line"}));
   verb->add_option("FILE", arguments.file,
                    "Points, tip centres: a text table as programs write it; - for standard input.\n"
-                   "The first line of the result says what was taken for what");
+                   "The line \"read as\" of the result says what was taken for what");
   add_list(*verb, "--columns", arguments.points.columns,
            "Columns of x, y and z: numbers from 1, or names in the head line", "X,Y[,Z]")
       ->expected(2, 3);
@@ -176,7 +176,9 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
         throw CLI::ValidationError(written, "is empty; name a place, or leave it out");
     }
     for (const char* of_page : {"--tolerance-um", "--serial", "--operator"}) {
-      if (verb->count(of_page) > 0 && arguments.out.empty() && arguments.save_plan.empty())
+      const bool of_plan =
+          std::string_view(of_page) == "--tolerance-um" && !arguments.save_plan.empty();
+      if (verb->count(of_page) > 0 && arguments.out.empty() && !of_plan)
         throw CLI::RequiresError(of_page, "--out");
     }
     check_fit(arguments);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
+#include "app/text/terminal.h"
 #include "app/verbs/plan_in_memory.h"
 #include "app/verbs/verbs.h"
 #include "record/tasks/form_facts.h"
@@ -93,7 +94,9 @@ int fit_or_run(const FitArguments& arguments) {
   plan.operator_name = arguments.operator_name;
   if (auto good = check_spelling(plan); !good) return refuse(good.error());
   // Before anything is written.
-  if (auto points = load_points(arguments); !points) return refuse(points.error());
+  const auto points = load_points(arguments);
+  if (!points) return refuse(points.error());
+  if (!arguments.out.empty()) say(wrapped(points->read, "Read as ", "  ") + "\n");
   return save_or_run(plan);
 }
 

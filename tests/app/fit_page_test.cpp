@@ -22,6 +22,7 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 /// A journal of 30 mm with three lobes of 1 um, as a German program exports it.
 std::string export_of_a_journal() {
@@ -72,10 +73,20 @@ TEST_F(FitToAPage, OfOneFeatureOfAFileNamesTheOthers) {
               HasSubstr("has rows that no feature of the plan takes: \"B\""));
 }
 
+TEST_F(FitToAPage, APlanAloneTakesNoSerialNumber) {
+  for (const char* option : {"--serial", "--operator"}) {
+    const Outcome refused =
+        rondure({"fit", "cylinder", points_, option, "0042", "--save-plan", folder_ / "plan.json"});
+    EXPECT_NE(refused.status, 0);
+    EXPECT_THAT(refused.err, HasSubstr(std::string(option) + " requires --out"));
+  }
+}
+
 TEST_F(FitToAPage, IsARunThatVerifiesAndSigns) {
   const Outcome outcome = rondure(
       {"fit", "cylinder", points_, "--tolerance-um", "2.5", "--serial", "0042", "--out", run_});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("Read as "));
   EXPECT_THAT(outcome.out, HasSubstr((run_ / "report.html").string()));
   const json asked = cylindricity_of(run_);
   EXPECT_EQ(asked["id"], "CYLt 2.5");
