@@ -19,7 +19,7 @@
 #include "cmm/ipp_server/profile.h"
 #include "core/numbers.h"
 #include "core/version.h"
-#include "plans/schema/near_words.h"
+#include "plans/key_spec.h"
 #include "plans/schema/simulation_table.h"
 #include "reports/formats/exports.h"
 #include "reports/words/language.h"

@@ -4,7 +4,7 @@
 
 #include "benchmarks/own_fits.h"
 #include "benchmarks/sample_sets.h"
-#include "fit/proof/certificate_check.h"
+#include "fit/proof/certificate.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::benchmarks {
@@ -20,7 +20,7 @@ struct Judgement {
 /// search (up to 1000 points), of Nelder and Mead (cylinders of up to 1e4) and of ten starts with
 /// axes turned by up to 10 deg, centres moved by up to 0.5 mm; from 1e6 points on, for the first
 /// six seeds only, one start for the others. It is kept for each set. The witness is checked by
-/// fit/proof/certificate_check.h; here the gap of its multipliers, against 1e-10 of the width or the
+/// fit/proof/certificate.h; here the gap of its multipliers, against 1e-10 of the width or the
 /// round-off of distances, if that is more.
 [[nodiscard]] Judgement judge(const SetKey& key, const CylinderSet& set, const fit::Axis& axis,
                               const fit::StatedZone& zone);

@@ -5,10 +5,9 @@
 #include <Eigen/Core>
 
 #include "benchmarks/sample_sets.h"
-#include "fit/least_squares/cylinder.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
 #include "fit/geometry/scan.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::benchmarks {

@@ -10,11 +10,10 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
 #include "evaluation/interval/internal/declared.h"
-#include "evaluation/results/age_gate.h"
 #include "evaluation/results/chain.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/gates.h"
 #include "evaluation/results/measured_cloud.h"
-#include "evaluation/results/temperature_gates.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "core/version.h"
 #include "record/files.h"
 

@@ -18,7 +18,7 @@
 #include "evaluation/internal/truth.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
-#include "evaluation/part/internal/clamping.h"
+#include "evaluation/part/internal/families.h"
 #include "evaluation/part/surface.h"
 #include "evaluation/results/finding.h"
 #include "evaluation/results/internal/fixture_use.h"

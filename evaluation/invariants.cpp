@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/frames.h"
 #include "fit/geometry/points.h"
-#include "fit/proof/certificate_check.h"
+#include "fit/proof/certificate.h"
 
 namespace rondure::evaluation {
 namespace {

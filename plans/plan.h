@@ -17,10 +17,8 @@
 #include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
 #include "plans/wheel_plan.h"
-#include "plans/zaber_plan.h"
 #include "record/decision_rule.h"
 #include "record/points/points.h"
-#include "record/report_words.h"
 #include "record/run_record.h"
 #include "record/tasks/characteristic.h"
 #include "record/tasks/contour.h"
@@ -31,6 +29,7 @@
 #include "record/tasks/surface.h"
 #include "record/tasks/uncertainty.h"
 #include "record/tasks/wheel.h"
+#include "record/words.h"
 
 namespace rondure::plans {
 

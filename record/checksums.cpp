@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "record/files.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {

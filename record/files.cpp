@@ -1,16 +1,19 @@
 #include "record/files.h"
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <system_error>
-#include <utility>
-
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "record/sha256.h"
 
@@ -275,6 +278,26 @@ std::string plain_name(std::string_view name) {
     if (kPlain.find(c) == std::string_view::npos) c = '_';
   }
   return out;
+}
+
+namespace fs = std::filesystem;
+
+PrivateFolder::PrivateFolder(const char* name) {
+  std::error_code problem;
+  const fs::path place = fs::temp_directory_path(problem);
+  std::string made = ((problem ? fs::path("/tmp") : place) / name).string() + "-XXXXXX";
+  if (::mkdtemp(made.data()) != nullptr) path_ = made;
+}
+
+PrivateFolder::~PrivateFolder() {
+  if (path_.empty()) return;
+  std::error_code problem;
+  // A process that was just killed may still write a file into a folder that is being emptied.
+  for (int i = 0; i < 5; ++i) {
+    fs::remove_all(path_, problem);
+    if (!problem) return;
+    ::usleep(20'000);
+  }
 }
 
 }  // namespace rondure::record

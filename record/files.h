@@ -60,4 +60,22 @@ void remove_temporaries(const std::filesystem::path& directory,
 /// Words for an error number of the system: "the disk is full (No space left on device)".
 [[nodiscard]] std::string system_reason(int error_number);
 
+/// A folder of this process in TMPDIR, or in /tmp where that is none; it goes away, with what is in
+/// it, when this does.
+class PrivateFolder {
+ public:
+  /// @param name  Of the folder, before six letters.
+  explicit PrivateFolder(const char* name);
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  /// Empty when the folder cannot be created (errno).
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 }  // namespace rondure::record

@@ -31,4 +31,19 @@ template <Worded Enum>
   return std::nullopt;
 }
 
+/// A format of the files that are derived from a record.
+enum class Format { kHtml, kPdf, kJson, kCsv, kQif, kDmis, kCorrections };
+
+/// Paper of report.pdf.
+enum class Paper { kA4, kLetter };
+
+RONDURE_WORDS(Format, {kHtml, "html"}, {kPdf, "pdf"}, {kJson, "json"}, {kCsv, "csv"}, {kQif, "qif"},
+              {kDmis, "dmis"}, {kCorrections, "corrections"});
+RONDURE_WORDS(Paper, {kA4, "a4"}, {kLetter, "letter"});
+
+/// A setting that is on or off.
+enum class Switch { kOff, kOn };
+
+RONDURE_WORDS(Switch, {kOff, "off"}, {kOn, "on"});
+
 }  // namespace rondure::record

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

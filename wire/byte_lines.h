@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "wire/byte_stream.h"
 #include "wire/clock.h"
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::wire {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "wire/byte_stream.h"
+#include "wire/transport.h"
 
 namespace rondure::wire {
 

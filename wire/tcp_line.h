@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::wire {
 

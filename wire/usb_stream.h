@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "wire/byte_stream.h"
 #include "wire/clock.h"
 #include "wire/serial_port.h"
+#include "wire/transport.h"
 #include "wire/usb.h"
 
 namespace rondure::wire {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/result.h"
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::wire {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/forecast/expected_record.h"
+#include "plans/forecast/forecast.h"
 
 namespace rondure::app {
 namespace {

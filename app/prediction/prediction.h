@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "evaluation/prediction/predict.h"
-#include "evaluation/prediction/predict_analysis.h"
-#include "evaluation/prediction/predict_residual.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
 

@@ -11,7 +11,6 @@
 #include "evaluation/decision/decision.h"
 #include "evaluation/prediction/predict.h"
 #include "plans/analyses/features.h"
-#include "plans/forecast/expected_record.h"
 #include "plans/forecast/forecast.h"
 
 namespace rondure::app {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/report_words.h"
+#include "record/words.h"
 
 namespace rondure::app {
 

@@ -7,7 +7,7 @@
 
 #include "app/run/arguments.h"
 #include "app/run/resumption.h"
-#include "evaluation/decision/verdict.h"
+#include "evaluation/decision/decision.h"
 #include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"

@@ -10,6 +10,12 @@
 
 namespace rondure::app {
 
+/// Model and vector units of this processor; results are bit-identical on the same kind only.
+[[nodiscard]] std::string processor();
+
+/// The current time as ISO 8601 in UTC: "2026-11-21T02:33:02Z".
+[[nodiscard]] std::string utc_now();
+
 /// Evaluates a run with the draws that its directory keeps, and keeps those that it has to make.
 ///
 /// Draws are taken only where SHA256SUMS names trials.bin with the digest that it has, the same

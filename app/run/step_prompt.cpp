@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/run/processor.h"
+#include "app/run/kept_trials.h"
 #include "app/text/terminal.h"
 #include "core/units.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/terminal.h"
-#include "core/utf8.h"
+#include "core/encodings.h"
 
 namespace rondure::app {
 namespace {

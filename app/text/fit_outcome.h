@@ -13,8 +13,7 @@
 #include "fit/geometry/contacts.h"
 #include "fit/geometry/plane.h"
 #include "fit/proof/certificate.h"
-#include "fit/sizes/local_sizes.h"
-#include "fit/sizes/material.h"
+#include "fit/sizes/sizes.h"
 #include "fit/zone/deviation_range.h"
 
 namespace rondure::app {

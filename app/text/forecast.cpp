@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/round_values.h"
+#include "core/numbers.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 

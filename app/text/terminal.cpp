@@ -17,8 +17,8 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/units.h"
-#include "core/utf8.h"
 #include "core/watch.h"
 #include "record/files.h"
 

@@ -10,8 +10,8 @@
 #include "app/text/answer.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "core/utf8.h"
-#include "plans/schema/near_words.h"
+#include "core/encodings.h"
+#include "plans/key_spec.h"
 
 namespace rondure::app {
 namespace {

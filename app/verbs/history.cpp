@@ -9,7 +9,7 @@
 #include "app/run/archive_step.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "evaluation/evaluate.h"
 #include "plans/run/record.h"
 #include "record/archive/queue.h"

@@ -10,9 +10,7 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/utf8.h"
 #include "record/files.h"
-#include "record/private_folder.h"
 #include "reports/terminal/summary.h"
 #include "reports/words/language.h"
 

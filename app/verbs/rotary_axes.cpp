@@ -17,8 +17,8 @@
 #include "core/result.h"
 #include "core/units.h"
 #include "fit/rotary/axes.h"
+#include "fit/rotary/errors.h"
 #include "fit/rotary/model.h"
-#include "fit/rotary/reading.h"
 #include "record/csv/balls.h"
 #include "record/files.h"
 

@@ -10,7 +10,7 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "core/units.h"
-#include "fit/profiles/roundness_evaluation.h"
+#include "fit/profiles/roundness.h"
 #include "record/points/points.h"
 
 namespace rondure::app {

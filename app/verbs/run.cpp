@@ -13,7 +13,7 @@
 
 #include "app/run/archive_step.h"
 #include "app/run/ending.h"
-#include "app/run/processor.h"
+#include "app/run/kept_trials.h"
 #include "app/run/resumption.h"
 #include "app/run/step_prompt.h"
 #include "app/text/terminal.h"
@@ -28,7 +28,6 @@
 #include "plans/plan.h"
 #include "plans/run/runner.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/utf8.h"
 #include "record/journal/journal.h"
 #include "reports/html/pdf.h"
 #include "reports/words/language.h"

@@ -11,7 +11,7 @@
 #include "fit/spindle/probe_layout.h"
 #include "record/archive/archive.h"
 #include "record/points/points.h"
-#include "record/report_words.h"
+#include "record/words.h"
 
 namespace CLI {
 class App;

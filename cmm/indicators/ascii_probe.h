@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "cmm/indicators/displacement_probe.h"
-#include "wire/byte_stream.h"
 #include "wire/clock.h"
 #include "wire/serial_port.h"
+#include "wire/transport.h"
 
 namespace rondure::cmm {
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/internal/reader.h"
 #include "cmm/ipp/numbers.h"
 

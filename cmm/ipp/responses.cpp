@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "cmm/ipp/grammar.h"
-#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp {

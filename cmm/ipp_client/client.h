@@ -16,7 +16,7 @@
 #include "cmm/ipp_client/dialogue.h"
 #include "cmm/machine.h"
 #include "core/result.h"
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::cmm {
 

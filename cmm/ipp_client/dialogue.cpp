@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 #include "cmm/ipp_client/internal/failure.h"
 
 namespace rondure::cmm::ipp::client {

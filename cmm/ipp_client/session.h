@@ -13,7 +13,7 @@
 #include <tl/expected.hpp>
 
 #include "cmm/ipp/grammar.h"
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::cmm::ipp::client {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::cmm::ipp::client {
 

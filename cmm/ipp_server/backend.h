@@ -2,14 +2,31 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <tl/expected.hpp>
 
+#include "cmm/ipp/grammar.h"
 #include "cmm/machine.h"
 #include "core/result.h"
 
 namespace rondure::cmm::ipp {
+
+/// Why a command failed: a number of the error list, and the text for GetXtdErrStatus().
+struct Failure {
+  int number = 0;
+  std::string what;
+};
+
+/// Result of a command.
+struct Reply {
+  std::vector<std::vector<Item>> lines;  ///< Data.
+  int report = 0;                        ///< Number of an error to report after the data; 0: none.
+};
+
+using Outcome = tl::expected<Reply, Failure>;
 
 /// A direction of the part, and its target direction in the machine. Unit vectors.
 struct Alignment {

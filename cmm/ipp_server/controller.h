@@ -12,8 +12,6 @@
 
 #include "cmm/ipp/grammar.h"
 #include "cmm/ipp_server/backend.h"
-#include "cmm/ipp_server/outcome.h"
-#include "cmm/ipp_server/parameters.h"
 #include "cmm/ipp_server/profile.h"
 #include "cmm/machine.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 #include "cmm/ipp_server/controller.h"
 #include "cmm/ipp_server/internal/arguments.h"
 #include "cmm/scan_path.h"

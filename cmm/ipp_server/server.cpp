@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp {
 namespace {

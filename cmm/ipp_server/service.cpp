@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 #include "wire/wire_log.h"
 
 namespace rondure::cmm::ipp {

@@ -12,7 +12,6 @@
 #include "cmm/error_model.h"
 #include "cmm/machine.h"
 #include "cmm/simulated/part.h"
-#include "cmm/simulated/part_surface.h"
 
 namespace rondure::cmm {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "evaluation/contour/internal/contour_trials.h"
-#include "evaluation/contour/internal/curve_model.h"
 #include "evaluation/contour/internal/curves.h"
+#include "evaluation/contour/internal/trials.h"
 #include "evaluation/contour/result.h"
 
 namespace rondure::evaluation::contour_trials {
@@ -109,6 +109,44 @@ std::vector<ContourNumber> contour_numbers(const ContourResult& facts,
   }
   add(Curve::kIndirect, indirect, why, [&] { return *std::move(model); });
   return out;
+}
+
+}  // namespace rondure::evaluation
+
+namespace rondure::evaluation {
+
+std::vector<UncertaintyStatus> intervals_of(const ContourResult& result,
+                                            std::span<const record::Characteristic> characteristics,
+                                            const UncertaintyOptions& options) {
+  auto out = total_intervals(result, characteristics, options);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (characteristics[i].form == record::Form::kFollowingDeviation) {
+      out[i] = following_interval(result, options);
+    }
+  }
+  return out;
+}
+
+std::string ContourNumber::name() const {
+  const auto of = [&]() -> std::string {
+    switch (curve) {
+      case Curve::kTotal:
+        return "total";
+      case Curve::kFollowing:
+        return "following";
+      case Curve::kRest:
+        return "rest";
+      case Curve::kIndirect:
+        return "indirect";
+      case Curve::kMain:
+        return "main";
+    }
+    return {};
+  };
+  const std::string_view what = kind == Kind::kPeakToValley ? "-pv"
+                                : kind == Kind::kRms        ? "-rms"
+                                                            : "-index";
+  return of().append(what);
 }
 
 }  // namespace rondure::evaluation

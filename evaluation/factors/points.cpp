@@ -14,11 +14,9 @@
 #include "evaluation/analysis_result.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
-#include "fit/profiles/roundness_evaluation.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
-#include "fit/references/one_sided_center.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/profiles/roundness.h"
+#include "fit/references/min_zone.h"
+#include "fit/references/one_sided.h"
 
 namespace rondure::evaluation {
 namespace {

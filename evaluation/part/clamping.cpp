@@ -1,4 +1,4 @@
-#include "evaluation/part/internal/clamping.h"
+#include "evaluation/part/internal/families.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "evaluation/part/internal/datum.h"
+#include "evaluation/part/internal/families.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,17 +9,13 @@
 #include "core/phrase.h"
 #include "core/units.h"
 #include "evaluation/part/internal/asked_sections.h"
-#include "evaluation/part/internal/clamping.h"
-#include "evaluation/part/internal/families.h"
 #include "evaluation/part/part_state.h"
 #include "fit/datums/datum_axis.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/plane.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
-#include "fit/references/min_zone_plane.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/min_zone.h"
+#include "fit/references/one_sided.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
 

@@ -7,14 +7,13 @@
 
 #include "evaluation/part/internal/asked_sections.h"
 #include "evaluation/part/internal/associated.h"
-#include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/plane.h"
 #include "fit/profiles/form_parameters.h"
-#include "fit/references/min_zone_plane.h"
+#include "fit/references/min_zone.h"
 #include "record/tasks/form_facts.h"
 
 namespace rondure::evaluation {

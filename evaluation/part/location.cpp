@@ -4,7 +4,6 @@
 #include "core/phrase.h"
 #include "core/units.h"
 #include "evaluation/part/internal/asked_sections.h"
-#include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
 #include "fit/datums/datum.h"
 #include "fit/least_squares/sections.h"

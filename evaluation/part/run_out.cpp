@@ -7,7 +7,6 @@
 #include "core/phrase.h"
 #include "core/units.h"
 #include "evaluation/part/internal/asked_sections.h"
-#include "evaluation/part/internal/datum.h"
 #include "evaluation/part/internal/families.h"
 #include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"

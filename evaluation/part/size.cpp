@@ -11,8 +11,7 @@
 #include "evaluation/part/internal/associated.h"
 #include "evaluation/part/internal/families.h"
 #include "fit/profiles/harmonics.h"
-#include "fit/sizes/calculated_sizes.h"
-#include "fit/sizes/local_sizes.h"
+#include "fit/sizes/sizes.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -14,7 +14,7 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/line.h"
 #include "fit/profiles/generatrix.h"
-#include "fit/references/min_zone_line.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -12,7 +12,7 @@
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/finding.h"
 #include "fit/geometry/axis.h"
-#include "fit/sizes/material.h"
+#include "fit/sizes/sizes.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

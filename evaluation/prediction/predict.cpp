@@ -10,8 +10,16 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "core/watch.h"
+#include "evaluation/analysis.h"
+#include "evaluation/analysis_result.h"
+#include "evaluation/interval/internal/declared.h"
 #include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/prediction/internal/expected_form.h"
+#include "evaluation/results/evaluation.h"
+#include "fit/rotary/ball_center.h"
+#include "record/tasks/rotary_axes.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/uncertainty.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -262,6 +270,153 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
   Prediction out = rehearsed(expected, *rehearsal, *declared, *form, asked,
                              affordable(rehearsal->nominal(), *form, about_whole, asked, options));
   if (out.why.empty()) out.repeatability = std::move(repeatability);
+  return out;
+}
+
+namespace {
+
+AnalysisPrediction nothing(std::string why) {
+  AnalysisPrediction out;
+  out.why = std::move(why);
+  return out;
+}
+
+AnalysisPrediction foretold(const AnalysisResult& result, const record::Characteristic& asked,
+                            const UncertaintyStatus& interval) {
+  if (auto why = why_not_foretold(asked.form)) return nothing(*std::move(why));
+  const auto value = value_of(result, asked);
+  if (!value) return nothing(value.error().what);
+  if (value->void_because) {
+    return nothing(fmt::format("the simulated data give no value that proves anything: {}",
+                               value->void_because->english()));
+  }
+  const UncertaintyStatement* said = interval.about(Measurand::kSampledPoints);
+  if (said == nullptr) return nothing(interval.why().english());
+  AnalysisPrediction out;
+  out.coverage_1 = interval.coverage_1();
+  out.as_read_mm = value->value_mm;
+  out.at_most = said->at_most;
+  out.expected_mm = said->at_most ? said->high_mm : said->estimate_mm;
+  out.below_mm = out.expected_mm - said->low_mm;
+  out.above_mm = said->high_mm - out.expected_mm;
+  out.budget = interval.result()->budget;
+  double variance_mm2 = 0.0;
+  for (const BudgetLine& line : out.budget) {
+    variance_mm2 += line.standard_uncertainty_mm * line.standard_uncertainty_mm;
+  }
+  out.linear_u_mm = std::sqrt(variance_mm2);
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::string> why_not_foretold(record::Form form) {
+  switch (form) {
+    case record::Form::kMotionAsynchronous:
+      return "it is what differs from turn to turn, and only readings show that";
+    case record::Form::kContourSpread:
+      return "it is what differs from part to part, and only measured parts show that";
+    case record::Form::kFixtureResidual:
+    case record::Form::kFixtureResidualRms:
+      return "it is what the axes do together beyond their calibration, and only the fixture shows "
+             "that";
+    case record::Form::kLeftRms:
+    case record::Form::kLeftLargest:
+      return "it is what the axes do together beyond their errors, and only readings show that";
+    case record::Form::kAxisError:
+      return "it is an error of the axis itself, and only measured balls show that";
+    default:
+      return std::nullopt;
+  }
+}
+
+core::Result<std::vector<AnalysisPrediction>> predict_analysis(const record::RunRecord& simulated,
+                                                               int feature) {
+  const bool exists = feature >= 0 && static_cast<std::size_t>(feature) < simulated.features.size();
+  const record::Feature* of =
+      exists ? &simulated.features[static_cast<std::size_t>(feature)] : nullptr;
+  if (of == nullptr || !record::is_analysis(of->shape) || of->shape == record::Shape::kRotaryAxes) {
+    return core::fail_with(core::Code::kBadOption, "feature {} is no analysis of series", feature);
+  }
+  std::vector<FeatureResult> wheels;  // and heads: no other feature gives a value to a later one
+  for (int i = 0; i < feature; ++i) {
+    const record::Shape shape = simulated.features[static_cast<std::size_t>(i)].shape;
+    if (shape != record::Shape::kWheel && shape != record::Shape::kFiveAxis) continue;
+    wheels.push_back(evaluate_analysis(simulated, i, std::nullopt, wheels));
+  }
+  const FeatureResult result = evaluate_analysis(simulated, feature, std::nullopt, wheels);
+  if (!result.analysis) {
+    const std::string why =
+        result.failure ? result.failure->what : std::string("there is no result");
+    return std::vector<AnalysisPrediction>(of->characteristics.size(), nothing(why));
+  }
+  const auto intervals =
+      intervals_of(*result.analysis, of->characteristics, uncertainty_options(simulated));
+  std::vector<AnalysisPrediction> out;
+  for (std::size_t c = 0; c < of->characteristics.size(); ++c) {
+    out.push_back(foretold(*result.analysis, of->characteristics[c], intervals[c]));
+  }
+  return out;
+}
+
+namespace {
+
+constexpr double kMeanRangeOf25 = 3.93;  // of normal values: the touches of the qualification
+
+ResidualPrediction no_residual(std::string why) {
+  ResidualPrediction out;
+  out.why = std::move(why);
+  return out;
+}
+
+/// Standard deviation of a touch, with its source in words.
+std::pair<double, std::string> touch_scatter(const record::RunRecord& expected) {
+  const auto recorded = record::recorded_uncertainty(expected.settings);
+  if (recorded && *recorded && (*recorded)->task.probe &&
+      (*recorded)->task.probe->repeatability_um) {
+    const double sigma_um = *(*recorded)->task.probe->repeatability_um;
+    return {sigma_um * core::kMicrometre, fmt::format("{:.2g} um, as declared", sigma_um)};
+  }
+  const double sigma_mm = expected.artefact.form_limit_mm / kMeanRangeOf25;
+  return {sigma_mm, fmt::format("{:.2g} um, the most that the qualification lets pass",
+                                sigma_mm / core::kMicrometre)};
+}
+
+}  // namespace
+
+core::Result<ResidualPrediction> predict_residual(const record::RunRecord& expected, int feature,
+                                                  std::span<const BallTouches> combined) {
+  const bool exists = feature >= 0 && static_cast<std::size_t>(feature) < expected.features.size();
+  if (!exists ||
+      expected.features[static_cast<std::size_t>(feature)].shape != record::Shape::kRotaryAxes) {
+    return core::fail_with(core::Code::kBadOption, "feature {} is no calibration of a fixture",
+                           feature);
+  }
+  const core::Working work("predicting U of the calibration");
+  TRY(const auto task, record::task_of<record::RotaryTask>(
+                           expected.features[static_cast<std::size_t>(feature)].settings));
+  if (!task.uncertainty) {
+    return no_residual(
+        "no influence is declared: state `uncertainty` of `rotary_axes`, with `ball_um`, "
+        "`repeat_urad` and `reading_urad`");
+  }
+  if (combined.empty()) return no_residual("no combined pose is planned");
+  const auto [sigma_mm, words] = touch_scatter(expected);
+  const double radius_mm = 0.5 * task.ball_diameter_mm + expected.artefact.nominal_tip_radius_mm;
+  double cofactors = 0.0;
+  for (const BallTouches& tips : combined) {
+    const auto center = fit::ball_center(tips, radius_mm);
+    if (!center) return no_residual(center.error().what);
+    cofactors += center->cofactor.trace() / 3.0;
+  }
+  ResidualPrediction out;
+  out.centers = combined.size();
+  const auto count = static_cast<double>(combined.size());
+  out.center_u_mm = std::hypot(sigma_mm * std::sqrt(cofactors / count),
+                               record::u_of(task.uncertainty->ball_um) * core::kMicrometre);
+  out.rms_u_mm = out.center_u_mm / std::sqrt(count);
+  out.largest_u_mm = out.center_u_mm;
+  out.repeatability = words;
   return out;
 }
 

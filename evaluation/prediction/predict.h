@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/result.h"
+#include "evaluation/uncertainty/statement.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "record/run_record.h"
 #include "record/tasks/uncertainty.h"
@@ -90,5 +95,65 @@ struct Prediction {
 [[nodiscard]] core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
                                                const record::Characteristic& asked,
                                                const PredictionOptions& options = {});
+
+/// Predicted statement of a run about a characteristic of an analysis of series.
+struct AnalysisPrediction {
+  /// Why nothing is predicted; the members below are then empty. Empty if something is.
+  std::string why;
+  double coverage_1 = 0.0;
+  double as_read_mm = 0.0;   ///< The value as read of the simulated data.
+  double expected_mm = 0.0;  ///< Its estimate; with `at_most` the upper bound.
+  double below_mm = 0.0;     ///< expected minus lower end [mm], >= 0.
+  double above_mm = 0.0;     ///< upper end minus expected [mm], >= 0.
+  bool at_most = false;      ///< Only the upper bound would be stated: noise dominates.
+  /// By linear propagation: root sum of squares of the budget [mm].
+  double linear_u_mm = 0.0;
+  std::vector<BudgetLine> budget;  ///< Linear propagation; ranked, the largest first.
+
+  /// U: half the width of the interval.
+  [[nodiscard]] double expanded_mm() const { return 0.5 * (below_mm + above_mm); }
+};
+
+/// Why the value of a characteristic cannot be foretold, whatever is declared: it is the scatter or
+/// the error of what is measured, which only readings show. None of the others.
+[[nodiscard]] std::optional<std::string> why_not_foretold(record::Form form);
+
+/// Predicts the intervals of the characteristics of an analysis before its first reading, in their
+/// order: evaluates one simulated set of data as a run does, with its declared influences.
+///
+/// @param simulated  A record that holds the simulated series of the feature.
+/// @param feature    Index of a spindle, wheel or contour.
+/// @return  kBadOption for another feature; `why` states what prevents an interval. Same input,
+/// same
+///          bits, on one kind of processor.
+[[nodiscard]] core::Result<std::vector<AnalysisPrediction>> predict_analysis(
+    const record::RunRecord& simulated, int feature);
+
+/// The tip centres that touch one ball in one combined pose, free of errors [mm].
+using BallTouches = std::vector<Eigen::Vector3d>;
+
+/// The standard uncertainty that the residuals of a fixture calibration will have by linear
+/// propagation, whatever the fixture does.
+struct ResidualPrediction {
+  std::string why;  ///< Why there is none; the members below are then empty. Else empty.
+  /// Of a coordinate of a ball centre: touches, the ball itself, the machine [mm].
+  double center_u_mm = 0.0;
+  std::size_t centers = 0;    ///< Ball centres of all combined poses.
+  double rms_u_mm = 0.0;      ///< Of the rms residual: u of a centre over the root of their number.
+  double largest_u_mm = 0.0;  ///< Of the largest residual, at most: u of a centre.
+  std::string repeatability;  ///< The repeatability of a touch, and where it comes from.
+};
+
+/// Predicts it from the declared influences and the planned touches, before the first of them.
+/// Repeatability of a touch: as `uncertainty.probe` declares it, else at most the value that the
+/// form limit of the qualification just allows (P / 3.93), as predict() assumes it.
+///
+/// @param expected  Settings and features; holds no touches of the feature.
+/// @param feature   Index of a feature of the type rotary_axes.
+/// @param combined  The balls of all combined poses.
+/// @return  kBadOption for another feature; `why` states what prevents it.
+/// Source: docs/fixture-calibration.md, "Residual at combined poses".
+[[nodiscard]] core::Result<ResidualPrediction> predict_residual(
+    const record::RunRecord& expected, int feature, std::span<const BallTouches> combined);
 
 }  // namespace rondure::evaluation

@@ -9,7 +9,7 @@
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
-// Private to the room: the touches of a pose as a cloud, and f of that cloud.
+// The touches of a pose as a cloud, and f of that cloud.
 
 namespace rondure::evaluation {
 

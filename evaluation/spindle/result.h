@@ -10,7 +10,7 @@
 #include "evaluation/results/analysis_value.h"
 #include "evaluation/results/gate.h"
 #include "evaluation/results/measured_radius.h"
-#include "fit/profiles/roundness_evaluation.h"
+#include "fit/profiles/roundness.h"
 #include "fit/spindle/axis_motion.h"
 #include "fit/spindle/first_harmonic.h"
 #include "fit/spindle/three_probe.h"

@@ -11,7 +11,7 @@
 #include "evaluation/wheel/internal/unseen.h"
 #include "evaluation/wheel/result.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::evaluation {
 namespace {

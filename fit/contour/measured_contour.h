@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/result.h"
 #include "fit/contour/error.h"
-#include "fit/profiles/passed_filter.h"
+#include "fit/profiles/profile_filter.h"
 
 namespace rondure::fit {
 

@@ -7,10 +7,10 @@
 
 #include "core/decompositions.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/frames.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/internal/gauss_newton.h"
-#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided.h"
 #include "fit/zone/internal/coupled_zone.h"
 
 namespace rondure::fit {

@@ -12,7 +12,7 @@
 
 #include "core/decompositions.h"
 #include "core/units.h"
-#include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/frames.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/start_directions.h"

@@ -9,7 +9,7 @@
 
 #include "core/decompositions.h"
 #include "core/units.h"
-#include "fit/rotary/reading.h"
+#include "fit/rotary/errors.h"
 
 namespace rondure::fit {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "core/units.h"
 #include "fit/rotary/ball_setup.h"
+#include "fit/rotary/errors.h"
 #include "fit/rotary/internal/checks.h"
 #include "fit/rotary/internal/station.h"
-#include "fit/rotary/reading.h"
 
 namespace rondure::fit {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/result.h"
 #include "fit/geometry/swing_arm.h"
 #include "fit/profiles/closed_profile.h"
-#include "fit/profiles/passed_filter.h"
+#include "fit/profiles/profile_filter.h"
 #include "fit/spindle/probe_layout.h"
 
 namespace rondure::fit {

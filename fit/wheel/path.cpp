@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "fit/wheel/surface_samples.h"
+#include "fit/wheel/surface.h"
 
 namespace rondure::fit {
 namespace {

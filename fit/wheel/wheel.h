@@ -13,7 +13,7 @@
 #include "core/words.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
-#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone.h"
 #include "fit/wheel/centers.h"
 #include "fit/wheel/outliers.h"
 #include "fit/wheel/spread.h"

@@ -7,10 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "fit/geometry/center_frame.h"
 #include "fit/geometry/contacts.h"
-#include "fit/geometry/cylinder_frame.h"
 #include "fit/geometry/enclosing_ball.h"
+#include "fit/geometry/frames.h"
 #include "fit/geometry/scan.h"
 #include "fit/geometry/working_points.h"
 #include "fit/zone/ending.h"

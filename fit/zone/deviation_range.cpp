@@ -8,9 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/zone/internal/center_region.h"
-#include "fit/zone/internal/search_points.h"
-#include "fit/zone/internal/zone_box.h"
+#include "fit/zone/internal/regions.h"
 
 namespace rondure::fit {
 namespace {

@@ -12,8 +12,7 @@
 #include "fit/contour/ground_contour.h"
 #include "fit/contour/separation.h"
 #include "fit/contour/study.h"
-#include "plans/analyses/internal/contour_kind.h"
-#include "plans/analyses/internal/simulated_wheel.h"
+#include "plans/analyses/internal/kinds.h"
 
 namespace rondure::plans {
 namespace {

@@ -3,8 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/feature_references.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 
@@ -74,6 +81,166 @@ std::string clamping_of(const Plan& plan, const FeaturePlan& feature) {
     if (named.empty()) named = own;
   }
   return named.empty() && sharing > 1 ? feature.source->file : named;
+}
+
+namespace {
+
+using core::Code;
+using record::WheelTask;
+
+/// A value that a feature takes of another one.
+struct TakenValue {
+  std::string_view key;  ///< Where the plan says so, after the pointer of the feature.
+  const std::string& feature;
+  std::string_view value;  ///< What it takes.
+  /// Why a feature gives no such value; empty where it does.
+  std::string (*refused)(const FeaturePlan& producer);
+};
+
+std::string why_no_axis(const FeaturePlan& producer) {
+  if (producer.type != record::Shape::kWheel) {
+    return fmt::format("feature {} is a {}", in_quotes(producer.id), name_of(producer.type));
+  }
+  if (!producer.wheel || producer.wheel->mode != WheelTask::Mode::kEnvelope) {
+    return fmt::format("feature {} is measured indexed: its centre is that of the profile",
+                       in_quotes(producer.id));
+  }
+  if (producer.wheel->center != WheelTask::Center::kLeastSquares) {
+    return fmt::format("the centre of feature {} is a mean of quadruples, which has no covariance",
+                       in_quotes(producer.id));
+  }
+  return {};
+}
+
+std::string why_no_radius(const FeaturePlan& producer) {
+  if (producer.type != record::Shape::kWheel) {
+    return fmt::format("feature {} is a {}", in_quotes(producer.id), name_of(producer.type));
+  }
+  if (!producer.wheel || producer.wheel->mode != WheelTask::Mode::kEnvelope) {
+    return fmt::format(
+        "feature {} is measured indexed: its radius is without the run-out with "
+        "which the wheel grinds",
+        in_quotes(producer.id));
+  }
+  return producer.wheel->nominal_radius_mm
+             ? std::string()
+             : fmt::format("feature {} has no nominal_radius_mm", in_quotes(producer.id));
+}
+
+std::string why_no_table(const FeaturePlan& producer) {
+  if (!producer.five_axis || producer.source) {
+    return fmt::format("feature {} is no simulated head", in_quotes(producer.id));
+  }
+  return producer.five_axis->repeat
+             ? fmt::format("feature {} has a table loaded itself", in_quotes(producer.id))
+             : std::string();
+}
+
+/// @param files  Whether parts of files follow: theirs were ground before.
+template <bool files>
+std::string why_no_correction(const FeaturePlan& producer) {
+  if (!producer.contour) return fmt::format("feature {} is no contour", in_quotes(producer.id));
+  if (producer.contour->repeat) {
+    return fmt::format("feature {} has a correction loaded itself", in_quotes(producer.id));
+  }
+  return producer.contour->parts.empty() == !files
+             ? std::string()
+             : fmt::format("the parts of feature {} are {}, those of this one are not",
+                           in_quotes(producer.id), files ? "simulated" : "files");
+}
+
+std::vector<TakenValue> references_of(const FeaturePlan& feature) {
+  std::vector<TakenValue> out;
+  if (feature.spindle && feature.spindle->wheel_radius_from) {
+    out.push_back({"/spindle/wheel_radius_from/feature",
+                   feature.spindle->wheel_radius_from->feature,
+                   "the radius is that of a wheel of mode envelope with a nominal radius, on "
+                   "which the probes were set",
+                   why_no_radius});
+  }
+  if (feature.contour && feature.contour->wheel_radius_from) {
+    out.push_back(
+        {"/contour/wheel_radius_from/feature", feature.contour->wheel_radius_from->feature,
+         "the radius is that of a wheel of mode envelope with a nominal radius", why_no_radius});
+  }
+  if (feature.contour && feature.contour->repeat) {
+    out.push_back(
+        {"/contour/repeat/with/feature", feature.contour->repeat->with.feature,
+         "the correction is that of pins of the same plan",
+         feature.contour->parts.empty() ? why_no_correction<false> : why_no_correction<true>});
+  }
+  if (feature.five_axis && feature.five_axis->repeat) {
+    out.push_back({"/five_axis/repeat/with/feature", feature.five_axis->repeat->with.feature,
+                   "the table is that of a simulated feature of type five_axis", why_no_table});
+  }
+  if (feature.wheel && feature.wheel->axis_from) {
+    out.push_back({"/wheel/axis_from/feature", feature.wheel->axis_from->feature,
+                   "the axis is that of a wheel of mode envelope with center least-squares",
+                   why_no_axis});
+  }
+  return out;
+}
+
+std::optional<std::size_t> index_of(const Plan& plan, const std::string& id) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (plan.features[i].id == id) return i;
+  }
+  return std::nullopt;
+}
+
+/// Whether a feature takes a value, directly or over others, of feature `wanted`.
+bool leads_to(const Plan& plan, std::size_t from, std::size_t wanted) {
+  std::vector<bool> seen(plan.features.size(), false);
+  std::vector<std::size_t> open = {from};
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    if (at == wanted) return true;
+    if (seen[at]) continue;
+    seen[at] = true;
+    for (const TakenValue& reference : references_of(plan.features[at])) {
+      if (const auto next = index_of(plan, reference.feature)) open.push_back(*next);
+    }
+  }
+  return false;
+}
+
+/// Why a feature cannot take this value; empty where it can.
+std::string why_not_taken(const Plan& plan, std::size_t index, const TakenValue& reference) {
+  const std::string named = in_quotes(reference.feature);
+  const auto producer = index_of(plan, reference.feature);
+  if (!producer) {
+    return fmt::format("no feature has the id {}; name an earlier feature of this plan", named);
+  }
+  if (*producer == index) return "a feature takes no value of itself; name an earlier one";
+  if (*producer > index) {
+    if (leads_to(plan, *producer, index)) {
+      return fmt::format(
+          "feature {} itself takes a value that depends on this one: a circle has no "
+          "beginning; remove one of the references",
+          named);
+    }
+    return fmt::format(
+        "feature {} comes later, and features are done in the order of the plan; "
+        "move it before this one",
+        named);
+  }
+  const std::string refused = reference.refused(plan.features[*producer]);
+  if (refused.empty()) return {};
+  return fmt::format("{}; {}", refused, reference.value);
+}
+
+}  // namespace
+
+void check_references(const Plan& plan, std::size_t index, Findings& findings) {
+  const std::string where = feature_pointer(index);
+  for (const TakenValue& reference : references_of(plan.features[index])) {
+    const std::string place = where + std::string(reference.key);
+    if (!findings.sound(place)) continue;
+    if (std::string fault = why_not_taken(plan, index, reference); !fault.empty()) {
+      findings.meaning(Code::kMeaning, place, std::move(fault));
+    }
+  }
 }
 
 }  // namespace rondure::plans

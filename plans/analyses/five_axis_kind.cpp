@@ -9,9 +9,8 @@
 #include <fmt/format.h>
 
 #include "fit/rotary/ball_setup.h"
-#include "plans/analyses/internal/axis_checks.h"
-#include "plans/analyses/internal/five_axis_kind.h"
-#include "plans/schema/five_axis_table.h"
+#include "plans/analyses/internal/kinds.h"
+#include "plans/five_axis_plan.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/noise.h"
-#include "core/round_values.h"
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/rotary/head.h"
-#include "plans/analyses/internal/five_axis_kind.h"
+#include "plans/analyses/internal/kinds.h"
 
 namespace rondure::plans {
 namespace {

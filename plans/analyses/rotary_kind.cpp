@@ -11,11 +11,10 @@
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
-#include "plans/analyses/internal/axis_checks.h"
-#include "plans/analyses/internal/rotary_placing.h"
+#include "plans/analyses/internal/kinds.h"
+#include "plans/rotary_plan.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/rotary_table.h"
 
 namespace rondure::plans {
 namespace {

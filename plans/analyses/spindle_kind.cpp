@@ -9,9 +9,9 @@
 #include "fit/geometry/swing_arm.h"
 #include "fit/spindle/probe_layout.h"
 #include "plans/analyses/analysis.h"
-#include "plans/analyses/internal/simulated_wheel.h"
+#include "plans/analyses/internal/kinds.h"
 #include "plans/schema/internal/setting_list.h"
-#include "plans/schema/spindle_table.h"
+#include "plans/spindle_plan.h"
 
 namespace rondure::plans {
 namespace {

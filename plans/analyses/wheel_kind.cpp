@@ -8,9 +8,9 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/analyses/internal/simulated_wheel.h"
+#include "plans/analyses/internal/kinds.h"
 #include "plans/schema/internal/setting_list.h"
-#include "plans/schema/wheel_table.h"
+#include "plans/wheel_plan.h"
 
 namespace rondure::plans {
 namespace {

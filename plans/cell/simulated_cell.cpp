@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/units.h"
-#include "fixture/drawn_motion.h"
 #include "fixture/fixture.h"
+#include "fixture/simulated.h"
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/internal/nominal_geometry.h"

@@ -1,4 +1,5 @@
 #include "plans/checks/internal/bodies.h"
+#include "plans/checks/internal/plan_checks.h"
 
 #include <algorithm>
 #include <string>
@@ -10,7 +11,6 @@
 
 #include "plans/analyses/features.h"
 #include "plans/analyses/internal/series_file.h"
-#include "plans/checks/internal/plan_checks.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/solid_mesh.h"
 #include "plans/schema/json_text.h"

@@ -10,8 +10,8 @@
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_checks.h"
+#include "plans/key_spec.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/key_spec.h"
 #include "record/tasks/form_facts.h"
 
 namespace rondure::plans {

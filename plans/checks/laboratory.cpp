@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 #include <boost/crc.hpp>
 
-#include "core/base64.h"
+#include "core/encodings.h"
 #include "plans/analyses/internal/series_file.h"
 #include "plans/schema/findings.h"
 #include "plans/schema/internal/table_reader.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/utf8.h"
 
 namespace rondure::plans {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/simulated/part_surface.h"
-#include "core/round_values.h"
+#include "cmm/simulated/part.h"
+#include "core/numbers.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"

@@ -7,7 +7,6 @@
 
 #include "core/result.h"
 #include "plans/path/sampling.h"
-#include "plans/path/surface_chart.h"
 
 namespace rondure::plans {
 

@@ -8,7 +8,7 @@
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
-#include "plans/analyses/internal/rotary_placing.h"
+#include "plans/analyses/internal/kinds.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/internal/reached_pose.h"
 

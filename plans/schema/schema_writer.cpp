@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/schema/internal/plan_table.h"
-#include "plans/schema/key_spec.h"
 
 namespace rondure::plans {
 namespace {

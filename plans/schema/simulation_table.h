@@ -1,13 +1,13 @@
 #pragma once
 
+#include "plans/contour_plan.h"
+#include "plans/five_axis_plan.h"
+#include "plans/key_spec.h"
+#include "plans/machine_errors_plan.h"
 #include "plans/plan.h"
-#include "plans/schema/contour_table.h"
-#include "plans/schema/five_axis_table.h"
-#include "plans/schema/key_spec.h"
-#include "plans/schema/machine_errors_table.h"
-#include "plans/schema/rotary_table.h"
-#include "plans/schema/spindle_table.h"
-#include "plans/schema/wheel_table.h"
+#include "plans/rotary_plan.h"
+#include "plans/spindle_plan.h"
+#include "plans/wheel_plan.h"
 
 // The part of plan_table.h for the hidden truth of a simulation.
 

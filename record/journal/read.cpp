@@ -16,7 +16,6 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/internal/database.h"
-#include "record/journal/internal/canonical.h"
 #include "record/journal/internal/chain.h"
 #include "record/journal/internal/private_copy.h"
 #include "record/journal/internal/reader.h"

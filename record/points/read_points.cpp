@@ -13,7 +13,7 @@
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
 #include "record/points/internal/cloud.h"
-#include "record/points/internal/encoding.h"
+#include "record/points/internal/head.h"
 #include "record/points/internal/text_table.h"
 #include "record/points/triangles.h"
 

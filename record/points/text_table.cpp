@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "record/csv/internal/lines.h"
 #include "record/points/internal/table_layout.h"
 

@@ -6,7 +6,7 @@
 #include "record/key_spec.h"
 #include "record/tasks/analysis_influences.h"
 #include "record/tasks/feature_reference.h"
-#include "record/tasks/switch.h"
+#include "record/words.h"
 
 namespace rondure::record {
 

@@ -3,11 +3,9 @@
 
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
-#include "reports/data/contour.h"
+#include "reports/data/analyses.h"
 #include "reports/data/internal/json_parts.h"
-#include "reports/data/spindle.h"
-#include "reports/data/wheel.h"
-#include "reports/words/internal/gates.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

@@ -6,9 +6,7 @@
 #include "record/tasks/settings.h"
 #include "reports/data/internal/json_parts.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/gates.h"
-#include "reports/words/internal/limits.h"
-#include "reports/words/internal/truths.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

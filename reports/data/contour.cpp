@@ -1,4 +1,4 @@
-#include "reports/data/contour.h"
+#include "reports/data/analyses.h"
 
 #include <optional>
 

@@ -7,18 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/round_values.h"
 #include "core/units.h"
-#include "core/utf8.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/correction/axis_tables.h"
-#include "evaluation/correction/spindle_table.h"
-#include "evaluation/correction/wheel_path.h"
-#include "evaluation/correction/x_of_c.h"
+#include "evaluation/correction/corrections.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/data/wheel.h"
+#include "reports/data/analyses.h"
 
 namespace rondure::reports {
 namespace {

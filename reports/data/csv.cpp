@@ -1,4 +1,4 @@
-#include "reports/data/csv.h"
+#include "reports/data/writers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
 #include "core/units.h"
-#include "core/utf8.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/part/find.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
 #include "reports/escaping.h"
-#include "reports/words/internal/gates.h"
-#include "reports/words/internal/limits.h"
+#include "reports/words/internal/facts.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

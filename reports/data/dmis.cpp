@@ -1,17 +1,17 @@
-#include "reports/data/dmis.h"
+#include "reports/data/writers.h"
 
 #include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
 #include "evaluation/results/section.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/gates.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

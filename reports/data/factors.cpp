@@ -1,4 +1,4 @@
-#include "reports/data/factors.h"
+#include "reports/data/analyses.h"
 #include "reports/data/internal/json_parts.h"
 
 namespace rondure::reports {

@@ -3,7 +3,7 @@
 #include "core/numbers.h"
 #include "evaluation/results/finding.h"
 #include "reports/data/internal/json_parts.h"
-#include "reports/words/internal/limits.h"
+#include "reports/words/internal/facts.h"
 
 namespace rondure::reports {
 namespace {

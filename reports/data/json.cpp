@@ -1,4 +1,4 @@
-#include "reports/data/json.h"
+#include "reports/data/writers.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "reports/data/wheel.h"
+#include "reports/data/analyses.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,11 +11,9 @@
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/data/corrections.h"
-#include "reports/data/csv.h"
-#include "reports/data/dmis.h"
-#include "reports/data/json.h"
-#include "reports/data/qif/internal/check.h"
+#include "reports/data/qif/internal/parts.h"
 #include "reports/data/qif/report.h"
+#include "reports/data/writers.h"
 #include "reports/html/report.h"
 
 namespace rondure::reports {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/encodings.h"
 #include "core/units.h"
-#include "core/utf8.h"
 #include "evaluation/analysis.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/gates.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "evaluation/results/evaluation.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"

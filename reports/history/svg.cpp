@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/round_values.h"
 #include "core/units.h"
-#include "core/utf8.h"
-#include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/history/history.h"
 #include "reports/terminal/internal/columns.h"

@@ -11,7 +11,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/contour/result.h"
-#include "reports/data/contour.h"
+#include "reports/data/analyses.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"

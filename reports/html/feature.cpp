@@ -13,7 +13,6 @@
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/truths.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

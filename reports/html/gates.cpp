@@ -3,7 +3,7 @@
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
-#include "reports/words/internal/gates.h"
+#include "reports/words/internal/messages.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
 #include "reports/drawings/internal/svg.h"

@@ -6,11 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "core/watch.h"
 #include "record/external_program.h"
 #include "record/files.h"
-#include "record/private_folder.h"
 #include "record/sha256.h"
 #include "reports/html/report.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "record/report_words.h"
+#include "record/words.h"
 #include "reports/html/report.h"
 
 namespace rondure::reports {

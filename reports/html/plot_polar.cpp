@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/results/section.h"
-#include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"

@@ -5,7 +5,6 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/solid_scene.h"

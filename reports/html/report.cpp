@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base64.h"
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "record/sha256.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/script.h"

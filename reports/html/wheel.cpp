@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/wheel/result.h"
-#include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"

@@ -9,19 +9,18 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
-#include "reports/data/contour.h"
+#include "reports/data/analyses.h"
 #include "reports/escaping.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/callouts.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/gates.h"
-#include "reports/words/internal/truths.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

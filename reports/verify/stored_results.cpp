@@ -3,7 +3,7 @@
 #include <string>
 
 #include "reports/data/internal/json_parts.h"
-#include "reports/data/json.h"
+#include "reports/data/writers.h"
 
 namespace rondure::reports {
 namespace {

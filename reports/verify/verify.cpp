@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "core/version.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/uncertainty/kept_draws.h"
@@ -20,7 +20,6 @@
 #include "reports/formats/exports.h"
 #include "reports/history/earlier_results.h"
 #include "reports/verify/internal/compare_text.h"
-#include "reports/verify/internal/derived.h"
 #include "reports/verify/internal/files.h"
 #include "reports/verify/stored_results.h"
 

@@ -8,8 +8,8 @@
 #include "core/numbers.h"
 #include "evaluation/part/place.h"
 #include "evaluation/results/feature_values.h"
-#include "reports/words/internal/gates.h"
-#include "reports/words/internal/limits.h"
+#include "reports/words/internal/facts.h"
+#include "reports/words/internal/messages.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

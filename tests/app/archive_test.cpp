@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "reports/terminal/internal/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cmm/simulated/part_surface.h"
+#include "cmm/simulated/part.h"
 #include "core/noise.h"
 #include "core/units.h"
 

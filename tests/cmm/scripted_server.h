@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "wire/line_transport.h"
+#include "wire/transport.h"
 
 namespace rondure::cmm {
 

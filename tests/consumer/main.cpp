@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <core/version.h>
-#include <fit/references/min_zone_circle.h>
+#include <fit/references/min_zone.h>
 
 int main() {
   // Two points 1 um outside a circle and two inside it that alternate: the zone is 2 um wide, about

@@ -14,7 +14,7 @@
 #include "cmm/indicators/mitutoyo_itn.h"
 #include "cmm/ipp/grammar.h"
 #include "cmm/ipp/numbers.h"
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "fixture/thorlabs_messages.h"
 #include "fixture/thorlabs_unit.h"
 #include "fixture/zaber_grammar.h"

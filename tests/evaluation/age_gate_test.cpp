@@ -1,5 +1,5 @@
 // Data of a file that no longer stand for the part: specification, section 7, gate "age".
-#include "evaluation/results/age_gate.h"
+#include "evaluation/results/gates.h"
 
 #include <cmath>
 #include <numbers>

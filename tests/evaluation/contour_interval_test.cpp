@@ -18,7 +18,7 @@
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/contour/result.h"
-#include "evaluation/correction/x_of_c.h"
+#include "evaluation/correction/corrections.h"
 #include "evaluation/results/evaluation.h"
 #include "fit/profiles/profile_filter.h"
 #include "record/tasks/contour.h"

@@ -14,7 +14,7 @@
 
 #include "core/units.h"
 #include "core/version.h"
-#include "evaluation/correction/x_of_c.h"
+#include "evaluation/correction/corrections.h"
 #include "evaluation/evaluate.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

@@ -11,7 +11,7 @@
 #include "evaluation/part/internal/families.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/profiles/profile_filter.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "tests/evaluation/drawing_part.h"
 #include "tests/evaluation/drawing_surface.h"
 

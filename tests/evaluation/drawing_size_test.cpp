@@ -10,7 +10,7 @@
 #include "core/units.h"
 #include "evaluation/part/internal/families.h"
 #include "fit/profiles/profile_filter.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/one_sided.h"
 #include "tests/evaluation/drawing_part.h"
 #include "tests/evaluation/drawing_surface.h"
 

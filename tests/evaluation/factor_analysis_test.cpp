@@ -13,8 +13,8 @@
 
 #include "core/units.h"
 #include "fit/least_squares/circle.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/one_sided_center.h"
+#include "fit/references/min_zone.h"
+#include "fit/references/one_sided.h"
 #include "tests/evaluation/points_run.h"
 #include "tests/evaluation/simulated_analyses.h"
 

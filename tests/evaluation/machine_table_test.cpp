@@ -12,7 +12,7 @@
 
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/correction/spindle_table.h"
+#include "evaluation/correction/corrections.h"
 #include "evaluation/evaluate.h"
 #include "record/tasks/settings.h"
 #include "reports/data/corrections.h"

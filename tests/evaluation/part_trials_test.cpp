@@ -25,7 +25,7 @@
 #include "fit/least_squares/sections.h"
 #include "fit/least_squares/sphere.h"
 #include "fit/profiles/generatrix.h"
-#include "fit/sizes/local_sizes.h"
+#include "fit/sizes/sizes.h"
 #include "fit/zone/fit.h"
 #include "tests/core/full.h"
 
@@ -568,7 +568,7 @@ class PartCoverage : public testing::TestWithParam<CoverageCase> {};
 
 TEST_P(PartCoverage, TheIntervalsHoldTheTruth) {
   const CoverageCase& c = GetParam();
-  const int count = test::cases(c.inspections, 120, 1000);
+  const int count = test::cases(c.inspections, 200, 1000);
   std::array<int, kNames.size()> held{};
   std::array<int, kNames.size()> stated{};
   std::array<int, kNames.size()> above{};

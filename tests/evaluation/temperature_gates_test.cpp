@@ -1,5 +1,5 @@
 // Limits and drift of the temperature, of series and of touches.
-#include "evaluation/results/temperature_gates.h"
+#include "evaluation/results/gates.h"
 
 #include <cmath>
 #include <numbers>

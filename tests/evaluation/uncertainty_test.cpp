@@ -18,7 +18,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/least_squares/cylinder.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/one_sided.h"
 #include "fit/zone/fit.h"
 #include "tests/core/full.h"
 #include "tests/core/processor_time.h"

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/encodings.h"
 #include "core/units.h"
-#include "core/utf8.h"
 #include "evaluation/defect.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/internal/conformance.h"

@@ -1,4 +1,4 @@
-#include "fit/proof/certificate_check.h"
+#include "fit/proof/certificate.h"
 
 #include <cmath>
 #include <limits>
@@ -8,9 +8,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/one_sided_center.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/min_zone.h"
+#include "fit/references/one_sided.h"
 
 namespace rondure::fit {
 namespace {

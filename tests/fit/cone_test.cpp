@@ -11,7 +11,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/references/min_zone_cone.h"
+#include "fit/references/min_zone.h"
 #include "tests/fit/drawing_cases.h"
 
 // Expected numbers: methods, drawing section 12 (W7).

@@ -13,9 +13,8 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/sections.h"
-#include "fit/references/min_zone_plane.h"
-#include "fit/references/one_sided_center.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/min_zone.h"
+#include "fit/references/one_sided.h"
 #include "tests/fit/drawing_cases.h"
 
 // Expected numbers: methods, drawing section 12.

@@ -12,7 +12,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/plane.h"
 #include "fit/least_squares/sections.h"
-#include "fit/references/min_zone_plane.h"
+#include "fit/references/min_zone.h"
 #include "tests/fit/drawing_cases.h"
 
 // Expected numbers: methods, drawing sections 10 and 12.

@@ -11,7 +11,7 @@
 #include "fit/datums/datum.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/profiles/generatrix.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::fit {
 namespace {

@@ -11,7 +11,7 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sections.h"
-#include "fit/references/min_zone_line.h"
+#include "fit/references/min_zone.h"
 #include "tests/fit/drawing_cases.h"
 
 // Expected numbers: methods, drawing section 12 (W2).

@@ -9,10 +9,9 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/geometry/internal/bisectors.h"
-#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone.h"
 #include "fit/zone/global_search.h"
-#include "fit/zone/internal/center_region.h"
-#include "fit/zone/internal/zone_box.h"
+#include "fit/zone/internal/regions.h"
 
 namespace rondure::fit {
 namespace {

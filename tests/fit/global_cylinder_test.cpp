@@ -12,10 +12,9 @@
 
 #include "core/noise.h"
 #include "fit/proof/axis_cover.h"
-#include "fit/proof/certificate_check.h"
-#include "fit/references/min_zone_cylinder.h"
-#include "fit/zone/internal/center_region.h"
-#include "fit/zone/internal/zone_box.h"
+#include "fit/proof/certificate.h"
+#include "fit/references/min_zone.h"
+#include "fit/zone/internal/regions.h"
 #include "tests/core/full.h"
 #include "tests/fit/spec_cases.h"
 

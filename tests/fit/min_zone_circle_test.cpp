@@ -1,4 +1,4 @@
-#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 
 #include <cmath>
 #include <numeric>

@@ -9,7 +9,7 @@
 #include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/plane.h"
 #include "fit/profiles/form_parameters.h"
-#include "fit/references/min_zone_plane.h"
+#include "fit/references/min_zone.h"
 #include "tests/fit/drawing_cases.h"
 
 // Expected numbers: methods, drawing section 12.

@@ -14,8 +14,7 @@
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "record/points/points.h"
 
 namespace rondure::fit {

@@ -11,7 +11,7 @@
 
 #include "core/units.h"
 #include "fit/least_squares/cylinder.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "fit/zone/center_search.h"
 #include "tests/fit/spec_cases.h"
 

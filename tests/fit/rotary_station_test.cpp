@@ -18,7 +18,7 @@
 #include "fit/least_squares/sphere.h"
 #include "fit/rotary/axes.h"
 #include "fit/rotary/ball_center.h"
-#include "fit/rotary/internal/published_axes.h"
+#include "fit/rotary/internal/station.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"
 

@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-#include "fit/profiles/roundness_evaluation.h"
-#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided.h"
 #include "tests/fit/profile_cases.h"
 
 namespace rondure::fit {

@@ -11,11 +11,8 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sections.h"
 #include "fit/profiles/profile_filter.h"
-#include "fit/references/one_sided_center.h"
-#include "fit/references/one_sided_cylinder.h"
-#include "fit/sizes/calculated_sizes.h"
-#include "fit/sizes/global_sizes.h"
-#include "fit/sizes/local_sizes.h"
+#include "fit/references/one_sided.h"
+#include "fit/sizes/sizes.h"
 #include "tests/fit/drawing_cases.h"
 
 // Expected numbers: methods, drawing section 12.

@@ -1,7 +1,7 @@
 // Wheel-centre path: worked examples 3 and 4, a brute-force envelope, gouging, residual form.
 
 #include "fit/wheel/path.h"
-#include "fit/wheel/surface_samples.h"
+#include "fit/wheel/surface.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fit/wheel/forecast.h"
+#include "fit/wheel/evaluation.h"
 
 namespace rondure::fit {
 namespace {

@@ -11,7 +11,7 @@
 #include "evaluation/results/evaluation.h"
 #include "plans/run/record.h"
 #include "record/journal/journal.h"
-#include "reports/data/factors.h"
+#include "reports/data/analyses.h"
 #include "reports/formats/exports.h"
 #include "reports/terminal/factors.h"
 #include "reports/terminal/summary.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "fixture/calibration.h"
 #include "record/checksums.h"
 #include "tests/app/files.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "app/verbs/verbs.h"
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "evaluation/evaluate.h"
 #include "record/archive/archive.h"
 #include "record/journal/journal.h"

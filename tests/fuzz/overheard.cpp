@@ -4,7 +4,7 @@
 
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "core/utf8.h"
+#include "core/encodings.h"
 
 namespace rondure {
 namespace {

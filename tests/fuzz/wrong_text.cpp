@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/utf8.h"
-#include "plans/schema/utf8.h"
+#include "core/encodings.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::fuzz {
 namespace {

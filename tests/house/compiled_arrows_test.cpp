@@ -32,10 +32,10 @@ const std::map<std::string, std::set<std::string>> kLinks = {
     {"web", {"core", "fit", "record", "evaluation", "reports"}},
 };
 /// Of these two rooms, evaluation may know the error model and what that header includes.
-const std::set<std::string> kErrorModel = {"cmm/error_model.h",       "fixture/axis_motion.h",
-                                           "fixture/calibration.h",   "fixture/calibration_draws.h",
-                                           "fixture/error_model.h",   "fixture/kinematics.h",
-                                           "fixture/station_motion.h"};
+const std::set<std::string> kErrorModel = {"cmm/error_model.h",     "fixture/axis_motion.h",
+                                           "fixture/calibration.h", "fixture/calibration_draws.h",
+                                           "fixture/error_model.h", "fixture/kinematics.h",
+                                           "fixture/axis_motion.h"};
 
 bool is_internal(const std::string& header) {
   return header.find("/internal/") != std::string::npos;

@@ -17,7 +17,7 @@ dpkg-deb --info "$folder"/rondure_*.deb
 dpkg-deb -f "$folder"/rondure_*.deb Recommends | grep -qw chromium || { echo "chromium, which prints PDFs, is not recommended"; exit 1; }
 for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
 for file in bin/rondure lib/udev/rules.d/60-rondure.rules lib/cmake/rondure/rondureConfig.cmake lib/librondure_fit.a \
-  include/rondure/fit/references/min_zone_cylinder.h share/man/man1/rondure.1.gz share/bash-completion/completions/rondure \
+  include/rondure/fit/references/min_zone.h share/man/man1/rondure.1.gz share/bash-completion/completions/rondure \
   share/rondure/plans/schema/{plan,report}.schema.json share/doc/rondure/docs/plan.md share/doc/rondure/copyright; do
   [ -s "$folder/root/usr/$file" ] || { echo "missing: /usr/$file"; exit 1; }
 done

@@ -1,7 +1,7 @@
 // The interval of an analysis that is foretold before its first reading is that of runs with other
 // seeds.
 
-#include "evaluation/prediction/predict_analysis.h"
+#include "evaluation/prediction/predict.h"
 
 #include <variant>
 
@@ -10,8 +10,6 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/prediction/predict_residual.h"
-#include "plans/forecast/expected_record.h"
 #include "plans/forecast/forecast.h"
 #include "random_inspection.h"
 #include "tests/plans/files.h"

@@ -14,7 +14,6 @@
 #include "core/units.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/checks/internal/reach_advice.h"
-#include "plans/path/internal/feature_planner.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "tests/plans/random_inspection.h"
 

@@ -1,4 +1,4 @@
-#include "plans/run/internal/fixture_datum.h"
+#include "plans/run/internal/fixture_calibration.h"
 
 #include <algorithm>
 #include <stdexcept>

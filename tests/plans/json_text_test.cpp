@@ -5,9 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/schema/key_spec.h"
-#include "plans/schema/near_words.h"
-#include "plans/schema/utf8.h"
+#include "plans/key_spec.h"
 
 namespace rondure::plans {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <boost/crc.hpp>
 
-#include "core/base64.h"
+#include "core/encodings.h"
 #include "plans/checks/laboratory.h"
 #include "tests/plans/files.h"
 

@@ -1,4 +1,4 @@
-#include "plans/resume/internal/plan_changes.h"
+#include "plans/resume/internal/recorded_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

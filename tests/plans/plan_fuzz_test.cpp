@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/schema/utf8.h"
+#include "plans/schema/json_text.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {

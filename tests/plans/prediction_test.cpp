@@ -16,7 +16,6 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/forecast/expected_record.h"
 #include "plans/forecast/forecast.h"
 #include "random_inspection.h"
 #include "tests/core/full.h"

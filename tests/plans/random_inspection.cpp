@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/simulated/part_surface.h"
+#include "cmm/simulated/part.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/evaluate.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "fit/zone/center_search.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/run/runner.h"

@@ -19,7 +19,7 @@
 #include "cmm/ipp_server/server.h"
 #include "core/units.h"
 #include "evaluation/evaluate.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "plans/cell/internal/open_cell.h"
 #include "plans/cell/served_cell.h"
 #include "plans/run/runner.h"

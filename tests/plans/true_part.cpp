@@ -17,7 +17,6 @@
 #include "plans/analyses/features.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/sampling.h"
-#include "plans/path/surface_chart.h"
 #include "tests/plans/least_greatest.h"
 
 namespace rondure::plans {

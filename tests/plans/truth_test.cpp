@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "tests/core/full.h"
 #include "tests/plans/least_greatest.h"

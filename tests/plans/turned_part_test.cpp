@@ -14,7 +14,7 @@
 #include "core/units.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/surface_chart.h"
+#include "plans/path/sampling.h"
 #include "plans/run/runner.h"
 #include "tests/plans/random_inspection.h"
 #include "tests/record/sample_run.h"

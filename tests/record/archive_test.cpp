@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/archive/internal/schema.h"
+#include "record/archive/internal/rows.h"
 #include "record/files.h"
 #include "tests/record/archive_samples.h"
 #include "tests/record/meddle.h"

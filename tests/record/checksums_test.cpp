@@ -1,4 +1,5 @@
 #include "record/checksums.h"
+#include "record/sha256.h"
 
 #include <fstream>
 
@@ -6,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "record/files.h"
-#include "record/sha256.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

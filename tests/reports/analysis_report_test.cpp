@@ -10,11 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "reports/data/csv.h"
-#include "reports/data/dmis.h"
-#include "reports/data/json.h"
-#include "reports/data/qif/internal/check.h"
+#include "reports/data/qif/internal/parts.h"
 #include "reports/data/qif/report.h"
+#include "reports/data/writers.h"
 #include "reports/history/archive_entry.h"
 #include "reports/html/report.h"
 #include "reports/terminal/summary.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/numbers.h"
-#include "reports/data/csv.h"
+#include "reports/data/writers.h"
 #include "synthetic.h"
 #include "tests/reports/page_text.h"
 

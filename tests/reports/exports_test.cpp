@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/numbers.h"
-#include "reports/data/csv.h"
-#include "reports/data/dmis.h"
+#include "reports/data/writers.h"
 #include "reports/terminal/internal/columns.h"
 #include "synthetic.h"
 

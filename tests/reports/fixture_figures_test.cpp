@@ -13,8 +13,8 @@
 #include "core/units.h"
 #include "fit/rotary/axes.h"
 #include "fit/rotary/ball_center.h"
-#include "fixture/drawn_motion.h"
 #include "fixture/error_model.h"
+#include "fixture/simulated.h"
 #include "tests/core/full.h"
 
 namespace rondure::reports {

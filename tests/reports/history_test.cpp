@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/encodings.h"
 #include "core/noise.h"
-#include "core/utf8.h"
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/history/archive_entry.h"

@@ -10,12 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include "core/utf8.h"
-#include "reports/data/csv.h"
-#include "reports/data/dmis.h"
-#include "reports/data/json.h"
-#include "reports/data/qif/internal/check.h"
+#include "core/encodings.h"
+#include "reports/data/qif/internal/parts.h"
 #include "reports/data/qif/report.h"
+#include "reports/data/writers.h"
 #include "reports/escaping.h"
 #include "reports/html/report.h"
 #include "reports/terminal/internal/columns.h"

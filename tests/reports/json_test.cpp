@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "reports/data/json.h"
+#include "reports/data/writers.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

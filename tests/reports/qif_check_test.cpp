@@ -1,4 +1,4 @@
-#include "reports/data/qif/internal/check.h"
+#include "reports/data/qif/internal/parts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "core/units.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/results/feature_values.h"
-#include "web/internal/cloud.h"
+#include "web/internal/sections.h"
 
 namespace rondure::reports {
 

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
-#include "core/round_values.h"
-#include "core/utf8.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/terminal/internal/columns.h"

@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/wheel/result.h"
 #include "record/run_record.h"
-#include "reports/data/json.h"
+#include "reports/data/writers.h"
 #include "reports/escaping.h"
 #include "reports/html/report.h"
 #include "reports/terminal/summary.h"

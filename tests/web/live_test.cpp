@@ -16,9 +16,9 @@
 
 #include "evaluation/results/feature_values.h"
 #include "tests/reports/synthetic.h"
-#include "web/internal/cloud.h"
 #include "web/internal/frame.h"
-#include "web/internal/guard.h"
+#include "web/internal/sections.h"
+#include "web/internal/server.h"
 #include "web/page.h"
 #include "web/time.h"
 #include "web/view.h"

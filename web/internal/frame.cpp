@@ -6,13 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/measured_cloud.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
-#include "web/internal/cloud.h"
 #include "web/internal/sections.h"
 
 namespace rondure::web {

@@ -1,21 +1,75 @@
 #include "web/internal/server.h"
 
+#include <poll.h>
+#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
 #include <httplib.h>
 
-#include "web/internal/stream.h"
 #include "web/page.h"
 
 namespace rondure::web {
+namespace {
+
+bool is_json(std::string_view content_type) {
+  const std::string_view type = content_type.substr(0, content_type.find(';'));
+  return type == "application/json" || type == "application/json ";
+}
+
+}  // namespace
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) return {};
+  std::string out;
+  for (const unsigned char byte : bytes) out += fmt::format("{:02x}", byte);
+  return out;
+}
+
+bool same_secret(std::string_view expected, std::string_view given) {
+  unsigned difference = expected.size() == given.size() && !expected.empty() ? 0U : 1U;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const char known = i < expected.size() ? expected[i] : '\0';
+    difference |= static_cast<unsigned>(static_cast<unsigned char>(known) ^
+                                        static_cast<unsigned char>(given[i]));
+  }
+  return difference == 0U;
+}
+
+std::optional<Refusal> refuse_host(const LiveGate& gate, std::string_view host) {
+  if (host == fmt::format("127.0.0.1:{}", gate.port) ||
+      host == fmt::format("localhost:{}", gate.port)) {
+    return std::nullopt;
+  }
+  return Refusal{403, "this page answers under its own address only"};
+}
+
+std::optional<Refusal> refuse_stop(const LiveGate& gate, const LiveRequest& request) {
+  if (!gate.control)
+    return Refusal{403, "this page is read-only; start the run with --control to stop it here"};
+  if (auto refusal = refuse_host(gate, request.host)) return refusal;
+  if (request.origin != "http://" + request.host)
+    return Refusal{403, "the request comes from another page"};
+  if (!request.fetch_site.empty() && request.fetch_site != "same-origin")
+    return Refusal{403, "the request comes from another site"};
+  if (!is_json(request.content_type)) return Refusal{415, "the content type is not JSON"};
+  if (!same_secret(gate.token, request.token))
+    return Refusal{403, "the token is not that of this run; open the address that it printed"};
+  return std::nullopt;
+}
+
 namespace {
 
 constexpr std::size_t kThreads = 8;
@@ -237,6 +291,82 @@ core::Result<std::unique_ptr<LiveServer>> LiveServer::start(std::uint16_t port, 
                                 port));
   }
   return std::unique_ptr<LiveServer>(new LiveServer(std::move(http)));
+}
+
+namespace {
+
+/// A browser's request has one or two kB. The library limits the length of a line, but neither the
+/// number of lines nor a chunked body.
+constexpr std::size_t kMostRequest_bytes = 32'768;
+constexpr std::size_t kMostRest_bytes = 262'144;  ///< Bytes read after a refused request.
+
+}  // namespace
+
+LiveStream::LiveStream(socket_t socket, std::chrono::milliseconds limit,
+                       const std::atomic<bool>& ending)
+    : socket_(socket), end_(Clock::now() + limit), ending_(ending) {}
+
+bool LiveStream::wait(short events) const {
+  constexpr int kLook_ms = 20;  // time after which the end of the run is noticed
+  constexpr auto kLastAnswer = std::chrono::milliseconds(500);
+  while (Clock::now() < end_) {
+    if (ending_ && events == POLLIN) return false;
+    if (ending_ && !hurried_) {
+      end_ = std::min(end_, Clock::now() + kLastAnswer);
+      hurried_ = true;
+    }
+    pollfd look{socket_, events, 0};
+    const int ready = ::poll(&look, 1, kLook_ms);
+    if (ready > 0) return true;  // the next call reports an error
+    if (ready < 0 && errno != EINTR) return false;
+  }
+  return false;
+}
+
+bool LiveStream::is_readable() const { return begin_ < filled_ || wait(POLLIN); }
+
+bool LiveStream::is_writable() const { return wait(POLLOUT); }
+
+ssize_t LiveStream::read(char* ptr, size_t size) {
+  if (begin_ == filled_) {
+    if (taken_ >= kMostRequest_bytes || !wait(POLLIN)) return -1;
+    const ssize_t got = ::recv(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+    if (got <= 0) return got;
+    begin_ = 0;
+    filled_ = static_cast<std::size_t>(got);
+    taken_ += filled_;
+  }
+  const std::size_t n = std::min(size, filled_ - begin_);
+  std::memcpy(ptr, buffer_.data() + begin_, n);
+  begin_ += n;
+  return static_cast<ssize_t>(n);
+}
+
+ssize_t LiveStream::write(const char* ptr, size_t size) {
+  if (!wait(POLLOUT)) return -1;
+  return ::send(socket_, ptr, size, MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
+void LiveStream::get_remote_ip_and_port(std::string& ip, int& port) const {
+  ip = "127.0.0.1";  // only this computer can connect
+  port = 0;
+}
+
+void LiveStream::get_local_ip_and_port(std::string& ip, int& port) const {
+  ip = "127.0.0.1";
+  port = 0;
+}
+
+void LiveStream::finish() {
+  constexpr auto kRest = std::chrono::milliseconds(200);
+  end_ = std::min(end_, Clock::now() + kRest);
+  ::shutdown(socket_, SHUT_WR);
+  std::array<char, 4096> rest{};
+  for (std::size_t taken = 0; taken < kMostRest_bytes && wait(POLLIN);) {
+    const ssize_t got = ::recv(socket_, rest.data(), rest.size(), MSG_DONTWAIT);
+    if (got <= 0) return;
+    taken += static_cast<std::size_t>(got);
+  }
 }
 
 }  // namespace rondure::web

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp::client {
 namespace {

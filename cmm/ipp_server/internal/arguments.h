@@ -11,8 +11,8 @@
 
 #include <tl/expected.hpp>
 
-#include "cmm/ipp/internal/errors.h"
-#include "cmm/ipp_server/outcome.h"
+#include "cmm/ipp/internal/reader.h"
+#include "cmm/ipp_server/backend.h"
 
 // Shared by the command handlers of the server.
 

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "cmm/simulated/part.h"
-#include "cmm/simulated/part_surface.h"
 #include "core/result.h"
 
 namespace rondure::cmm {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "cmm/simulated/part_surface.h"
+#include "cmm/simulated/part.h"
 #include "core/result.h"
 
 namespace rondure::cmm {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "cmm/simulated/part_surface.h"
+#include "cmm/simulated/part.h"
 
 namespace rondure::cmm {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/contour/internal/noisy_curves.h"
+#include "evaluation/contour/internal/curves.h"
 #include "fit/profiles/periodic_spline.h"
 
 namespace rondure::evaluation::contour_trials {

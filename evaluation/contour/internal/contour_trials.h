@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "core/phrase.h"
-#include "evaluation/contour/internal/common_curves.h"
-#include "evaluation/contour/internal/curve_model.h"
 #include "evaluation/contour/internal/curves.h"
 #include "evaluation/contour/result.h"
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "evaluation/contour/internal/contour_trials.h"
-#include "evaluation/contour/internal/curve_model.h"
 #include "evaluation/contour/internal/curves.h"
 #include "evaluation/results/analysis_value.h"
 

@@ -8,7 +8,6 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/contour/internal/contour_trials.h"
-#include "evaluation/contour/internal/curve_model.h"
 #include "evaluation/contour/internal/curves.h"
 #include "evaluation/contour/internal/mask_trials.h"
 

@@ -4,11 +4,8 @@
 #include "evaluation/part/internal/layout.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sphere.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
-#include "fit/references/min_zone_sphere.h"
-#include "fit/references/one_sided_center.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/min_zone.h"
+#include "fit/references/one_sided.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::evaluation {

@@ -3,18 +3,21 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/result.h"
 #include "evaluation/part/surface.h"
+#include "evaluation/results/clamping.h"
+#include "evaluation/results/evaluation.h"
 #include "evaluation/results/finding.h"
 #include "fit/profiles/generatrix.h"
 #include "record/run_record.h"
 
+namespace rondure::evaluation {
+
 // Private to the room: the characteristics by family. Each fills Finding::judged with the limits of
 // `asked`, the numbers and the local values; find() adds what the prepared surface knows.
-
-namespace rondure::evaluation {
 
 class PartState;
 
@@ -68,5 +71,37 @@ struct SharedLines {
 [[nodiscard]] inline Limits limits_of(const record::Characteristic& asked) {
   return {.lower_mm = asked.lower_mm, .upper_mm = asked.tolerance_mm};
 }
+
+// Private to the room: which features may be related to each other.
+
+/// The frame in which the evaluated cloud of a feature was measured.
+[[nodiscard]] Clamping clamping_of(const record::RunRecord& record, int feature);
+
+/// Whether the cloud of a datum feature can be held against that of a toleranced feature: both were
+/// measured in one clamping, and both are at 20 degC or both as measured.
+/// @return Factor that takes the points of the datum to the temperature to which those of the
+///         toleranced feature were corrected: the part has one temperature. kMeaning says what to
+///         plan instead.
+/// Source: methods, drawing section 3.4.
+[[nodiscard]] core::Result<double> related(const FeatureResult& datum, const FeatureResult& to);
+
+// Private to the room: what the characteristics about datums have in common.
+
+/// Starts the finding of a characteristic about datums: the words of the operator, length and
+/// distance of the datum, the warning of one that rocks.
+/// @param datum  The one that counts.
+[[nodiscard]] Finding found_about(const PreparedSurface& surface,
+                                  std::span<const DatumResult> datums, const DatumResult& datum);
+
+/// The datum that is an axis, or an error that says what to name.
+[[nodiscard]] core::Result<DatumResult> datum_axis_of(std::span<const DatumResult> datums,
+                                                      const record::Characteristic& asked);
+
+/// Number of sections of a surface; the passes of a layer are one.
+[[nodiscard]] std::size_t layers_in(std::span<const SurfaceSection> sections);
+
+/// Adds the rows at which a measure of the points is greatest and least, in this order.
+void add_extreme_rows(const PreparedSurface& surface, const std::vector<double>& measure,
+                      Finding& finding);
 
 }  // namespace rondure::evaluation

@@ -6,7 +6,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "fit/rotary/reading.h"
+#include "fit/rotary/errors.h"
 #include "record/tasks/run.h"
 #include "record/tasks/settings.h"
 

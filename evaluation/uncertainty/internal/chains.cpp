@@ -1,11 +1,10 @@
 #include "evaluation/uncertainty/internal/chains.h"
+#include "core/watch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <system_error>
 #include <thread>
-
-#include "core/watch.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/frames.h"
 
 namespace rondure::fit {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/frames.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 

@@ -1,4 +1,4 @@
-#include "plans/analyses/internal/contour_kind.h"
+#include "plans/analyses/internal/kinds.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "fit/contour/crank_motion.h"
 #include "fit/profiles/profile_filter.h"
 #include "plans/analyses/contour_columns.h"
-#include "plans/schema/contour_table.h"
+#include "plans/contour_plan.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 

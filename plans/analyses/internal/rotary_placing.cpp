@@ -1,4 +1,4 @@
-#include "plans/analyses/internal/rotary_placing.h"
+#include "plans/analyses/internal/kinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/rotary/reading.h"
+#include "fit/rotary/errors.h"
 
 namespace rondure::plans {
 namespace {

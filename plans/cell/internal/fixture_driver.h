@@ -20,4 +20,11 @@ namespace rondure::plans {
 [[nodiscard]] core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(
     const FixturePlan& plan, const CellOptions& options);
 
+/// Opens the two Thorlabs units of a plan over USB; nothing turns.
+/// @param plan  Must have `thorlabs`.
+/// @return  kMachine, at the key, when a unit is not plugged in, busy, not permitted, or not the
+///          one in the plan.
+[[nodiscard]] core::Result<std::unique_ptr<fixture::Fixture>> open_thorlabs(
+    const FixturePlan& plan);
+
 }  // namespace rondure::plans

@@ -4,7 +4,6 @@
 
 #include "cmm/error_model.h"
 #include "cmm/simulated/part.h"
-#include "cmm/simulated/part_surface.h"
 #include "plans/plan.h"
 
 namespace rondure::plans {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/simulated/part_surface.h"
+#include "cmm/simulated/part.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 #include "plans/path/solid_mesh.h"

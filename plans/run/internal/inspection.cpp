@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "plans/analyses/features.h"
-#include "plans/checks/internal/merged_reach.h"
+#include "plans/checks/internal/plan_reach.h"
 
 namespace rondure::plans {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/result.h"
 #include "fit/least_squares/cylinder.h"
-#include "plans/path/internal/feature_planner.h"
+#include "plans/path/internal/cloud_path.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/sampling.h"
 #include "plans/run/internal/pose_search.h"

@@ -9,7 +9,7 @@
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/run/internal/fixture_datum.h"
+#include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/inspection.h"
 #include "plans/run/internal/qualification.h"
 

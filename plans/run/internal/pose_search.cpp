@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "fit/poses/walk.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "fit/zone/center_search.h"
 #include "plans/path/internal/nominal_geometry.h"
 

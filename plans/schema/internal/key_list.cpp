@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/schema/internal/plan_table.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/key_spec.h"
 
 namespace rondure::plans {
 namespace {

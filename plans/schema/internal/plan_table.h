@@ -1,17 +1,16 @@
 #pragma once
 
 #include "core/error.h"
+#include "plans/bodies_plan.h"
+#include "plans/contour_plan.h"
+#include "plans/five_axis_plan.h"
+#include "plans/key_spec.h"
 #include "plans/plan.h"
-#include "plans/schema/bodies_table.h"
-#include "plans/schema/contour_table.h"
-#include "plans/schema/five_axis_table.h"
+#include "plans/rotary_plan.h"
 #include "plans/schema/internal/fixture_drivers_table.h"
-#include "plans/schema/internal/zaber_table.h"
-#include "plans/schema/key_spec.h"
-#include "plans/schema/rotary_table.h"
 #include "plans/schema/simulation_table.h"
-#include "plans/schema/spindle_table.h"
-#include "plans/schema/wheel_table.h"
+#include "plans/spindle_plan.h"
+#include "plans/wheel_plan.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/near_words.h"
-#include "plans/schema/utf8.h"
+#include "plans/key_spec.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {

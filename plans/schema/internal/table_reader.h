@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "plans/key_spec.h"
 #include "plans/schema/findings.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/key_spec.h"
 #include "record/tasks/analysis_influences.h"
 
 namespace rondure::plans {

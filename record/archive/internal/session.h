@@ -10,7 +10,7 @@
 
 #include "core/result.h"
 #include "record/archive/archive.h"
-#include "record/archive/internal/schema.h"
+#include "record/archive/internal/rows.h"
 
 // Private to the room: a connection to an archive of either kind.
 

@@ -1,4 +1,5 @@
 #include "record/journal/internal/series.h"
+#include "record/journal/internal/schema.h"
 
 #include <algorithm>
 #include <map>
@@ -11,8 +12,7 @@
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
 #include "record/internal/database.h"
-#include "record/journal/internal/canonical.h"
-#include "record/journal/internal/schema.h"
+#include "record/journal/internal/chain.h"
 #include "record/journal/internal/values.h"
 #include "record/tasks/settings.h"
 

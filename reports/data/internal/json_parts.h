@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/round_values.h"
+#include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/results/evaluation.h"
 #include "evaluation/results/finding.h"

@@ -13,7 +13,7 @@
 #include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
 #include "reports/words/internal/facts.h"
-#include "reports/words/internal/gates.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/round_values.h"
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 

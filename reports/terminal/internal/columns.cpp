@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/utf8.h"
+#include "core/encodings.h"
 
 namespace rondure::reports {
 namespace {

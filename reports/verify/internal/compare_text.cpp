@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/encodings.h"
 #include "core/json_text.h"
 #include "core/numbers.h"
-#include "core/utf8.h"
 
 namespace rondure::reports {
 namespace {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/numbers.h"
+#include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/results/evaluation.h"
@@ -12,6 +14,41 @@
 #include "record/tasks/run.h"
 
 namespace rondure::reports {
+
+/// A limit in `unit` as the plan states it, to 1e-9 of the unit. The sum of a nominal diameter and
+/// a deviation, and um that became mm, differ from the plan in their last digits.
+[[nodiscard]] inline std::optional<double> limit_in(core::ValueUnit unit,
+                                                    const std::optional<double>& limit_mm) {
+  constexpr double kStepsPerUnit = 1e9;
+  if (!limit_mm) return std::nullopt;
+  const double limit = unit == core::ValueUnit::kMm ? *limit_mm : core::micrometres(*limit_mm);
+  return core::on_grid(limit, kStepsPerUnit);
+}
+
+/// A judged value of a simulated run beside what it is without errors of measurement.
+struct HeldAgainstTruth {
+  std::string name;  ///< Of the characteristic, with that of the value where it has several.
+  evaluation::StatedValue found;
+  double truth_mm = 0.0;  ///< As all numbers of `found`.
+  std::optional<double> u_mm = {};
+
+  /// The quoted value; where that is only a bound, the value as read.
+  [[nodiscard]] double found_mm() const {
+    return found.bound() == evaluation::StatedValue::Bound::kNone ? found.quoted_mm()
+                                                                  : found.value_mm();
+  }
+  [[nodiscard]] double difference_mm() const { return found_mm() - truth_mm; }
+  /// Nothing without an uncertainty.
+  [[nodiscard]] std::optional<double> difference_over_u() const {
+    return u_mm && *u_mm > 0.0 ? std::optional(difference_mm() / *u_mm) : std::nullopt;
+  }
+};
+
+/// In the order of the plan; empty where the truth is not known, as of every real run.
+[[nodiscard]] std::vector<HeldAgainstTruth> held_against_truth(
+    const evaluation::CharacteristicResult& result);
+[[nodiscard]] std::vector<HeldAgainstTruth> held_against_truth(
+    const evaluation::FeatureResult& feature);
 
 /// Laboratory, order and customer of a run.
 [[nodiscard]] record::HeadSettings people_of(const record::RunRecord& record);

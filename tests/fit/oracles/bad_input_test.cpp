@@ -14,8 +14,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/line.h"
 #include "fit/least_squares/sphere.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::test {
 namespace {

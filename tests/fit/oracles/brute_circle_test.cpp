@@ -10,7 +10,7 @@
 #include "circle_sets.h"
 #include "dial.h"
 #include "fit/least_squares/circle.h"
-#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::test {
 namespace {

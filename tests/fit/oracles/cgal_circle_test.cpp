@@ -8,7 +8,7 @@
 
 #include "circle_sets.h"
 #include "dial.h"
-#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::test {
 namespace {
@@ -44,7 +44,8 @@ TEST(CgalCircle, MinZoneCircleEqualsTheOverlay) {
     const Real best = cgal_min_zone(points).value_mm;
     EXPECT_GE(zone->width_mm(), static_cast<double>(best) - 1e-12);
     if (brute_strip(points) <= zone->width_mm()) continue;
-    // A cloud is no circle: its zone is as wide as its radius, and the search may give up, if it says so.
+    // A cloud is no circle: its zone is as wide as its radius, and the search may give up, if it
+    // says so.
     if (kind_of(seed) == Hard::kCloud && !zone->certificate.reason.empty()) continue;
     EXPECT_EQ(zone->certificate.kind, fit::Certificate::Kind::kGlobal) << zone->certificate.reason;
     EXPECT_NEAR(zone->width_mm(), static_cast<double>(best), 1e-10);

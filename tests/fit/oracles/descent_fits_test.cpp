@@ -11,7 +11,7 @@
 #include "cylinder_sets.h"
 #include "descent.h"
 #include "dial.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 
 namespace rondure::test {
 namespace {

@@ -15,8 +15,7 @@
 
 #include "descent.h"
 #include "dial.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "planted.h"
 
 namespace rondure::test {
@@ -36,8 +35,8 @@ double ulp(double value) {
 }
 
 /// Not below the truth by more than 1e-12 mm or 16 ulp of the largest coordinate; not above it by
-/// more than 1e-10 mm, or 16 ulp of the radius where that is more, and 8 ulp of the largest coordinate:
-/// a place that is stated in doubles cannot be nearer to the optimum.
+/// more than 1e-10 mm, or 16 ulp of the radius where that is more, and 8 ulp of the largest
+/// coordinate: a place that is stated in doubles cannot be nearer to the optimum.
 template <class Points>
 void expect_zone(double width_mm, Real truth_mm, const Points& points, double radius_mm) {
   double largest = 0.0;

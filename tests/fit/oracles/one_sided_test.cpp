@@ -18,8 +18,7 @@
 #include "descent.h"
 #include "dial.h"
 #include "fit/least_squares/cylinder.h"
-#include "fit/references/one_sided_center.h"
-#include "fit/references/one_sided_cylinder.h"
+#include "fit/references/one_sided.h"
 #include "planted.h"
 
 namespace rondure::test {

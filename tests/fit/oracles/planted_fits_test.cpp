@@ -9,8 +9,7 @@
 
 #include "core/noise.h"
 #include "dial.h"
-#include "fit/references/min_zone_circle.h"
-#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone.h"
 #include "planted.h"
 
 namespace rondure::test {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "evaluation/results/evaluation.h"
+#include "record/run_record.h"
+
+namespace rondure::reports {
+
+/// touches.csv: one row for each touch, as journalled.
+[[nodiscard]] std::string write_touches_csv(const record::RunRecord& record);
+
+/// series.csv: one line for each number: feature, series, row, column, value; without hidden truth.
+[[nodiscard]] std::string write_series_csv(const record::RunRecord& record);
+
+/// results.csv: one row for each characteristic: value, tolerance, verdict, operator.
+[[nodiscard]] std::string write_results_csv(const record::RunRecord& record,
+                                            const evaluation::Evaluation& evaluation);
+
+/// sections.csv: one row for each section, generatrix or circle of a characteristic.
+[[nodiscard]] std::string write_sections_csv(const record::RunRecord& record,
+                                             const evaluation::Evaluation& evaluation);
+
+/// report.dmo: actual features and tolerances as a DMIS (ISO 22093) output block. ASCII, mm.
+[[nodiscard]] std::string write_dmis(const record::RunRecord& record,
+                                     const evaluation::Evaluation& evaluation);
+
+/// report.json: every number of the evaluation, in um and deg where the key says so; keys in a
+/// fixed order; numbers in the shortest form that reads back to the same double.
+[[nodiscard]] std::string write_json(const record::RunRecord& record,
+                                     const evaluation::Evaluation& evaluation);
+
+/// report.json as a document, keys in their published order (docs/report.md). "/probe" and
+/// "/features" depend on the evaluation alone; a number that is not finite is written as null.
+[[nodiscard]] nlohmann::ordered_json report_document(const record::RunRecord& record,
+                                                     const evaluation::Evaluation& evaluation);
+
+}  // namespace rondure::reports
