@@ -31,7 +31,7 @@ Outcome run_axle_into(const fs::path& place, const std::vector<std::string>& mor
 }
 
 TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const int status = run_axle_into(folder / "one", {"--serial", "0042", "--operator", "mk",
                                                     "--order", "4711", "--customer", "ACME"})
                          .status;
@@ -55,7 +55,7 @@ TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
 }
 
 TEST(ArchiveOfRuns, PutsARunChartIntoThePageOfTheSecondRunAndVerifyNeedsNoArchive) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const char* name : {"one", "two", "three"})
     ASSERT_LE(run_axle_into(folder / name).status, 1);
   EXPECT_FALSE(fs::exists(folder / "one" / "earlier.json"));
@@ -74,7 +74,7 @@ TEST(ArchiveOfRuns, PutsARunChartIntoThePageOfTheSecondRunAndVerifyNeedsNoArchiv
 }
 
 TEST(ArchiveOfRuns, CanBeSwitchedOffAndNamed) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_LE(run_axle_into(folder / "one", {"--archive", "none"}).status, 1);
   EXPECT_THAT(names_in(folder.path()), ElementsAre("one"));
   ASSERT_LE(run_axle_into(folder / "two", {"--archive", folder / "mine.db"}).status, 1);
@@ -87,7 +87,7 @@ TEST(ArchiveOfRuns, CanBeSwitchedOffAndNamed) {
 }
 
 TEST(ArchiveOfRuns, IsMadeAgainFromTheRunDirectories) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_LE(run_axle_into(folder / "one").status, 1);
   const auto before = history_of(folder / "archive.db");
   const std::vector<std::string> add = {"history", folder / "again.db", "--add", folder / "one"};
@@ -101,7 +101,7 @@ TEST(ArchiveOfRuns, IsMadeAgainFromTheRunDirectories) {
 }
 
 TEST(ArchiveOfRuns, ThatFailsChangesNothingOfTheRunAndIsCaughtUp) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const int status = run_axle_into(folder / "zero", {"--archive", "none"}).status;
   const fs::path archive = folder / "absent" / "archive.db";
   for (const char* name : {"one", "two"}) {
@@ -129,7 +129,7 @@ TEST(ArchiveOfRuns, ThatFailsChangesNothingOfTheRunAndIsCaughtUp) {
 TEST(ArchiveOfRuns, OnAServerThatIsAwayWaits) {
   record::PostgresServer server;
   if (!server.absent().empty()) GTEST_SKIP() << server.absent();
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_LE(run_axle_into(folder / "one", {"--archive", server.url()}).status, 1);
   server.stop();
   const Outcome away =
@@ -146,7 +146,7 @@ TEST(ArchiveOfRuns, OnAServerThatIsAwayWaits) {
 }
 
 TEST(ArchiveOfRuns, ThatCannotBeIsRefusedBeforeAnythingMoves) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const char* wrong : {"mysql://h/d", "postgresql://u:p/w@h/d"}) {
     const Outcome outcome = run_axle_into(folder / "run", {"--archive", wrong});
     EXPECT_EQ(outcome.status, 2);
@@ -160,7 +160,7 @@ TEST(ArchiveOfRuns, ThatCannotBeIsRefusedBeforeAnythingMoves) {
 }
 
 TEST(History, OfHostileNamesIsPlainText) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::vector<std::string> names = {"<script>alert(1)</script>", "a\nb",
                                           "\xe5\x9c\x86\xe6\x9f\xb1", std::string(10'000, 'x'),
                                           "o'; drop table rondure_run"};
@@ -190,7 +190,7 @@ TEST(History, OfHostileNamesIsPlainText) {
 }
 
 TEST(ArchiveOfRuns, KeepsNoPasswordOfAnyUrlThatTheServerAccepts) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   // libpq takes what stands before the @ for user and password, a ? as well.
   const Outcome outcome = run_axle_into(
       folder / "run", {"--archive", "postgresql://u:sec?ret@127.0.0.1:1/d?connect_timeout=1"});
@@ -218,7 +218,7 @@ TEST(ArchiveOfRuns, KeepsNoPasswordOfAnyUrlThatTheServerAccepts) {
 }
 
 TEST(History, SaysWhatItCannotRead) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "text", "not a database at all");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{folder / "absent.db"}, "does not exist"},
@@ -252,7 +252,7 @@ TEST(History, SaysWhatItCannotRead) {
 }
 
 TEST(History, GivesCsvToAFileAndToStandardOutput) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_LE(run_axle_into(folder / "run").status, 1);
   const std::string archive = folder / "archive.db";
   ASSERT_EQ(rondure({"history", archive, "--csv", folder / "all.csv"}).status, 0);

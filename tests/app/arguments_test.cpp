@@ -92,7 +92,7 @@ std::vector<std::vector<std::string>> examples_of_help() {
 // Those that only compute are run; the others stand in an empty folder, where they are understood
 // and then find no plan, no run or no machine.
 TEST(Arguments, EveryExampleOfHelpIsUnderstood) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::create_directory(folder / "empty");
   for (const char* named : {"plans", "tests"})
@@ -148,7 +148,7 @@ TEST(Explain, KnowsEveryCodeAndSaysWhatToDo) {
 // What `validate` names as not declared has its line, too.
 TEST(Explain, KnowsTheInfluences) {
   const std::string names = rondure({"explain"}).out;
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {{"/uncertainty", {{"coverage_percent", 95}}}});
   std::string told = rondure({"validate", folder / "plan.json"}).out;
   told.erase(0, told.find("so in no interval: ") + 19);
@@ -235,7 +235,7 @@ TEST(Arguments, WhatIsNotUnderstoodIsNamed) {
 }
 
 TEST(Arguments, ThePlanMayFollowTheFormats) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   auto plan = example_plan("09_axle_points_file");
   leave_out_intervals(plan);
   write(folder / "plan.json", plan.dump());
@@ -248,7 +248,7 @@ TEST(Arguments, ThePlanMayFollowTheFormats) {
 }
 
 TEST(Arguments, ANameThatNoReportCanShowIsRefused) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const std::string& option : {std::string("--serial"), std::string("--operator"),
                                     std::string("--order"), std::string("--customer")}) {
     for (const std::string name : {"S\uFFFE", "S\uFDD0", "S\x1b[2J", "S\u009b2J", "S\xff"}) {
@@ -263,7 +263,7 @@ TEST(Arguments, ANameThatNoReportCanShowIsRefused) {
 
 // Page one shows both in a line: what breaks or reorders it is refused, with its code point.
 TEST(Arguments, AnOrderOrCustomerOfManyOrReorderedWordsIsRefused) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string run = folder / "run";
   const auto told = [&](const std::string& option, const std::string& name) {
     const Outcome outcome =
@@ -291,7 +291,7 @@ bool holds_controls(const std::string& text) {
 }
 
 TEST(Arguments, FilesAndWordsRuleNoTerminal) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string evil = "e\x1b[2J\u009b31m\x07\nequal: all";
   write(folder / "bad.json", "{\"a\": \x1b[2J}");
   write(folder / "bad.csv", "x,y\n1,2\n\x1b[2J,\u009b4\n");
@@ -323,7 +323,7 @@ TEST(Arguments, FilesAndWordsRuleNoTerminal) {
 }
 
 TEST(Arguments, APipeIsRefusedAndNotWaitedFor) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string run = folder / "run";
   ASSERT_EQ(run_without_intervals("09_axle_points_file", {"--out", run, "--quiet"}).err, "");
   const std::string pipe = folder / "pipe";
@@ -351,7 +351,7 @@ TEST(Arguments, APipeIsRefusedAndNotWaitedFor) {
 }
 
 TEST(Arguments, WhatIsNoPlanIsRefusedInOneSentence) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "empty.json", "");
   for (const std::string& plan :
        {(folder / "empty.json").string(), folder.path().string(), (folder / "absent.json").string(),

@@ -34,7 +34,7 @@ double cell_um(const json& study, const std::string& factor, const std::string& 
 }
 
 TEST(CompareVerb, OfAFinishedRunAgreesWithItsReportAndChangesNothing) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path run = folder / "run";
   fs::copy(example_runs() / "08_shaft_scanned", run);
   const auto names = names_in(run);
@@ -73,7 +73,7 @@ TEST(CompareVerb, OfAFinishedRunAgreesWithItsReportAndChangesNothing) {
 }
 
 TEST(CompareVerb, RefusesWhatItCannotReadOrCompare) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   EXPECT_EQ(rondure({"compare", folder / "nothing"}).status, 2);
 
   const fs::path damaged = folder / "damaged";

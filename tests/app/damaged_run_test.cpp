@@ -70,7 +70,7 @@ class DamagedRun : public ::testing::Test {
     return folder_ / "killed";
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   fs::path run_ = folder_ / "run";
 };
 

@@ -39,7 +39,7 @@ TEST(WheelFeature, FindsTheHiddenTruthOfTheExample) {
 }
 
 TEST(ContourFeature, FindsTheHiddenRestOfEverySimulatedPin) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   // The seed of the plan, and another one.
   const auto other = rondure({"run", example("07_crank_pin.json"), "--out", folder / "run",
                               "--format", "json", "--archive", "none", "--seed", "8"});

@@ -166,7 +166,7 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
       EXPECT_THAT(verified.out, HasSubstr(file));
     }
   }
-  const TemporaryFolder stopped;
+  const Scratch stopped;
   run_until_a_fault(stopped.path());
   for (const fs::path& folder : {example_runs(), stopped.path()}) {
     EXPECT_EQ(reports_fault(folder), "");
@@ -185,7 +185,7 @@ TEST(Examples, TheReportedCyltAgreesWithTheHiddenTruthWithinTheNoise) {
     ++simulated;
     expect_near_truth(example_runs() / plan.stem(), asked);
     if (!full) continue;
-    const TemporaryFolder folder;
+    const Scratch folder;
     ASSERT_LE(rondure({"run", plan, "--out", folder / "run", "--seed", "1"}).status, 1);
     expect_near_truth(folder / "run", asked);
   }
@@ -228,7 +228,7 @@ std::vector<std::string> failing(const json& report) {
 }
 
 TEST(Examples, OfAShaftDrawingOnlyTheSpoiledCallOutsFail) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   json plan = json::parse(read(example("15_shaft_drawing.json")));
   for (json& surface : plan.at("/simulation/features"_json_pointer)) {
     const std::string id = surface.at("id");
@@ -266,7 +266,7 @@ TEST(Examples, FourAnalysesUnderIso14253EndWithAVerdictEach) {
 TEST(Examples, EveryTypeOfFeatureIsVoidOutsideTheTemperatureLimits) {
   json plan = json::parse(read(example("16_four_analyses.json")));
   plan["simulation"]["temperature_degC"] = 35.0;
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "plan.json", plan.dump(2));
   EXPECT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run"}).status, 1);
   const json report = json::parse(read(folder / "run" / "report.json"));
@@ -282,7 +282,7 @@ TEST(Examples, EveryTypeOfFeatureIsVoidOutsideTheTemperatureLimits) {
 }
 
 TEST(Examples, OneSeedGivesTheSameTouchesAndAnotherGivesOthers) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path plan = folder / "plan.json";
   write_plan(plan, {});
   for (const char* run : {"a", "b"})
@@ -294,7 +294,7 @@ TEST(Examples, OneSeedGivesTheSameTouchesAndAnotherGivesOthers) {
 }
 
 TEST(Examples, TheDefaultSeedIsThatOfThePlan) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path plan = example("14_bore_simulated.json");
   const json asked = json::parse(read(plan));
   const std::string seed = asked.at("/simulation/seed"_json_pointer).dump();
@@ -308,7 +308,7 @@ TEST(BadPlans, AreRefusedInTheWordsOfTheReaderAndLeaveNothing) {
   const bool full = std::getenv("RONDURE_FULL") != nullptr;
   const std::set<std::string> chosen = {"01_truncated.json", "40_points_file_bad.json",
                                         "55_everything_at_once.json"};
-  const TemporaryFolder root;  // as the repository, whose files the plans name
+  const Scratch root;  // as the repository, whose files the plans name
   fs::create_directories(root / "tests/data");
   for (const char* named : {"plans", "tests/data/nist_cyl_13"}) {
     fs::create_directory_symlink(source_dir() / named, root / named);
@@ -323,7 +323,7 @@ TEST(BadPlans, AreRefusedInTheWordsOfTheReaderAndLeaveNothing) {
     ++refused;
     const fs::path plan = place / bad.file;
     write(plan, bad.text);
-    const TemporaryFolder folder;
+    const Scratch folder;
     const Outcome validated = rondure({"validate", plan});
     const Outcome ran = rondure({"run", plan, "--out", folder / "run"});
     EXPECT_EQ(validated.status, 2);

@@ -14,7 +14,7 @@ constexpr std::size_t kSphereTouches = 13;
 
 /// A run of the first example with changes.
 struct ChangedRun {
-  TemporaryFolder folder;
+  Scratch folder;
   Outcome outcome;
 
   explicit ChangedRun(const std::vector<Change>& changes) {

@@ -139,7 +139,7 @@ class FitContour : public ::testing::Test {
     write(folder_ / "trace.csv", text);
     return (folder_ / "trace.csv").string();
   }
-  TemporaryFolder folder_;
+  Scratch folder_;
 };
 
 constexpr std::array kFollowing = {7.0430, 7.1535, 6.9326, 7.0872};
@@ -224,7 +224,7 @@ TEST(FitAnalysis, StatesTheIntervalOfWhatIsDeclaredAndJudges) {
 }
 
 TEST(FitAnalysis, IsTheRunOfThePlanThatItSaves) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string plan = (folder / "sub" / "plan.json").string();
   fs::create_directory(folder / "sub");
   const Words asked = {"--set", "uncertainty.point_um=0.4",
@@ -248,7 +248,7 @@ TEST(FitAnalysis, IsTheRunOfThePlanThatItSaves) {
 }
 
 TEST(FitAnalysis, LeavesNothingBehind) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const char* const before = std::getenv("TMPDIR");
   const std::string kept = before != nullptr ? before : "";
   ::setenv("TMPDIR", folder.path().c_str(), 1);
@@ -259,7 +259,7 @@ TEST(FitAnalysis, LeavesNothingBehind) {
 }
 
 TEST(FitAnalysis, SaysWhereNoFolderCanBeMade) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string said = (folder / "said.txt").string();
   const std::string command =
       fmt::format("TMPDIR=/proc {} fit wheel '{}' --set mode=indexed 2> '{}'", RONDURE_BINARY,
@@ -269,7 +269,7 @@ TEST(FitAnalysis, SaysWhereNoFolderCanBeMade) {
 }
 
 TEST(FitAnalysis, NamesWhatIsWrongWithTheInput) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto refused = [](const Words& words) {
     const Outcome out = rondure(words);
     EXPECT_EQ(out.status, 2) << out.out;
@@ -280,7 +280,8 @@ TEST(FitAnalysis, NamesWhatIsWrongWithTheInput) {
     write(folder / "w.csv", text);
     return refused({"fit", "wheel", (folder / "w.csv").string(), "--set", "mode=indexed"});
   };
-  EXPECT_THAT(wheel_of("x,z\n1,2\nnan,4\n"), HasSubstr("/w.csv:3: x is \"nan\"; a finite number is expected"));
+  EXPECT_THAT(wheel_of("x,z\n1,2\nnan,4\n"),
+              HasSubstr("/w.csv:3: x is \"nan\"; a finite number is expected"));
   EXPECT_THAT(wheel_of("x,q\n1,2\n"), HasSubstr("w.csv:1: column"));
   EXPECT_THAT(refused({"fit", "wheel", (folder / "none.csv").string(), "--set", "mode=indexed"}),
               HasSubstr("none.csv"));

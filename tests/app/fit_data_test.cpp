@@ -87,7 +87,7 @@ TEST(FitData, ABadFileIsRefusedWithItsPlace) {
   };
   for (const BadFile& file : files) {
     SCOPED_TRACE(file.shape + ": " + ::testing::PrintToString(file.bytes));
-    const TemporaryFolder folder;
+    const Scratch folder;
     write(folder / "bad.csv", file.bytes);
     const Outcome outcome = rondure({"fit", file.shape, folder / "bad.csv", "--json"});
     EXPECT_EQ(outcome.status, 2);
@@ -117,7 +117,7 @@ TEST(FitData, FilesOfOtherProgramsAreReadAndSaid) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.read);
-    const TemporaryFolder folder;
+    const Scratch folder;
     write(folder / "export.txt", c.bytes);
     std::vector<std::string> words = {"fit", "circle", folder / "export.txt", "--json"};
     words.insert(words.end(), c.options.begin(), c.options.end());
@@ -140,7 +140,7 @@ TEST(FitData, ACircleInSpaceHasCentreNormalAndRadius) {
     text += fmt::format("{:.12f},{:.12f},{:.12f}\n", 100.0 + r * std::cos(t) * std::cos(lean),
                         50.0 + r * std::sin(t), 30.0 - r * std::cos(t) * std::sin(lean));
   }
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "circle.csv", text);
   const Outcome outcome = rondure({"fit", "circle", folder / "circle.csv", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -167,7 +167,7 @@ TEST(FitData, APlanReadsTheSameFile) {
     std::ranges::replace(row, '.', ',');
     text += row;
   }
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "export.csv", text);
   const nlohmann::json plan = {
       {"plan", {{"name", "Bore"}, {"revision", "A"}}},
@@ -205,7 +205,7 @@ TEST(FitData, APlanReadsTheSameFile) {
 }
 
 TEST(FitData, WhatIsNoFileIsRefused) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "locked.csv", "x,y\n");
   fs::permissions(folder / "locked.csv", fs::perms::none);
   std::vector<fs::path> places = {folder.path(), folder / "absent.csv", "/dev/null"};
@@ -243,7 +243,7 @@ std::string planted_points(const Planted& part, bool cylinder, int count) {
 
 // One point of dirt: its row, how far it lies off, and what it makes of the deviation.
 TEST(FitData, AGrossPointIsNamedWithItsShare) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto table_of = [](bool cylinder, int row) {
     std::string table = cylinder ? "x,y,z\n" : "x,y\n";
     for (int i = 0; i < 72; ++i) {
@@ -272,7 +272,7 @@ TEST(FitData, AHundredThousandPointsGiveThePlantedForm) {
   const double zone_mm = 2.0 * (part.amplitude_mm + part.noise_mm);
   for (const bool cylinder : {false, true}) {
     SCOPED_TRACE(cylinder);
-    const TemporaryFolder folder;
+    const Scratch folder;
     write(folder / "points.csv", planted_points(part, cylinder, 100'000));
     const Outcome outcome =
         rondure({"fit", cylinder ? "cylinder" : "circle", folder / "points.csv", "--json"});

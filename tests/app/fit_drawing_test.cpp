@@ -46,7 +46,7 @@ std::string plain(const std::vector<Eigen::Vector3d>& points) {
 }
 
 Outcome fit_of(const std::string& shape, const std::string& text, const Words& more = {}) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "points.csv", text);
   Words words = {"fit", shape, folder / "points.csv"};
   words.insert(words.end(), more.begin(), more.end());

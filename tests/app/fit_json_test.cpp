@@ -164,7 +164,7 @@ TEST(FitJson, HoldsTheContractForACylinder) {
 
 // The corners of an octahedron inside those of a cube: by symmetry all places are known.
 TEST(FitJson, HoldsTheContractForASphere) {
-  const TemporaryFolder directory;
+  const Scratch directory;
   const auto file = directory.path() / "ball.csv";
   {
     std::ofstream out(file);
@@ -189,7 +189,7 @@ TEST(FitJson, HoldsTheContractForASphere) {
 
 // Three points of a plane: the least cylinder is as wide as their triangle is high.
 TEST(FitJson, HoldsTheContractForALine) {
-  const TemporaryFolder directory;
+  const Scratch directory;
   const auto file = directory.path() / "edge.csv";
   std::ofstream(file) << "x,y,z\n5,0,0\n5,0.01,50\n5,0,100\n";
   const json found = fit("line", file);
@@ -202,7 +202,7 @@ TEST(FitJson, HoldsTheContractForALine) {
 }
 
 TEST(FitJson, AReferenceThatDoesNotExistIsNullWithItsReason) {
-  const TemporaryFolder directory;
+  const Scratch directory;
   const auto file = directory.path() / "arc.csv";
   {
     std::ofstream out(file);
@@ -225,7 +225,7 @@ TEST(FitJson, AReferenceThatDoesNotExistIsNullWithItsReason) {
 }
 
 TEST(FitJson, WithoutAProofThereIsNoGap) {
-  const TemporaryFolder directory;
+  const Scratch directory;
   const auto file = directory.path() / "ball.csv";
   {
     std::ofstream out(file);

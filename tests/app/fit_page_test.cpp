@@ -51,7 +51,7 @@ class FitToAPage : public ::testing::Test {
     return json::parse(read(run / "report.json"))["features"][0]["characteristics"][0];
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   fs::path points_ = folder_ / "journal A.csv";
   fs::path run_ = folder_ / "run";
 };

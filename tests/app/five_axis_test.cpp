@@ -33,7 +33,7 @@ constexpr std::array<const char*, 4> kSteps = {"reference", "C", "A", "verificat
 ordered_json head_plan() { return example_plan("19_five_axis_head"); }
 
 /// The report of a run of a plan; its status is checked by the caller.
-json report_of(const TemporaryFolder& folder, const ordered_json& plan, const std::string& name,
+json report_of(const Scratch& folder, const ordered_json& plan, const std::string& name,
                const std::vector<std::string>& more = {}) {
   write(folder / (name + ".json"), plan.dump());
   std::vector<std::string> words = {"run", folder / (name + ".json"), "--out", folder / name};
@@ -96,7 +96,7 @@ TEST(FiveAxis, ExampleFindsItsTruthAndItsTableTakesTheErrorsAway) {
 }
 
 TEST(FiveAxis, TableHasBothAxesInStepsAndTheLocations) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ordered_json plan = head_plan();
   plan["features"].erase(1);
   EXPECT_EQ(report_of(folder, plan, "table").at("verdict"), "conforms");
@@ -110,7 +110,7 @@ TEST(FiveAxis, TableHasBothAxesInStepsAndTheLocations) {
 }
 
 /// The readings of a run as a file, and the plan that reads it.
-ordered_json plan_of_file(const TemporaryFolder& folder, const record::RunRecord& run,
+ordered_json plan_of_file(const Scratch& folder, const record::RunRecord& run,
                           const std::function<void(std::vector<double>&)>& change = {}) {
   const record::Series& data = *run.data_of(0, "data");
   std::string text = "step,c_deg,a_deg,setup,dx_um,dy_um,dz_um\n";
@@ -136,7 +136,7 @@ ordered_json plan_of_file(const TemporaryFolder& folder, const record::RunRecord
 }
 
 TEST(FiveAxis, ReadingsOfAFileGiveWhatTheTwinGave) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto run = example_runs() / "19_five_axis_head";
   const json report = report_of(folder, plan_of_file(folder, journal_of(run)), "file");
   const json before = json::parse(read(run / "report.json"));
@@ -145,7 +145,7 @@ TEST(FiveAxis, ReadingsOfAFileGiveWhatTheTwinGave) {
 }
 
 TEST(FiveAxis, ReversedAngleGivesTheSameAxisAndATableAsTheControlCounts) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto run = example_runs() / "19_five_axis_head";
   ordered_json plan =
       plan_of_file(folder, journal_of(run), [](std::vector<double>& row) { row[1] = -row[1]; });
@@ -160,7 +160,7 @@ TEST(FiveAxis, ReversedAngleGivesTheSameAxisAndATableAsTheControlCounts) {
 void expect_refused(const std::function<void(std::vector<double>&)>& change, const char* code,
                     const char* words) {
   SCOPED_TRACE(words);
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto run = example_runs() / "19_five_axis_head";
   const json report = report_of(folder, plan_of_file(folder, journal_of(run), change), "refused");
   const json& feature = report.at("features").at(0);
@@ -220,7 +220,7 @@ TEST(FiveAxis, DataThatProveNothingSayWhy) {
 }
 
 TEST(FiveAxis, SagOfBothAnglesVoidsTheTable) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ordered_json plan = head_plan();
   plan["features"].erase(1);
   plan["simulation"]["five_axis"]["sag_urad"] = 150.0;
@@ -235,7 +235,7 @@ TEST(FiveAxis, SagOfBothAnglesVoidsTheTable) {
 }
 
 TEST(FiveAxis, ShortArcHasATableAndNoLocation) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ordered_json plan = head_plan();
   plan["features"].erase(1);
   ordered_json& head = plan["features"][0]["five_axis"];
@@ -254,7 +254,7 @@ TEST(FiveAxis, ShortArcHasATableAndNoLocation) {
 }
 
 TEST(FiveAxis, WithoutTheSlidesThereIsNoInterval) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ordered_json plan = head_plan();
   plan["features"].erase(1);
   plan["features"][0]["five_axis"]["uncertainty"].erase("slides_urad");
@@ -265,7 +265,7 @@ TEST(FiveAxis, WithoutTheSlidesThereIsNoInterval) {
 // 300 twins with RONDURE_FULL=1, 1000 with RONDURE_FULL=all.
 TEST(FiveAxis, StatedIntervalsHoldTheTruthAndTheTableDoesWhatWasForecast) {
   const int twins = test::cases(12, 120, 1000);
-  const TemporaryFolder folder;
+  const Scratch folder;
   ordered_json plan = head_plan();
   plan["reports"]["formats"] = {"json"};
   ordered_json& asked = plan["features"][0]["characteristics"];

@@ -63,7 +63,7 @@ TEST_F(CalibratedFixture, LeavesAtMostNineTenthsOfAMicrometre) {
 }
 
 TEST_F(CalibratedFixture, AChangedCalibrationIsFoundByVerify) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   fs::copy(run(), folder / "copy", fs::copy_options::recursive);
   replace_in(folder / "copy" / kFile, "F-01", "F-09");
   const Outcome verified = rondure({"verify", folder / "copy"});
@@ -72,7 +72,7 @@ TEST_F(CalibratedFixture, AChangedCalibrationIsFoundByVerify) {
 }
 
 TEST_F(CalibratedFixture, CarriesAnInspectionWhoseReportNamesIt) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path plan = inspection(folder.path(), read(run() / kFile));
   const Outcome ran = rondure({"run", plan, "--out", folder / "run", "--quiet"});
   EXPECT_EQ(ran.status, 0) << ran.err;
@@ -119,7 +119,7 @@ TEST_F(CalibratedFixture, IsRefusedWhereItDoesNotHold) {
       {"", {}, "the text is no JSON"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.words);
-    const TemporaryFolder folder;
+    const Scratch folder;
     const fs::path plan = inspection(folder.path(), c.bytes, c.changes);
     if (c.words == "expired on") sleep(1);  // its last second is over
     const Outcome ran = rondure({"run", plan, "--out", folder / "run"});
@@ -130,7 +130,7 @@ TEST_F(CalibratedFixture, IsRefusedWhereItDoesNotHold) {
 }
 
 TEST_F(CalibratedFixture, IsVoidOutsideTheTemperatureLimits) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   json plan = json::parse(read(example("03_calibrate_fixture.json")));
   plan["simulation"]["temperature_degC"] = 35.0;
   write(folder / "plan.json", plan.dump());
@@ -150,7 +150,7 @@ TEST_F(CalibratedFixture, IsVoidOutsideTheTemperatureLimits) {
 }
 
 TEST_F(CalibratedFixture, IsJudgedWithItsIntervalWhereInfluencesAreDeclared) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   json plan = json::parse(read(example("03_calibrate_fixture.json")));
   plan["decision_rule"] = {{"rule", "iso-14253-1"}};
   plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", {{"value", 0.05}}},
@@ -166,7 +166,7 @@ TEST_F(CalibratedFixture, IsJudgedWithItsIntervalWhereInfluencesAreDeclared) {
 }
 
 TEST_F(CalibratedFixture, IsRefusedBeforeItsFirstTouchWhereTheFixtureIsTooCoarse) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   json plan = json::parse(read(example("03_calibrate_fixture.json")));
   plan["fixture"]["resolution_deg"] = 0.5;
   write(folder / "plan.json", plan.dump());
@@ -177,7 +177,7 @@ TEST_F(CalibratedFixture, IsRefusedBeforeItsFirstTouchWhereTheFixtureIsTooCoarse
 }
 
 TEST_F(CalibratedFixture, IsTheSameWhenTheRunWasInterrupted) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   json plan = json::parse(read(example("03_calibrate_fixture.json")));
   plan["simulation"]["faults"]["connection_lost_at_touch"] = 400;
   write(folder / "plan.json", plan.dump());

@@ -45,7 +45,7 @@ class ForgedRun : public ::testing::Test {
     return rondure({"verify", run, "--key", folder_ / "public.pem"});
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
 };
 
 TEST_F(ForgedRun, ALogBesideASignedJournalReplacesNothing) {

@@ -42,7 +42,7 @@ class Formats : public ::testing::Test {
                   .status,
               0);
   }
-  TemporaryFolder folder_;
+  Scratch folder_;
   const std::filesystem::path run_ = folder_ / "run";
 };
 

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 /// A run of the first example with changes, evaluated.
 struct HardRun {
-  TemporaryFolder folder;
+  Scratch folder;
   Outcome outcome;
 
   explicit HardRun(const std::vector<Change>& changes) {
@@ -122,7 +122,7 @@ TEST(HardPlan, OneTouchBeyondTheTemperatureLimitsIsEnough) {
 }
 
 TEST(HardPlan, AFeatureThatFailsIsNeverPassedOver) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "line.csv", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n3,3,3\n4,4,4\n5,5,5\n");
   write(folder / "plan.json",
         R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},
@@ -133,7 +133,7 @@ TEST(HardPlan, AFeatureThatFailsIsNeverPassedOver) {
 }
 
 TEST(HardPlan, AnArcFromAFileIsCalledAnArc) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   std::string csv = "x,y\n";
   for (int k = 0; k < 30; ++k) {
     const double a = 0.02 * k;

@@ -476,7 +476,7 @@ class FaultyWire : public ::testing::Test {
   }
 
  private:
-  TemporaryFolder folder_;
+  Scratch folder_;
   std::uint16_t server_port_;
   std::unique_ptr<Program> server_;
   CuttingProxy proxy_;

@@ -109,7 +109,7 @@ double cylt_um(const fs::path& run) {
 }
 
 TEST(IppRun, TouchesOverTheWireAreThoseOfTheRunInOneProcess) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator;
   write_wire_plan(folder / "wire.json", simulator.port());
   write_wire_plan(folder / "inside.json", simulator.port(), "simulated");
@@ -143,7 +143,7 @@ constexpr const char* kFixed = "17_cmm_without_fixture.json";
 
 /// Writes the example without a fixture for a simulator and for its client.
 /// @param patch  Changes of both.
-void write_fixed_plans(const TemporaryFolder& folder, std::uint16_t port, const json& patch) {
+void write_fixed_plans(const Scratch& folder, std::uint16_t port, const json& patch) {
   json plan = json::parse(read(example(kFixed)));
   leave_out_intervals(plan);
   plan.merge_patch(patch);
@@ -159,7 +159,7 @@ std::ptrdiff_t count_of(const std::vector<std::string>& commands, std::string_vi
 }
 
 TEST(IppRun, WithoutAFixtureNoPartIsTurned) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator(free_port(), "inf", kFixed);
   write_wire_plan(folder / "wire.json", simulator.port(), "ippdme", kFixed);
   write_wire_plan(folder / "inside.json", simulator.port(), "simulated", kFixed);
@@ -178,7 +178,7 @@ TEST(IppRun, WithoutAFixtureNoPartIsTurned) {
 }
 
 TEST(IppRun, MeasuresInThePartSystemOfTheControl) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::uint16_t port = free_port();
   const json elsewhere = {{"base_offset_mm", {-30, 20, 15}}, {"base_rotation_deg", {0, 0, 9}}};
   write_fixed_plans(folder, port,
@@ -196,7 +196,7 @@ TEST(IppRun, MeasuresInThePartSystemOfTheControl) {
 }
 
 TEST(IppRun, APartThatIsNotInItsPlaceEndsTheRunAtItsFirstTouch) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::uint16_t port = free_port();
   write_fixed_plans(folder, port,
                     {{"simulation", {{"fixture", {{"base_offset_mm", {50, 0, 0}}}}}}});
@@ -211,7 +211,7 @@ TEST(IppRun, APartThatIsNotInItsPlaceEndsTheRunAtItsFirstTouch) {
 
 TEST(IppRun, JudgesTheTwentyCallOutsOfADrawingAsTheRunInOneProcess) {
   constexpr const char* kDrawing = "15_shaft_drawing.json";
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator(free_port(), "inf", kDrawing);
   std::vector<json> judged;
   for (const char* driver : {"ippdme", "simulated"}) {
@@ -246,7 +246,7 @@ TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
   for (const char* name : {"03_calibrate_fixture.json", "03_inspect_calibrated.json",
                            "18_calibrate_and_inspect.json"}) {
     SCOPED_TRACE(name);
-    const TemporaryFolder folder;
+    const Scratch folder;
     fs::copy(example("03_calibration"), folder / "03_calibration");
     fs::copy(example("18_stand.stl"), folder / "18_stand.stl");
     const Simulator simulator(free_port(), "inf", name);
@@ -278,7 +278,7 @@ TEST(IppRun, CalibratesAFixtureAsTheRunInOneProcess) {
 /// holds, here by another server at its place.
 TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
   const char* const name = "18_calibrate_and_inspect.json";
-  const TemporaryFolder folder;
+  const Scratch folder;
   fs::copy(example("18_stand.stl"), folder / "18_stand.stl");
   const std::uint16_t port = free_port();
   write_wire_plan(folder / "plan.json", port, "ippdme", name);
@@ -326,7 +326,7 @@ TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
 }
 
 TEST(IppRun, AServedWorldMeasuresTheNextPartAsTheFirst) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator;
   write_wire_plan(folder / "plan.json", simulator.port());
   for (const char* name : {"first", "second"}) {
@@ -338,7 +338,7 @@ TEST(IppRun, AServedWorldMeasuresTheNextPartAsTheFirst) {
 }
 
 TEST(IppRun, ACutConnectionStopsCleanlyAndTheResumedRunEndsTheSame) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator;
   CuttingProxy proxy(simulator.port());
   write_wire_plan(folder / "plan.json", proxy.port());
@@ -379,7 +379,7 @@ TEST(IppRun, ACutConnectionStopsCleanlyAndTheResumedRunEndsTheSame) {
 }
 
 TEST(IppRun, GoesOnWithAServerThatWasStartedAgain) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::uint16_t port = free_port();
   write_wire_plan(folder / "plan.json", port);
   const std::vector<std::string> arguments = {"run",          folder / "plan.json", "--out",
@@ -406,7 +406,7 @@ TEST(IppRun, GoesOnWithAServerThatWasStartedAgain) {
 }
 
 TEST(IppRun, CtrlCStopsTheMachineAtOnceAndNothingMovesAfterwards) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator(free_port(), "0.01");  // the first move takes 300 s
   write_wire_plan(folder / "plan.json", simulator.port());
   Program run({"run", folder / "plan.json", "--out", folder / "run", "--archive", "none",
@@ -431,7 +431,7 @@ TEST(IppRun, CtrlCStopsTheMachineAtOnceAndNothingMovesAfterwards) {
 }
 
 TEST(IppRun, SaysWhichPointTheServerMeansWhereThePlanSaysTheOther) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const Simulator simulator;
   write_wire_plan(folder / "plan.json", simulator.port());
   replace_in(folder / "plan.json", "\"approach_mm\"", "\"point\": \"center\", \"approach_mm\"");
@@ -443,7 +443,7 @@ TEST(IppRun, SaysWhichPointTheServerMeansWhereThePlanSaysTheOther) {
 }
 
 TEST(IppRun, SaysThatNobodyServesTheMachine) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_wire_plan(folder / "plan.json", free_port());
   const Outcome refused = rondure({"run", folder / "plan.json", "--out", folder / "run"});
   EXPECT_EQ(refused.status, 3);
@@ -494,7 +494,7 @@ TEST(IppRun, SaysWhatAStrangeServerSaid) {
   };
   for (const auto& [answer, message, limit_s] : cases) {
     SCOPED_TRACE(answer.substr(0, 40));
-    const TemporaryFolder folder;
+    const Scratch folder;
     const StrangeServer server(answer);
     write_wire_plan(folder / "plan.json", server.port());
     replace_in(folder / "plan.json", "\"approach_mm\"",

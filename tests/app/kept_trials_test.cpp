@@ -47,7 +47,7 @@ class KeptTrials : public ::testing::Test {
     ASSERT_TRUE(record::update_checksums(run_, {{"trials.bin", record::sha256_hex(bytes)}}));
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   fs::path run_ = folder_ / "run";
 };
 
@@ -185,7 +185,7 @@ TEST_F(KeptTrials, OfASignedRunChangeNothingThatIsSigned) {
 }
 
 TEST(RunWithoutIntervals, KeepsNoTrials) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_LE(run_without_intervals("09_axle_points_file", {"--out", folder / "run"}).status, 1);
   EXPECT_THAT(names_in(folder / "run"), Not(Contains("trials.bin")));
 }

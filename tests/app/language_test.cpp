@@ -42,7 +42,7 @@ std::vector<std::string> names_of(const std::filesystem::path& plan) {
 }
 
 TEST(Language, ChineseRunsOfEveryKindSayWhatIsEnglish) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const char* name :
        {"01_spool_simulated", "03_calibrate_fixture", "04_part_in_two_poses",
         "05_spindle_three_probe", "06_wheel", "07_crank_pin", "09_axle_points_file"}) {
@@ -68,7 +68,7 @@ TEST(Language, ChineseRunsOfEveryKindSayWhatIsEnglish) {
 }
 
 TEST(Language, ReportsAreWrittenAgainInEither) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto run = folder / "run";
   ASSERT_EQ(run_without_intervals("09_axle_points_file", {"--out", run, "--archive", "none",
                                                           "--format", "html,json,csv,qif,dmis"})
@@ -104,7 +104,7 @@ TEST(Language, OneThatIsNotKnownIsRefusedWithTheList) {
 }
 
 TEST(Language, ARunThatStoppedGoesOnInItsLanguage) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto plan = folder / "plan.json";
   write_plan(plan, {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
   const Outcome stopped = rondure({"run", plan, "--out", folder / "run", "--archive", "none",

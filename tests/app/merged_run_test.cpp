@@ -30,7 +30,7 @@ void write_merged(const fs::path& file, const std::vector<Change>& changes) {
 json report_of(const fs::path& run) { return json::parse(read(run / "report.json")); }
 
 TEST(MergedRun, SolvedTogetherTheErrorsOfTheFixtureAreTakenOut) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const int seed : {4, 5, 6}) {
     SCOPED_TRACE(seed);
     const fs::path run = folder / std::to_string(seed);
@@ -60,7 +60,7 @@ TEST(MergedRun, SolvedTogetherTheErrorsOfTheFixtureAreTakenOut) {
 }
 
 TEST(MergedRun, ByKinematicsTheFixtureIsBelievedAndItsShareTold) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_merged(folder / "plan.json", {{"/features/0/pose_search/merge", "kinematics"}});
   ASSERT_LE(rondure({"run", folder / "plan.json", "--out", folder / "run"}).status, 1);
   const json report = report_of(folder / "run");
@@ -73,7 +73,7 @@ TEST(MergedRun, ByKinematicsTheFixtureIsBelievedAndItsShareTold) {
 }
 
 TEST(MergedRun, InterruptedInEitherPoseItEndsWithTheSameBits) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_merged(folder / "whole.json", {});
   ASSERT_LE(rondure({"run", folder / "whole.json", "--out", folder / "whole"}).status, 1);
   record::RunRecord whole = journal_of(folder / "whole");
@@ -95,7 +95,7 @@ TEST(MergedRun, InterruptedInEitherPoseItEndsWithTheSameBits) {
 }
 
 TEST(MergedRun, ATargetThatNoPoseReachesIsNamedBeforeAnythingMoves) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_merged(folder / "plan.json", {{"/features/0/pose_search/poses/1/alpha_deg", 40}});
   const Outcome outcome = rondure({"run", folder / "plan.json", "--out", folder / "run"});
   EXPECT_NE(outcome.status, 0);

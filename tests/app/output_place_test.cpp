@@ -18,7 +18,7 @@ Outcome run_spool_into(const fs::path& place, const Surroundings& surroundings =
 }
 
 TEST(OutputPlace, AFolderThatIsNotEmptyIsLeftAlone) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "mine.txt", "keep this");
   const Outcome outcome = run_spool_into(folder.path());
   EXPECT_EQ(outcome.status, 2);
@@ -29,7 +29,7 @@ TEST(OutputPlace, AFolderThatIsNotEmptyIsLeftAlone) {
 }
 
 TEST(OutputPlace, ASecondRunIntoTheSameFolderIsRefused) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_EQ(run_spool_into(folder / "run").status, 0);
   const std::string journal = read(folder / "run" / "journal.db");
   EXPECT_EQ(run_spool_into(folder / "run").status, 2);
@@ -37,7 +37,7 @@ TEST(OutputPlace, ASecondRunIntoTheSameFolderIsRefused) {
 }
 
 TEST(OutputPlace, AnImpossiblePlaceIsNamed) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "file", "");
   for (const fs::path& place : {fs::path("/dev/null/run"), folder / "file", folder / "file" / "run",
                                 fs::path("/proc/run"), folder / std::string(300, 'x')}) {
@@ -50,20 +50,20 @@ TEST(OutputPlace, AnImpossiblePlaceIsNamed) {
 }
 
 TEST(OutputPlace, MayHaveBlanksQuotesAndOtherScripts) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path place = folder / "a b" / "it's \xe6\x97\xa5\xe6\x9c\xac & <i>";
   EXPECT_EQ(run_spool_into(place).status, 0);
   EXPECT_EQ(rondure({"verify", place}).status, 0);
 }
 
 TEST(OutputPlace, NamesTheRunAlsoWithATrailingSlash) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_EQ(run_spool_into((folder / "seven").string() + "/").status, 0);
   EXPECT_EQ(journal_of(folder / "seven").header.run_id, "seven");
 }
 
 TEST(OutputPlace, OfAPlanWithAnEndlessNameIsRefusedByItsOwnName) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string name = std::string(240, 'p') + ".json";
   write_plan(folder / name, {});
   const Outcome outcome = rondure({"run", folder / name});  // the default folder is named after it
@@ -72,7 +72,7 @@ TEST(OutputPlace, OfAPlanWithAnEndlessNameIsRefusedByItsOwnName) {
 }
 
 TEST(OutputPlace, NeedsNoEnvironment) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   Surroundings bare;
   bare.empty_environment = true;
   EXPECT_EQ(run_spool_into(folder / "run", bare).status, 0);
@@ -91,7 +91,7 @@ TEST(FullDisk, StopsWithASentenceAndKeepsWhatWasWritten) {
   for (const std::size_t bytes : {0U, 1'000U, 20'000U, 50'000U, 90'000U, 120'000U, 150'000U,
                                   200'000U, 300'000U, 400'000U, 600'000U, 900'000U}) {
     SCOPED_TRACE(bytes);
-    const TemporaryFolder folder;
+    const Scratch folder;
     Surroundings full;
     full.largest_file_bytes = bytes;
     // Ten touches of every point: more log than report, so that both run out of space.
@@ -121,7 +121,7 @@ TEST(FullDisk, StopsWithASentenceAndKeepsWhatWasWritten) {
 }
 
 TEST(FullDisk, LeavesAnOlderReportAsItWas) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_EQ(run_spool_into(folder / "run").status, 0);
   const auto names = names_in(folder / "run");
   const std::string html = read(folder / "run" / "report.html");
@@ -136,7 +136,7 @@ TEST(FullDisk, LeavesAnOlderReportAsItWas) {
 }
 
 TEST(StandardOutput, ThatTakesNothingIsNotSilent) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path points = source_dir() / "tests/data/axle_mzc_3/points.csv";
   auto plan = example_plan("09_axle_points_file");
   leave_out_intervals(plan);
@@ -164,7 +164,7 @@ TEST(StandardOutput, ThatTakesNothingIsNotSilent) {
 }
 
 TEST(StandardOutput, ClosedIsNoErrorWhenNothingIsPrinted) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   Surroundings closed;
   closed.standard_output = "closed";
   const Outcome outcome =

@@ -33,7 +33,7 @@ std::string unbroken(const std::string& text) {
 }
 
 TEST(PlanVerb, TellsStagesTimeAndPathInEightyColumns) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {});
   const Outcome told = rondure({"plan", folder / "plan.json"});
   EXPECT_EQ(told.status, 0) << told.err;
@@ -58,7 +58,7 @@ TEST(PlanVerb, TellsTheSameAsJson) {
 }
 
 TEST(PlanVerb, DrawsAPicture) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {});
   const Outcome told = rondure({"plan", folder / "plan.json", "--svg", folder / "way.svg"});
   EXPECT_EQ(told.status, 0) << told.err;
@@ -71,7 +71,7 @@ TEST(PlanVerb, DrawsAPicture) {
 }
 
 TEST(PlanVerb, NamesWhatIsOutOfReachAndMovesNothing) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {{"/fixture/rim_height_mm", 130}});
   const Outcome told = rondure({"plan", folder / "plan.json", "--json"});
   EXPECT_EQ(told.status, 2);
@@ -87,7 +87,7 @@ TEST(PlanVerb, RefusesWithValidateAndRunASphereThatHidesAnother) {
   plan["fixture"]["reached_pose"]["spheres"] = {{{"center_mm", {70, 0, -40}}},
                                                 {{"center_mm", {-35, 60, -40}}},
                                                 {{"center_mm", {-35, 85, -30}}}};
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "plan.json", plan.dump());
   for (const char* verb : {"validate", "plan", "run"}) {
     SCOPED_TRACE(verb);
@@ -105,7 +105,7 @@ TEST(PlanVerb, RefusesWithValidateAndRunASphereThatHidesAnother) {
 TEST(PlanVerb, SaysWithValidateWhereNothingIsKnownOfWhatHoldsThePart) {
   auto plan = example_plan("17_cmm_without_fixture");
   leave_out_intervals(plan);
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const bool known : {true, false}) {
     if (!known) plan["part"].erase("held");
     write(folder / "plan.json", plan.dump());
@@ -125,7 +125,7 @@ TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
 }
 
 TEST(PlanVerb, PredictsTheIntervalInEightyColumns) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   std::vector<Change> one = {
       {"/features/0/characteristics",
        nlohmann::json::array(
@@ -169,7 +169,7 @@ TEST(PlanVerb, SaysOfEveryExampleWhatIsPredictedOrWhyNot) {
 }
 
 TEST(PlanVerb, PredictsAnalysesFromOneSimulatedSetOfData) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   auto plan = nlohmann::json::parse(read(example("06_wheel.json")));
   plan["simulation"]["wheel"]["chipped_point"] = 0;  // beside a grain the run-out is only a bound
   plan["simulation"]["wheel"]["points"] = 36;
@@ -201,7 +201,7 @@ TEST(PlanVerb, PredictsAnalysesFromOneSimulatedSetOfData) {
 }
 
 TEST(PlanVerb, PredictsTheUncertaintyOfACalibration) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   auto plan = nlohmann::json::parse(read(example("03_calibrate_fixture.json")));
   plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", 0.1}, {"repeat_urad", 1}};
   write(folder / "plan.json", plan.dump());
@@ -225,7 +225,7 @@ TEST(PlanVerb, PredictsTheUncertaintyOfACalibration) {
 
 // The uncertainty of a residual is not that of an error of an axis.
 TEST(PlanVerb, PredictsNoErrorOfAnAxis) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   auto plan = nlohmann::json::parse(read(example("03_calibrate_fixture.json")));
   plan["features"][0]["rotary_axes"]["uncertainty"] = {{"ball_um", 0.1}, {"repeat_urad", 1}};
   for (const char* error : {"EX", "EB"}) {
@@ -289,7 +289,7 @@ std::vector<Change> small_inspection(const char* reference) {
 
 TEST(PlanVerb, ProposesASamplingWhoseRunMeetsTheTarget) {
   constexpr double kTarget_um = 0.8;
-  const TemporaryFolder folder;
+  const Scratch folder;
   std::vector<Change> changes = small_inspection("mz");
   write_plan_with_intervals(folder / "plan.json", changes);
   const Outcome told = rondure({"plan", folder / "plan.json", "--json", "--target-U", "800nm"});
@@ -323,7 +323,7 @@ TEST(PlanVerb, ProposesASamplingWhoseRunMeetsTheTarget) {
 }
 
 TEST(PlanVerb, SaysWhatLimitsATargetThatNoSamplingMeets) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan_with_intervals(folder / "plan.json", small_inspection("ls"));
   const Outcome told = rondure({"plan", folder / "plan.json", "--target-U", "1e-9um"});
   EXPECT_EQ(told.status, 2);

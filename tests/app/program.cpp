@@ -55,17 +55,6 @@ void enter(const Surroundings& surroundings, const std::filesystem::path& out,
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "rondure-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& enter) {
   std::vector<std::string> words = {RONDURE_BINARY};
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -9,24 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/core/scratch.h"
+
 namespace rondure::app::testing {
 
-/// A new folder, removed with everything in it at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using test::Scratch;
 
 /// Starts the program in a child that has called `enter` before; its process id.
 [[nodiscard]] pid_t start(const std::vector<std::string>& arguments,
@@ -67,7 +54,7 @@ class Program {
   [[nodiscard]] std::string told() const;
 
  private:
-  TemporaryFolder folder_;  ///< Holds the output of the program.
+  Scratch folder_;  ///< Holds the output of the program.
   pid_t pid_ = -1;
 };
 

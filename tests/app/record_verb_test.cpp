@@ -80,7 +80,7 @@ std::string rows_of(const std::filesystem::path& file) {
 }
 
 struct Recording {
-  TemporaryFolder folder;
+  Scratch folder;
   Sylvac one{0.5};
   Sylvac two{-1.25};
   std::string file = (folder / "shaft.csv").string();
@@ -145,7 +145,7 @@ TEST(Record, RefusesTrackingUnknownIndicatorsAndNobodyAtTheTerminal) {
     EXPECT_EQ(alone.status, 2);
     EXPECT_THAT(alone.err, HasSubstr("standard input is no terminal"));
   }
-  TemporaryFolder folder;
+  Scratch folder;
   const std::string file = (folder / "x.csv").string();
   OnTerminal unknown({"record", "--probe", "vernier:/dev/ttyUSB0", "--out", file});
   EXPECT_EQ(unknown.finish(), 2);

@@ -18,7 +18,7 @@ using ::testing::Not;
 std::size_t result_count(const fs::path& archive) { return history_of(archive)["results"].size(); }
 
 TEST(ResumeArchive, DeliversARunThatDiedBehindItsReportsAndOnce) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path run = folder / "run";
   // As it is left by a death between the last report and the push.
   ASSERT_EQ(run_without_intervals("01_spool_simulated", {"--out", run, "--archive", "none"}).status,
@@ -39,7 +39,7 @@ TEST(ResumeArchive, DeliversARunThatDiedBehindItsReportsAndOnce) {
 }
 
 TEST(ResumeArchive, ThatIsAwayLetsTheRunWait) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path run = folder / "run";
   ASSERT_EQ(run_without_intervals("01_spool_simulated", {"--out", run, "--archive", "none"}).status,
             0);
@@ -56,7 +56,7 @@ TEST(ResumeArchive, ThatIsAwayLetsTheRunWait) {
 
 /// A plan of its own folder that archives beside itself, and a run of it that lost its machine.
 struct Beside {
-  TemporaryFolder folder;
+  Scratch folder;
   Outcome lost;
 
   Beside() {
@@ -83,7 +83,7 @@ TEST(ResumeArchive, BesideThePlanIsFoundOnlyWithThePlan) {
 }
 
 TEST(ResumeArchive, StandsInTheCommandThatGoesOnWithoutItsPassword) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
   const Outcome lost = rondure({"run", folder / "plan.json", "--out", folder / "run", "--archive",
                                 "postgresql://me:secret@127.0.0.1:1/results"});

@@ -29,7 +29,7 @@ using Seconds = std::chrono::duration<double>;
 std::size_t runs() { return static_cast<std::size_t>(test::cases(6, 25, 500)); }
 
 /// The first example; without intervals, which only its end would compute, where time counts.
-fs::path plan_in(const TemporaryFolder& folder) {
+fs::path plan_in(const Scratch& folder) {
   if (test::full()) return example("01_spool_simulated.json");
   write_plan(folder / "plan.json", {});
   return folder / "plan.json";
@@ -96,7 +96,7 @@ std::vector<std::string> archived_results(const fs::path& archive) {
 
 /// The run that nothing interrupts, and how long it takes.
 struct Whole {
-  TemporaryFolder folder;
+  Scratch folder;
   record::RunRecord record;
   std::string bits;
   std::string csv;
@@ -134,7 +134,7 @@ void expect_equal(const fs::path& run, const Whole& whole) {
 }
 
 TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
-  const TemporaryFolder plans;
+  const Scratch plans;
   const fs::path plan = plan_in(plans);
   const Whole whole(plan);
   std::uint64_t state = 20261121;
@@ -144,7 +144,7 @@ TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
   std::size_t equal = 0;  // until the first that is not
   for (std::size_t i = 0; i < runs(); ++i) {
     SCOPED_TRACE(i);
-    const TemporaryFolder folder;
+    const Scratch folder;
     const fs::path run = folder / "run";
     const std::vector<std::string> words = {"run", plan, "--out", run, "--resume", "--quiet"};
     // A stratum of the run each, its end among them; every third run dies twice, some oftener.
@@ -174,7 +174,7 @@ TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
 void expect_survives_kill_when(const Whole& whole, const fs::path& plan, const std::string& name,
                                bool appears, std::chrono::microseconds later) {
   SCOPED_TRACE(name + (appears ? " appears, " : " is gone, ") + std::to_string(later.count()));
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path run = folder / "run";
   const std::vector<std::string> words = {"run", plan, "--out", run, "--resume", "--quiet"};
   {
@@ -197,7 +197,7 @@ void expect_survives_kill_when(const Whole& whole, const fs::path& plan, const s
 }
 
 TEST(KilledWhile, ItBeginsSealsWritesReportsOrArchives) {
-  const TemporaryFolder plans;
+  const Scratch plans;
   const fs::path plan = plan_in(plans);
   const Whole whole(plan);
   const int rounds = test::cases(1, 2, 20);

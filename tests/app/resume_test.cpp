@@ -39,13 +39,13 @@ class Interrupted {
   }
 
  private:
-  TemporaryFolder folder_;
+  Scratch folder_;
   Outcome outcome_;
 };
 
 /// What the plan of Interrupted gives without its fault.
 std::string whole_bits(const Interrupted& run) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {});
   EXPECT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run"}).status, 0);
   record::RunRecord record = journal_of(folder / "run");
@@ -119,7 +119,7 @@ TEST(Resume, NeedsOnlyTheRunDirectory) {
 }
 
 TEST(Resume, BeginsWhereThereIsNoRunYet) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {});
   const Outcome outcome =
       rondure({"run", folder / "plan.json", "--out", folder / "run", "--resume"});
@@ -132,7 +132,7 @@ TEST(Resume, WithoutADirectorySaysWhatIsMissing) {
   const Outcome outcome = rondure({"run", example("01_spool_simulated.json"), "--resume"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("--out DIR"));
-  const TemporaryFolder folder;
+  const Scratch folder;
   EXPECT_EQ(rondure({"run", "--resume", folder.path()}).status, 2) << "an empty directory, no plan";
 }
 
@@ -168,7 +168,7 @@ TEST(Resume, OfAFinishedRunSaysSoAndChangesNothing) {
 }
 
 TEST(Resume, OfAFinishedRunEndsWithTheStatusOfItsVerdict) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {{"/features/0/characteristics/0/tolerance_um", 1}});
   const std::vector<std::string> words = {"run", folder / "plan.json", "--out", folder / "run",
                                           "--resume"};
@@ -179,7 +179,7 @@ TEST(Resume, OfAFinishedRunEndsWithTheStatusOfItsVerdict) {
 }
 
 TEST(Resume, OfAFinishedRunIsRefusedForAnotherPartPlanSeedOrOperator) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {});
   ASSERT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run", "--serial", "A",
                      "--operator", "mk", "--order", "4711"})
@@ -212,7 +212,7 @@ TEST(Resume, OfAFinishedRunIsRefusedForAnotherPartPlanSeedOrOperator) {
 }
 
 TEST(Resume, APartThatMovedEndsTheRunWithNumberAndLimit) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json",
              {{"/simulation/faults", {{"connection_lost_at_touch", 60}, {"part_moved_um", 40}}}});
   const std::vector<std::string> words = {"run", folder / "plan.json", "--out", folder / "run",
@@ -243,12 +243,12 @@ void wait_for_log(const Program& program, const fs::path& run) {
 
 /// A run that takes most of a minute, past its first touches.
 struct Busy {
-  TemporaryFolder folder;
+  Scratch folder;
   std::vector<std::string> words;
   Program program;
 
   Busy() : words(prepare(folder)), program(words) { wait_for_log(program, folder / "run"); }
-  static std::vector<std::string> prepare(const TemporaryFolder& folder) {
+  static std::vector<std::string> prepare(const Scratch& folder) {
     write_plan(folder / "plan.json", {{"/features/0/sampling/layers", 40},
                                       {"/features/0/sampling/points_per_layer", 100}});
     return {"run", folder / "plan.json", "--out", folder / "run"};
@@ -291,14 +291,14 @@ TEST(Stop, AndResumeGiveEveryTouchOnce) {
 }
 
 TEST(FullDisk, IsResumedOnceThereIsRoom) {
-  const TemporaryFolder reference;
+  const Scratch reference;
   write_plan(reference / "plan.json", {});
   ASSERT_EQ(rondure({"run", reference / "plan.json", "--out", reference / "run"}).status, 0);
   const std::string whole = record::measured_bits(journal_of(reference / "run"));
   int resumed = 0;
   for (const std::size_t bytes : {60'000U, 100'000U, 160'000U, 300'000U}) {
     SCOPED_TRACE(bytes);
-    const TemporaryFolder folder;
+    const Scratch folder;
     Surroundings full;
     full.largest_file_bytes = bytes;
     const std::vector<std::string> words = {"run", reference / "plan.json", "--out", folder / "run",

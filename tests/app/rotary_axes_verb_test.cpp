@@ -117,7 +117,7 @@ TEST(FitRotaryAxes, TableFitsATerminal) {
 }
 
 TEST(FitRotaryAxes, RefusesBadInput) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string good = read(rotary_data("c_axis.csv"));
   const auto refusal = [&](const std::string& text, std::vector<std::string> more = {}) {
     write(folder / "in.csv", text);

@@ -12,7 +12,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
@@ -40,13 +39,6 @@ const std::string kProfile =
 
 class RoundnessVerb : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("rondure_roundness_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& text) {
     const auto path = folder_ / "part.csv";
     std::ofstream(path) << text;
@@ -64,7 +56,7 @@ class RoundnessVerb : public ::testing::Test {
     return std::to_string(degrees) + "," + std::to_string(um) + "\n";
   }
 
-  std::filesystem::path folder_;
+  Scratch folder_;
 };
 
 TEST_F(RoundnessVerb, GivesTheNumbersOfTheWorkedExampleAsJson) {

@@ -24,7 +24,7 @@ fs::path made_examples() {
         "this test reads the runs of the examples: name it in EXAMPLES of its CMakeLists.txt");
   }
   if (made != nullptr) return made;
-  static const TemporaryFolder folder;
+  static const Scratch folder;
   static const int status = std::system(
       fmt::format("'{}' '{}' '{}' '{}'", (source_dir() / "tests/app/run_examples.sh").string(),
                   RONDURE_BINARY, source_dir().string(), (folder / "examples").string())
@@ -48,7 +48,7 @@ Outcome example_outcome(const std::string& name) {
 
 Outcome run_without_intervals(const std::string& name, const std::vector<std::string>& words,
                               const Surroundings& surroundings) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   auto plan = example_plan(name);
   leave_out_intervals(plan);
   write(folder / (name + ".json"), plan.dump(2));

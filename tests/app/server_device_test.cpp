@@ -37,7 +37,7 @@ class Cmm {
   [[nodiscard]] std::string log() const { return read(folder_ / "wire.log"); }
 
  private:
-  TemporaryFolder folder_;
+  Scratch folder_;
   std::uint16_t port_;
   Program program_;
 };
@@ -91,7 +91,7 @@ TEST(ServerDevice, ItsKeysArePartOfAPlanThatRuns) {
   const json park = plan["machine"]["park_mm"];
   plan["machine"] = found["machine"];
   plan["machine"]["park_mm"] = park;
-  const TemporaryFolder folder;
+  const Scratch folder;
   write(folder / "plan.json", plan.dump());
   const Outcome ran =
       rondure({"run", folder / "plan.json", "--out", folder / "run", "--archive", "none"});

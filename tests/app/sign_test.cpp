@@ -42,7 +42,7 @@ class SignedRun : public ::testing::Test {
     return rondure({"verify", run_, "--key", folder_ / key});
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   fs::path run_ = folder_ / "run";
 };
 

@@ -45,7 +45,7 @@ class Serving {
   [[nodiscard]] std::string wire_log() const { return read(folder_ / "wire.log"); }
 
  private:
-  static std::vector<std::string> arguments(const TemporaryFolder& folder,
+  static std::vector<std::string> arguments(const Scratch& folder,
                                             const std::vector<std::string>& more,
                                             const std::string& plan) {
     std::vector<std::string> out = {"simulate-cmm", plan,  "--port",     "0",
@@ -53,13 +53,13 @@ class Serving {
     out.insert(out.end(), more.begin(), more.end());
     return out;
   }
-  static Surroundings surroundings(const TemporaryFolder& folder) {
+  static Surroundings surroundings(const Scratch& folder) {
     Surroundings out;
     out.standard_output = folder / "out";
     return out;
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   Program program_;
   std::uint16_t port_ = 0;
 };
@@ -151,11 +151,10 @@ class HaltedRun {
   }
 
  private:
-  static std::vector<std::string> arguments(const TemporaryFolder& folder,
-                                            const std::string& name) {
+  static std::vector<std::string> arguments(const Scratch& folder, const std::string& name) {
     return {"run", folder / "plan.json", "--out", folder / name, "--archive", "none"};
   }
-  static std::vector<std::string> prepare(const TemporaryFolder& folder, std::uint16_t port) {
+  static std::vector<std::string> prepare(const Scratch& folder, std::uint16_t port) {
     json plan = light_plan();
     plan["machine"]["port"] = port;
     plan["machine"]["answer_limit_s"] = 300;  // the clock of the halted run goes on
@@ -164,7 +163,7 @@ class HaltedRun {
     return arguments(folder, "halted");
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   Program run_;
 };
 
@@ -244,7 +243,7 @@ class SimulateCmmProfile : public ::testing::Test {
         .at("/features/0/mz/deviation_um"_json_pointer);
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
 };
 
 TEST_F(SimulateCmmProfile, GivesTheCylindricityOfTheSimulatedDriver) {

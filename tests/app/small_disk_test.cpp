@@ -46,20 +46,20 @@ class SmallDisk {
     return false;
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   std::string reason_;
   bool mounted_ = false;
 };
 
 /// The same run with all the room it wants.
 std::string bits_with_room(const fs::path& plan) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   EXPECT_EQ(rondure({"run", plan, "--out", folder / "run", "--quiet"}).status, 0);
   return record::measured_bits(journal_of(folder / "run"));
 }
 
 TEST(SmallDisk, KeepsEveryTouchAndTheRunGoesOnWhenThereIsRoom) {
-  const TemporaryFolder plans;
+  const Scratch plans;
   const fs::path plan = plans / "plan.json";
   write_plan(plan, {});
   const std::string whole = bits_with_room(plan);

@@ -51,7 +51,7 @@ class SpindlePlan : public ::testing::Test {
     return rondure({"run", (folder_ / "plan.json").string(), "--out", (folder_ / "run").string(),
                     "--archive", "none"});
   }
-  TemporaryFolder folder_;
+  Scratch folder_;
 };
 
 TEST_F(SpindlePlan, JudgesVerifiesAndTellsEveryChange) {

@@ -18,7 +18,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::vector<std::string> stepwise(const TemporaryFolder& folder) {
+std::vector<std::string> stepwise(const Scratch& folder) {
   return {"run",    example("13_pose_search_virtual.json"),
           "--out",  (folder / "run").string(),
           "--step", "--archive",
@@ -26,7 +26,7 @@ std::vector<std::string> stepwise(const TemporaryFolder& folder) {
 }
 
 TEST(Step, AsksBeforeEachMotionAndStopsInOrderOnQ) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   OnTerminal program(stepwise(folder));
   ASSERT_TRUE(program.wait_for("[q] stop: ")) << program.shown();
   EXPECT_THAT(program.shown(), HasSubstr("home machine and fixture"));
@@ -55,14 +55,14 @@ TEST(Step, AsksBeforeEachMotionAndStopsInOrderOnQ) {
 }
 
 TEST(Step, GoesOnWithoutAskingAfterCAndMeasuresTheSame) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   OnTerminal program(stepwise(folder));
   ASSERT_TRUE(program.wait_for("[q] stop: ")) << program.shown();
   program.type("x\n");
   ASSERT_TRUE(program.wait_for("[q] stop: ")) << "an unknown answer is asked again";
   program.type("c\n");
   EXPECT_LE(program.finish(), 1) << program.shown();
-  const TemporaryFolder plain;
+  const Scratch plain;
   const Outcome quickly = rondure({"run", example("13_pose_search_virtual.json"), "--out",
                                    (plain / "run").string(), "--archive", "none"});
   EXPECT_LE(quickly.status, 1) << quickly.err;
@@ -76,7 +76,7 @@ TEST(Step, GoesOnWithoutAskingAfterCAndMeasuresTheSame) {
 }
 
 TEST(Step, RefusesWithoutATerminal) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   Surroundings surroundings;
   const Outcome refused = rondure(stepwise(folder), surroundings);
   if (::isatty(STDIN_FILENO) == 1) GTEST_SKIP() << "the tests themselves have a terminal";

@@ -26,7 +26,7 @@ class LongRun {
   [[nodiscard]] fs::path directory() const { return folder_ / "run"; }
 
  private:
-  static std::vector<std::string> start(const TemporaryFolder& folder) {
+  static std::vector<std::string> start(const Scratch& folder) {
     write_plan(folder / "plan.json", {{"/features/0/sampling/layers", 20},
                                       {"/features/0/sampling/points_per_layer", 25},
                                       {"/features/0/pose_search", {{"strategy", "as-published"}}}});
@@ -45,7 +45,7 @@ class LongRun {
     ADD_FAILURE() << "the run made no touches: " << program_.wait().err;
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   Program program_;
 };
 
@@ -102,7 +102,7 @@ TEST(StopSignals, InAPipeWhoseReaderEndedFirstStillEndTheRunInOrder) {
 }
 
 TEST(StopSignals, ARunThatNobodyReadsIsArchivedLikeAnyOther) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   Surroundings pipe;
   pipe.standard_output = "unread";
   const Outcome outcome =

@@ -43,7 +43,7 @@ class FinishedRun : public ::testing::Test {
     sqlite3_close(database);
   }
 
-  TemporaryFolder folder_;
+  Scratch folder_;
   fs::path run_ = folder_ / "run";
 };
 

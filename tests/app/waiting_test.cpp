@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(Waiting, SaysWhichTrialItIsAtAndCtrlCEndsItAtOnce) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string plan = (folder / "plan.json").string();
   auto long_evaluation = example_plan("09_axle_points_file");
   long_evaluation["uncertainty"]["most_trials"] = 1'000'000;
@@ -38,7 +38,7 @@ TEST(Waiting, SaysWhichTrialItIsAtAndCtrlCEndsItAtOnce) {
 }
 
 TEST(Waiting, SaysNothingOfWhatIsQuickOrQuiet) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   OnTerminal quick({"run", example("09_axle_points_file.json"), "--out",
                     (folder / "quick").string(), "--archive", "none"});
   EXPECT_EQ(quick.finish(), 0);

@@ -37,12 +37,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// Writes the plan into the folder of its run.
-fs::path plan_in(const TemporaryFolder& folder) {
+fs::path plan_in(const Scratch& folder) {
   write_plan(folder / "plan.json", {});
   return folder / "plan.json";
 }
 
-std::vector<std::string> run_words(const TemporaryFolder& folder, const std::string& speed,
+std::vector<std::string> run_words(const Scratch& folder, const std::string& speed,
                                    const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"run",          plan_in(folder), "--out",
                                     folder / "run", "--watch",       "--archive",
@@ -54,7 +54,7 @@ std::vector<std::string> run_words(const TemporaryFolder& folder, const std::str
 /// The journal of the same run without anybody watching.
 const std::string& unwatched_bits() {
   static const std::string bits = [] {
-    const TemporaryFolder folder;
+    const Scratch folder;
     const Outcome outcome = rondure({"run", plan_in(folder), "--out", folder / "run", "--archive",
                                      "none", "--format", "json", "--quiet"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -81,7 +81,7 @@ std::vector<std::string> listening_at(std::uint16_t port) {
 }
 
 TEST(Watch, ShowsTouchesPosesAndTimeThenTheVerdictAndChangesNoBit) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "150"));
   const json measuring = run.look_until("now", "Measuring");
   ASSERT_FALSE(measuring.is_null());
@@ -106,7 +106,7 @@ TEST(Watch, ShowsTouchesPosesAndTimeThenTheVerdictAndChangesNoBit) {
 }
 
 TEST(Watch, WithoutControlServesAPageThatLoadsNothingFromElsewhereAndStopsNothing) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "200"));
   const Answer page = run.ask("GET", "/");
   EXPECT_EQ(page.status, 200);
@@ -167,7 +167,7 @@ void expect_all_refused(const WatchedRun& run) {
 }
 
 TEST(Watch, StopsTheRunForItsOwnPageOnlyAndTheRunGoesOnToTheSameBits) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "60", {"--control"}));
   EXPECT_EQ(run.token().size(), 32U);
   EXPECT_THAT(run.ask("GET", "/").body,
@@ -190,7 +190,7 @@ TEST(Watch, StopsTheRunForItsOwnPageOnlyAndTheRunGoesOnToTheSameBits) {
 }
 
 TEST(Watch, BearsManyClientsAndThoseThatHangUpOrReadSlowly) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "100"));
   std::vector<int> silent;  // connect and say nothing, or ask and do not read
   for (int i = 0; i < 4; ++i) silent.push_back(connect_to(run.port()));
@@ -252,7 +252,7 @@ int closed_of(const std::vector<int>& connections) {
 }
 
 TEST(Watch, EndsWellThoughSilentConnectionsOutnumberTheFilesItMayOpen) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   auto run = [&] {
     const FewFiles few(128);
     return std::make_unique<WatchedRun>(run_words(folder, "100"));
@@ -297,7 +297,7 @@ std::pair<std::size_t, std::string> taken_of(std::uint16_t port, const std::stri
 }
 
 TEST(Watch, TakesNoBodyInChunksAndNoEndlessHead) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "30", {"--control"}));
   const std::string host = fmt::format("Host: 127.0.0.1:{}\r\n", run.port());
   auto chunked = run.right_heads();
@@ -316,7 +316,7 @@ TEST(Watch, TakesNoBodyInChunksAndNoEndlessHead) {
 }
 
 TEST(Watch, EndsSoonThoughABrowserWasKilledOrNeverReads) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "300"));
   EXPECT_FALSE(run.look_until("now", "Measuring").is_null());  // and never asks again
   const int silent = connect_to(run.port());
@@ -327,7 +327,7 @@ TEST(Watch, EndsSoonThoughABrowserWasKilledOrNeverReads) {
 }
 
 TEST(Watch, ShowsAFaultAndEndsAsTheRunDoes) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   write_plan(folder / "plan.json", {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
   WatchedRun run(
       {"run", folder / "plan.json", "--out", folder / "run", "--watch", "--speed", "150"});
@@ -339,7 +339,7 @@ TEST(Watch, ShowsAFaultAndEndsAsTheRunDoes) {
 }
 
 TEST(Watch, ShowsThatTheReportsCouldNotBeWritten) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "150"));
   ASSERT_FALSE(run.look_until("now", "Measuring").is_null());
   std::filesystem::create_directories(folder / "run" / "report.html" / "in the way");
@@ -352,7 +352,7 @@ TEST(Watch, ShowsThatTheReportsCouldNotBeWritten) {
 }
 
 TEST(Watch, KeepsHostileTextsText) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::string evil = "<script>alert(1)</script><img src=x onerror=alert(2)>\"'&";
   write_plan(folder / "plan.json",
              {{"/part/id", evil}, {"/plan/name", evil}, {"/features/0/id", evil}});
@@ -366,7 +366,7 @@ TEST(Watch, KeepsHostileTextsText) {
 }
 
 TEST(Watch, SaysWhatToDoAboutAPortInUseBeforeAnythingMoves) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   WatchedRun run(run_words(folder, "100"));
   const Outcome second = rondure({"run", folder / "plan.json", "--out", folder / "second",
                                   "--watch=" + std::to_string(run.port())});
@@ -378,7 +378,7 @@ TEST(Watch, SaysWhatToDoAboutAPortInUseBeforeAnythingMoves) {
 }
 
 TEST(Watch, ServesAtThePortThatWasAskedForAlsoWithPipedOutput) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const std::uint16_t port = free_port();
   WatchedRun run({"run", plan_in(folder), "--out", folder / "run", "--archive", "none", "--quiet",
                   "--watch=" + std::to_string(port), "--speed", "1000"});

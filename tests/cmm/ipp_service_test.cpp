@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "ideal_backend.h"
+#include "tests/core/scratch.h"
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -170,8 +171,8 @@ TEST(IppService, AMotionTakesItsTimeOnTheClock) {
 }
 
 TEST(IppService, TellsTheClientThatItEndsAndWritesEveryLineDown) {
-  const std::filesystem::path log =
-      std::filesystem::temp_directory_path() / ("rondure_wire_" + std::to_string(::getpid()));
+  const test::Scratch folder;
+  const std::filesystem::path log = folder / "wire";
   Service service(log);
   const auto client = service.connect();
   ask(*client, "00001 StartSession()");

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,6 +16,7 @@
 #include "core/version.h"
 #include "evaluation/evaluate.h"
 #include "record/files.h"
+#include "tests/core/scratch.h"
 #include "tests/evaluation/points_run.h"
 
 namespace rondure::reports {
@@ -98,12 +97,8 @@ TEST(Invariants, EveryBrokenRuleIsFoundByItsName) {
 
 class DefectFile : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-  fs::path folder = fs::temp_directory_path() / fmt::format("rondure_defect_{}", ::getpid());
+  test::Scratch scratch;
+  fs::path folder = scratch.path();
 };
 
 TEST_F(DefectFile, HoldsTheRuleAllNumbersAndThePoints) {

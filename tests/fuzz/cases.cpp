@@ -17,6 +17,7 @@
 
 #include "tests/app/files.h"
 #include "tests/core/full.h"
+#include "tests/core/scratch.h"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/common_interface_defs.h>
@@ -128,31 +129,6 @@ bool memory_is_well() {
   return kSanitized || static_cast<rlim_t>(usage.ru_maxrss) * 1024 <= kMemory_bytes;
 }
 
-/// The folder, as long as the process lives.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::string name = ::access("/dev/shm", W_OK) == 0
-                           ? std::string("/dev/shm")
-                           : std::filesystem::temp_directory_path().string();
-    name += "/rondure-fuzz-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder " + name);
-    path_ = name;
-    ::setenv("TMPDIR", name.c_str(), 1);
-  }
-  ~WorkFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 void try_cases(const Counts& counts, const std::function<std::string(unsigned seed)>& try_case) {
@@ -177,7 +153,9 @@ void try_cases(const Counts& counts, const std::function<std::string(unsigned se
 }
 
 const std::filesystem::path& work_folder() {
-  static const WorkFolder folder;
+  static const test::Scratch folder(test::Scratch::Where::kMemory);
+  static const int set = ::setenv("TMPDIR", folder.path().c_str(), 1);
+  (void)set;
   return folder.path();
 }
 

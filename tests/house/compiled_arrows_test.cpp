@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/core/scratch.h"
+
 namespace rondure {
 namespace {
 
@@ -81,7 +83,8 @@ TEST(CompiledArrows, ARoomFindsItsOwnHeadersAndThePublicOnesOfTheRoomsItLinks) {
   std::set<std::string> headers;
   for (const auto& [room, links] : kLinks) headers.merge(headers_of(room));
   headers.merge(headers_of("app"));
-  const fs::path question = fs::path(testing::TempDir()) / "has_include.cpp";
+  const test::Scratch folder;
+  const fs::path question = folder / "has_include.cpp";
   std::ofstream(question) << [&] {
     std::string text;
     for (const std::string& header : headers) {
@@ -93,7 +96,7 @@ TEST(CompiledArrows, ARoomFindsItsOwnHeadersAndThePublicOnesOfTheRoomsItLinks) {
     int status = 1;
     const std::string compiler = compiler_of(room);
     ASSERT_FALSE(compiler.empty()) << room;
-    const std::string seen = said(compiler + "-E -P " + question.string(), status);
+    const std::string seen = said(compiler + "-E -P '" + question.string() + "'", status);
     ASSERT_EQ(status, 0) << seen;
     for (const std::string& header : headers) {
       const std::string owner = header.substr(0, header.find('/'));
@@ -108,11 +111,13 @@ TEST(CompiledArrows, ARoomFindsItsOwnHeadersAndThePublicOnesOfTheRoomsItLinks) {
 }
 
 TEST(CompiledArrows, AWrongIncludeDoesNotCompile) {
-  const auto compiled = [](const std::string& room, const std::string& header) {
-    const fs::path file = fs::path(testing::TempDir()) / "wrong.cpp";
+  const test::Scratch folder;
+  const auto compiled = [&](const std::string& room, const std::string& header) {
+    const fs::path file = folder / "wrong.cpp";
     std::ofstream(file) << "#include \"" << header << "\"\n";
     int status = 0;
-    const std::string text = said(compiler_of(room) + "-fsyntax-only " + file.string(), status);
+    const std::string text =
+        said(compiler_of(room) + "-fsyntax-only '" + file.string() + "'", status);
     if (status != 0) {
       EXPECT_THAT(text, testing::HasSubstr(header + ": No such file or directory"));
     }
@@ -139,17 +144,18 @@ TEST_P(HeadersOf, ARoomCompileAlone) {
   const bool installed = room == "fit" || room == "core";
   const fs::path common =
       fs::path(RONDURE_BINARY).parent_path() / "CMakeFiles/rondure_headers.dir/cmake_pch.hxx";
-  const std::string before = testing::TempDir() + room + "_before.h";
+  const test::Scratch folder;
+  const std::string before = (folder / "before.h").string();
   std::ofstream(before) << "#include "
                         << (installed ? "<Eigen/Core>" : "\"" + common.string() + "\"") << "\n";
   int status = 0;
   const std::string made =
-      said(compiler + "-x c++-header " + before + " -o " + before + ".gch", status);
+      said(compiler + "-x c++-header '" + before + "' -o '" + before + ".gch'", status);
   ASSERT_EQ(status, 0) << made;
   for (const std::string& header : headers_of(room)) {
-    const std::string text = said(
-        compiler + "-x c++ -fsyntax-only -include " + before + " -include " + header + " /dev/null",
-        status);
+    const std::string text = said(compiler + "-x c++ -fsyntax-only -include '" + before +
+                                      "' -include " + header + " /dev/null",
+                                  status);
     EXPECT_EQ(status, 0) << header << "\n" << text;
   }
 }

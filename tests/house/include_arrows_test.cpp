@@ -148,6 +148,21 @@ TEST(IncludeArrows, KeepsEveryTopLevelFolderARoomOfTheDesign) {
   }
 }
 
+// Tests run beside each other: a folder of a fixed name is sooner or later that of two of them.
+TEST(Tests, MakeTheirFoldersInOnePlace) {
+  const std::string system = "TempDir", standard = "temp_directory_path";
+  const std::set<std::string> makers = {"scratch.h", "postgres_server.cpp"};
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(RONDURE_SOURCE_DIR) / "tests")) {
+    if (!entry.is_regular_file() || makers.count(entry.path().filename()) == 1) continue;
+    std::ifstream stream(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (const std::string& word : {system + "()", standard + "()"}) {
+      EXPECT_EQ(text.find(word), std::string::npos) << entry.path() << ": test::Scratch";
+    }
+  }
+}
+
 TEST(PublicHeaders, KeepHeavyLibrariesInTheirSourceFiles) {
   // JSON in private headers of plans and reports only; CGAL, Ceres, libusb and Asio in no header.
   const std::set<std::string> heavy = {"CGAL", "ceres",    "libusb.h", "libusb-1.0",

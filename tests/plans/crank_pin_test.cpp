@@ -24,6 +24,7 @@
 #include "plans/run/runner.h"
 #include "record/files.h"
 #include "tests/core/full.h"
+#include "tests/core/scratch.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -141,7 +142,7 @@ class PinFiles : public ::testing::Test {
     using Column = record::ContourColumnTask;
     Plan out = twin;
     out.simulation.reset();
-    out.folder = folder_;
+    out.folder = folder_.path();
     record::ContourTask& task = *out.features.front().contour;
     task.parts = {{"", "axes.csv", "pin.csv", "main.csv"}};
     task.error = record::ContourTask::Error::kActualMinusCommand;
@@ -165,12 +166,10 @@ class PinFiles : public ::testing::Test {
     return out;
   }
   void write(const std::string& name, const std::string& text) {
-    std::filesystem::create_directories(folder_);
     ASSERT_TRUE(record::write_file(folder_ / name, text));
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "rondure_pin_files";
+  test::Scratch folder_;
 };
 
 TEST_F(PinFiles, OfOtherColumnsUnitsSignsAndCountsAreThoseOfTheTwin) {
@@ -243,11 +242,8 @@ class NextPins : public ::testing::Test {
     EXPECT_TRUE(ran);
     return evaluation::evaluate(testing::journal_of(directory_)).value();
   }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
-  std::filesystem::path directory_ =
-      std::filesystem::path(::testing::TempDir()) /
-      (std::string("rondure_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  test::Scratch scratch_;
+  std::filesystem::path directory_ = scratch_ / "run";
 };
 
 const evaluation::ContourResult& pins_of_feature(const evaluation::Evaluation& found,

@@ -18,6 +18,7 @@
 #include "record/tasks/form_facts.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/surface.h"
+#include "tests/core/scratch.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -98,13 +99,12 @@ TEST(PlanDrawing, RowsOfOneFileThatNameTwoClampingsAreNotRelated) {
 }
 
 TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "rows_without_a_feature";
-  std::filesystem::create_directories(folder);
+  const test::Scratch folder;
   std::string text = bytes_of(shaft_folder() / "shaft.csv");
   const auto lines = std::count(text.begin(), text.end(), '\n');
   const auto problems = [&](const std::string& rows) {
     EXPECT_TRUE(record::write_file(folder / "shaft.csv", text + rows));
-    return lines_of(parse_plan(documented_plan(), folder, "plan.json"));
+    return lines_of(parse_plan(documented_plan(), folder.path(), "plan.json"));
   };
   EXPECT_EQ(problems(""), "");
   EXPECT_EQ(
@@ -114,13 +114,11 @@ TEST(PlanDrawing, RowsThatNoFeatureTakesAreRefused) {
                   "on); correct the names, which count letter by letter, plan a feature for "
                   "them, take them out, or say \"others\": \"left-out\" [meaning]\n",
                   in_quotes("c"), lines + 1, in_quotes("C c"), lines + 3));
-  std::filesystem::remove_all(folder);
 }
 
 // 30 mm in inches, in metres and in micrometres; nothing but the nominal tells the unit.
 TEST(PlanDrawing, ASizeThatLooksLikeAnotherUnitNeedsItsNominal) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "sizes_in_other_units";
-  std::filesystem::create_directories(folder);
+  const test::Scratch folder;
   const auto problems = [&](double factor, const std::string& more) {
     std::string text = "x,y,z\n";
     for (int k = 0; k < 8; ++k) {
@@ -133,7 +131,7 @@ TEST(PlanDrawing, ASizeThatLooksLikeAnotherUnitNeedsItsNominal) {
       "features": [{"id": "c", "type": "circle", )" +
                                    more + R"("source": {"file": "c.csv"}, "characteristics": [
       {"id": "r", "form": "roundness", "tolerance_um": 5}]}]})",
-                               folder, "plan.json"));
+                               folder.path(), "plan.json"));
   };
   EXPECT_EQ(problems(1.0, ""), "");
   EXPECT_THAT(problems(1.0 / 25.4, ""),
@@ -144,7 +142,6 @@ TEST(PlanDrawing, ASizeThatLooksLikeAnotherUnitNeedsItsNominal) {
   EXPECT_THAT(problems(1e-3, ""), ::testing::HasSubstr(", in metres 30 mm; state"));
   EXPECT_THAT(problems(1e3, ""), ::testing::HasSubstr(", in micrometres 30 mm; state"));
   EXPECT_EQ(problems(0.2, R"("nominal": {"diameter_mm": 6}, )"), "");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PlanDrawing, ACutOffBelowTwoLeavesNoForm) {
@@ -193,8 +190,7 @@ std::string german_export() {
 }
 
 TEST(PlanDrawing, PlansOfTheFirstPagesAreValid) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "first_pages";
-  std::filesystem::create_directories(folder);
+  const test::Scratch folder;
   for (const char* name : {"export.csv", "your_points.csv"}) {
     ASSERT_TRUE(record::write_file(folder / name, german_export()));
   }
@@ -202,10 +198,10 @@ TEST(PlanDrawing, PlansOfTheFirstPagesAreValid) {
     SCOPED_TRACE(page);
     const std::string text = bytes_of(testing::source_dir() / page);
     const std::size_t at = text.find("```json\n") + 8;
-    const auto plan = parse_plan(text.substr(at, text.find("```", at) - at), folder, "plan.json");
+    const auto plan =
+        parse_plan(text.substr(at, text.find("```", at) - at), folder.path(), "plan.json");
     EXPECT_TRUE(plan) << lines_of(plan);
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PlanDrawing, EachCallOutOfTheDocumentIsWrittenWithWordsOfThePlan) {

@@ -11,6 +11,7 @@
 
 #include "core/encodings.h"
 #include "plans/checks/laboratory.h"
+#include "tests/core/scratch.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -51,13 +52,6 @@ std::string jpeg(std::size_t width, std::size_t height) {
 
 class LaboratoryOfAPlan : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
   }
@@ -68,7 +62,7 @@ class LaboratoryOfAPlan : public ::testing::Test {
         "features": [{"id": "f", "type": "cylinder",
                       "nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 40}}],
         "reports": {"laboratory": "lab.json"}})",
-                      folder_, "plan.json");
+                      folder_.path(), "plan.json");
   }
   [[nodiscard]] std::string refusal_of(const std::string& laboratory) const {
     write("lab.json", laboratory);
@@ -76,7 +70,7 @@ class LaboratoryOfAPlan : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  test::Scratch folder_;
 };
 
 TEST_F(LaboratoryOfAPlan, IsTakenWithItsLogo) {

@@ -6,6 +6,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "tests/core/scratch.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -226,10 +227,10 @@ TEST(PlanReader, AMissingPlanAndAFolderAreFileErrors) {
 }
 
 TEST(PlanReader, AFileBeyondTenMegabytesIsNotRead) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / "rondure_large_plan.json";
+  const test::Scratch folder;
+  const auto path = folder / "rondure_large_plan.json";
   std::ofstream(path) << std::string(10'000'001, ' ');
   const PlanOrProblems result = read_plan(path);
-  std::filesystem::remove(path);
   ASSERT_FALSE(result);
   EXPECT_EQ(lines_of(result),
             "rondure_large_plan.json: the file has 10000001 bytes, the limit is 10000000; this is "

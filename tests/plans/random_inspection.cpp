@@ -1,7 +1,5 @@
 #include "random_inspection.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 
@@ -16,6 +14,7 @@
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
+#include "tests/core/scratch.h"
 
 namespace rondure::test {
 namespace {
@@ -92,19 +91,10 @@ plans::Plan random_plan(std::uint64_t seed, const std::string& strategy, double 
   return plan;
 }
 
-/// In memory where there is such a folder: what these runs find does not depend on the disk, and
-/// each of their thousands of touches would wait for it.
-std::filesystem::path scratch() {
-  const std::filesystem::path memory = "/dev/shm";
-  return std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
-}
-
 Inspection inspect(const plans::Plan& plan) {
-  static int count = 0;
-  const auto directory =
-      scratch() / ("rondure-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+  const Scratch directory(Scratch::Where::kMemory);
   plans::RunOptions options;
-  options.directory = directory;
+  options.directory = directory / "run";
   options.run_id = "test";
   options.started_utc = "2026-11-29T10:00:00Z";
   Inspection out;
@@ -112,9 +102,8 @@ Inspection inspect(const plans::Plan& plan) {
     const auto run = plans::run_plan(plan, options);
     if (!run) ADD_FAILURE() << core::to_line(run.error());
     if (run && run->failure) ADD_FAILURE() << core::to_line(*run->failure);
-    if (run) out.record = record::read_journal(directory)->record;
+    if (run) out.record = record::read_journal(options.directory)->record;
   }
-  std::filesystem::remove_all(directory);
   const auto evaluation = evaluation::evaluate(out.record);
   if (!evaluation) ADD_FAILURE() << core::to_line(evaluation.error());
   if (evaluation) out.evaluation = *evaluation;

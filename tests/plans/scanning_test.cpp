@@ -1,7 +1,5 @@
 // Scans, hidden errors and temperatures through whole runs.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include "plans/run/runner.h"
 #include "random_inspection.h"
 #include "record/journal/journal.h"
+#include "tests/core/scratch.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -146,15 +145,13 @@ TEST(Scanning, AKeywayDeeperThanTheSearchIsNamedWithItsWindow) {
   slot.from_deg = 80.0;
   slot.to_deg = 100.0;
   feature.exclude = {slot};
-  const fs::path root = fs::temp_directory_path() / ("rondure-slot-" + std::to_string(getpid()));
-  fs::remove_all(root);
+  const test::Scratch root;
   const auto run = run_plan(plan, options_for(root / "run"));
   ASSERT_TRUE(run && run->failure);
   const std::string& what = run->failure->what;
   EXPECT_EQ(run->failure->code, core::Code::kNoTouch) << what;
   EXPECT_NE(what.find("the window slot crosses this layer"), std::string::npos) << what;
   EXPECT_NE(what.find("machine.search_mm (3 mm)"), std::string::npos) << what;
-  fs::remove_all(root);
 }
 
 TEST(Temperature, SizesAreBroughtToTwentyDegrees) {
@@ -187,8 +184,7 @@ TEST(Temperature, SizesAreBroughtToTwentyDegrees) {
 TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {
   const auto plan = read_plan(testing::example("08_shaft_scanned.json"));
   ASSERT_TRUE(plan) << testing::lines_of(plan);
-  const fs::path root = fs::temp_directory_path() / ("rondure-scan-" + std::to_string(getpid()));
-  fs::remove_all(root);
+  const test::Scratch root;
   int all = 0;  // steps: a touch or a whole circle each
   RunOptions counted = options_for(root / "whole");
   counted.stop_requested = [&all] { return ++all < 0; };
@@ -222,7 +218,6 @@ TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {
               whole.truth_series_of(0, record::kTrueTips)->values);
     EXPECT_FALSE(record.checks.empty());
   }
-  fs::remove_all(root);
 }
 
 }  // namespace

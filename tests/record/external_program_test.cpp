@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include <unistd.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "record/files.h"
+#include "tests/core/scratch.h"
 
 namespace rondure::record {
 namespace {
@@ -20,7 +19,6 @@ using ::testing::HasSubstr;
 
 class ExternalProgram : public ::testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(said_); }
   core::Result<void> run_shell(const std::string& script, int limit_ms = 10'000) const {
     return run_program({"/bin/sh",
                         {"-c", script},
@@ -32,8 +30,8 @@ class ExternalProgram : public ::testing::Test {
     const auto ran = run_shell(script, limit_ms);
     return ran ? "" : ran.error().what;
   }
-  const std::filesystem::path said_ =
-      std::filesystem::path(::testing::TempDir()) / ("said-" + std::to_string(::getpid()));
+  const test::Scratch folder_;
+  const std::filesystem::path said_ = folder_ / "said";
 };
 
 TEST_F(ExternalProgram, GetsItsArgumentsAndItsEnvironmentAndNothingElse) {

@@ -209,26 +209,6 @@ void add_feature(Bits& bits, const Feature& f) {
 
 }  // namespace
 
-Scratch::Scratch() {
-  std::string name = (fs::temp_directory_path() / "rondure test XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) std::abort();
-  path_ = name;
-}
-
-Scratch::~Scratch() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::vector<std::string> Scratch::names() const {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(path_)) {
-    names.push_back(entry.path().lexically_relative(path_).string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 RunRecord sample_run(std::uint64_t seed, int touches) {
   Numbers n(seed);
   RunRecord r;

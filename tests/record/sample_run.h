@@ -7,27 +7,11 @@
 
 #include "record/journal/journal.h"
 #include "record/run_record.h"
+#include "tests/core/scratch.h"
 
 namespace rondure::record {
 
-/// An empty folder of its own for one test, removed at its end.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-  /// Names of the files in it and below it, sorted.
-  [[nodiscard]] std::vector<std::string> names() const;
-
- private:
-  std::filesystem::path path_;
-};
+using test::Scratch;
 
 /// A synthetic run that fills every table; doubles of every size, -0.0, denormals and infinities
 /// among them. Same seed, same run.

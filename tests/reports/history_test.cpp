@@ -1,7 +1,5 @@
 #include "reports/history/history.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -20,6 +18,7 @@
 #include "reports/history/archive_entry.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
+#include "tests/core/scratch.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"
 
@@ -262,20 +261,17 @@ TEST(History, KeepsHostileTextAsText) {
 }
 
 TEST(History, SvgIsWellFormed) {
-  const std::string folder = ::testing::TempDir() + "/rondure-history-" + std::to_string(getpid());
+  const test::Scratch folder;
   int number = 0;
   std::vector<std::vector<ArchivedResult>> cases = {results(1), results(20), results(100),
                                                     results(1'000)};
   for (const std::string& text : hostile_fields()) cases.push_back(hostile_results(text));
   for (const auto& all : cases) {
-    const std::string file = fmt::format("{}-{}.svg", folder, number++);
+    const std::string file = (folder / fmt::format("{}.svg", number++)).string();
     ASSERT_TRUE(record::write_file(file, history_svg(run_chart_of(all))));
     const std::string command = fmt::format(
         "/usr/bin/python3 -c \"import xml.dom.minidom;xml.dom.minidom.parse('{}')\"", file);
     EXPECT_EQ(std::system(command.c_str()), 0);
-    if (const char* keep = std::getenv("RONDURE_KEEP"); keep == nullptr) {
-      std::remove(file.c_str());
-    }
   }
 }
 

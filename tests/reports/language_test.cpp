@@ -86,7 +86,7 @@ constexpr const char* kAsked =
 const fs::path kCatalogue = fs::path(RONDURE_SOURCE_DIR) / "reports/words/zh.po";
 
 TEST(LanguageTable, HasEveryTextThatTheReportsAskFor) {
-  const app::testing::TemporaryFolder folder;
+  const app::testing::Scratch folder;
   ASSERT_NO_FATAL_FAILURE(extract(sources_of({"reports", "web", "app", "evaluation", "fit"}),
                                   kAsked, folder / "asked"));
   const std::string asked = text_of(folder / "asked");
@@ -98,7 +98,7 @@ TEST(LanguageTable, HasEveryTextThatTheReportsAskFor) {
 }
 
 TEST(LanguageTable, ATextWithoutChineseFailsTheComparison) {
-  const app::testing::TemporaryFolder folder;
+  const app::testing::Scratch folder;
   for (const char* function : {"tr", "core::phrase"}) {
     std::ofstream(folder / "more.cpp")
         << "auto a = " << function << "(\"nobody translated \" \"this\");\n";
@@ -123,7 +123,7 @@ std::string escaped_in_catalogue(std::string_view text) {
 }
 
 TEST(LanguageTable, HasNothingThatNoSourceSays) {
-  const app::testing::TemporaryFolder folder;
+  const app::testing::Scratch folder;
   const std::string sources = sources_of(
       {"reports", "web", "evaluation", "record", "fit", "plans", "cmm", "fixture", "core"},
       {"/record/csv/", "/record/journal/"});

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <pugixml.hpp>
 
 #include "record/files.h"
@@ -21,6 +20,7 @@
 #include "reports/html/pdf.h"
 #include "reports/html/report.h"
 #include "synthetic.h"
+#include "tests/core/scratch.h"
 
 namespace rondure::reports {
 
@@ -38,7 +38,6 @@ class PdfFolder {
  public:
   PdfFolder() { fs::create_directory(path_); }
   ~PdfFolder() {
-    fs::remove_all(path_);
     ::setenv("PATH", search_path_.c_str(), 1);
     ::unsetenv("TMPDIR");
   }
@@ -60,7 +59,8 @@ class PdfFolder {
   }
 
  private:
-  fs::path path_ = fs::temp_directory_path() / fmt::format("rondure pdf #{}%", ::getpid());
+  test::Scratch scratch_;
+  fs::path path_ = scratch_ / "#1 % of all";
   std::string search_path_ = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
 };
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/core/scratch.h"
+
 namespace rondure::reports::testing {
 
 namespace fs = std::filesystem;
@@ -21,22 +23,6 @@ std::string head_of(const fs::path& file) {
   return text.str().substr(0, 2000);
 }
 
-/// A new folder that goes with everything in it.
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "rondure-qif-XXXXXX").string();
-    EXPECT_NE(::mkdtemp(name.data()), nullptr);
-    path = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path path;
-};
-
 }  // namespace
 
 void expect_valid_qif(const std::vector<std::string>& documents) {
@@ -47,18 +33,18 @@ void expect_valid_qif(const std::vector<std::string>& documents) {
   if (std::system("command -v xmllint >/dev/null") != 0) {
     GTEST_SKIP() << "xmllint is not installed (libxml2-utils)";
   }
-  const Folder folder;
+  const test::Scratch folder;
   std::string files;
   for (std::size_t i = 0; i < documents.size(); ++i) {
-    const fs::path file = folder.path / fmt::format("{}.qif", i);
+    const fs::path file = folder.path() / fmt::format("{}.qif", i);
     std::ofstream(file, std::ios::binary) << documents[i];
-    files += " " + file.string();
+    files += " '" + file.string() + "'";
   }
   const std::string command = fmt::format(
       "XML_CATALOG_FILES='{0}/catalog.xml' xmllint --nonet --noout --huge "
       "--schema '{0}/QIFApplications/QIFDocument.xsd'{1} >'{2}/said' 2>&1",
-      schemas.string(), files, folder.path.string());
-  EXPECT_EQ(std::system(command.c_str()), 0) << head_of(folder.path / "said");
+      schemas.string(), files, folder.path().string());
+  EXPECT_EQ(std::system(command.c_str()), 0) << head_of(folder / "said");
 }
 
 }  // namespace rondure::reports::testing

@@ -64,7 +64,7 @@ class ProgramOnUsb : public ::testing::Test {
     return false;
   }
 
-  TemporaryFolder folder;
+  Scratch folder;
   std::mutex lock;
   ZaberEmulator controller{wire::system_clock(), {.steps_s = 1e6}};
   ZaberUsb device{controller, "67890"};

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/core/scratch.h"
+
 namespace rondure::wire {
 namespace {
 
@@ -41,14 +43,9 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return out;
 }
 
-fs::path fresh_file(const char* name) {
-  const fs::path file = fs::path(::testing::TempDir()) / name;
-  fs::remove(file);
-  return file;
-}
-
 TEST(WireLog, ReadsLikeATranscriptBehindTimeAndArrow) {
-  const fs::path file = fresh_file("rondure_wire_log");
+  const test::Scratch folder;
+  const fs::path file = folder / "wire_log";
   auto echo = std::make_unique<Echo>();
   echo->answers = {{"00001 &", true}, {"00001 %", true}};
   {
@@ -72,7 +69,8 @@ TEST(WireLog, ReadsLikeATranscriptBehindTimeAndArrow) {
 }
 
 TEST(WireLog, ShowsStrangeBytesAndCutsLongLines) {
-  const fs::path file = fresh_file("rondure_wire_log_strange");
+  const test::Scratch folder;
+  const fs::path file = folder / "wire_log_strange";
   auto echo = std::make_unique<Echo>();
   echo->answers = {{"a\rb\xff", false}, {std::string(5000, 'a'), true}};
   auto log = logged(std::move(echo), file, Side::kServer);
