@@ -1,5 +1,6 @@
 #include "record/signature.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -8,6 +9,9 @@
 #include <openssl/err.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
+#include <openssl/x509.h>
+
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {
@@ -17,6 +21,7 @@ using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
 using Context = std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)>;
 
 constexpr std::size_t kSignatureBytes = 64;
+constexpr const char* kMakePublic = "openssl pkey -in KEY.pem -pubout -out PUBLIC.pem";
 
 using Reader = EVP_PKEY* (*)(BIO*, EVP_PKEY**, pem_password_cb*, void*);
 
@@ -47,13 +52,21 @@ core::Error wrong_key(const std::string& pem, const Key& key, std::string_view k
       {}};
 }
 
+std::string sha256_of(const Key& key) {
+  unsigned char* der = nullptr;
+  const int length = i2d_PUBKEY(key.get(), &der);
+  const std::string bytes(reinterpret_cast<const char*>(der), std::max(0, length));
+  OPENSSL_free(der);
+  return sha256_hex(bytes);
+}
+
 const unsigned char* octets(std::string_view bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
 }  // namespace
 
-core::Result<std::string> sign(std::string_view bytes, const std::string& private_key_pem) {
+core::Result<Signature> sign(std::string_view bytes, const std::string& private_key_pem) {
   const Key key = read_key(private_key_pem, &PEM_read_bio_PrivateKey);
   if (!key || EVP_PKEY_is_a(key.get(), "ED25519") != 1) {
     return core::fail(wrong_key(private_key_pem, key, "private",
@@ -68,15 +81,14 @@ core::Result<std::string> sign(std::string_view bytes, const std::string& privat
     ERR_clear_error();
     return core::fail(core::Code::kInternal, "OpenSSL refuses to sign with this key");
   }
-  return std::string(signature.begin(), signature.begin() + length);
+  return Signature{{signature.begin(), signature.begin() + length}, sha256_of(key)};
 }
 
 core::Result<bool> signature_holds(std::string_view bytes, std::string_view signature,
                                    const std::string& public_key_pem) {
   const Key key = read_key(public_key_pem, &PEM_read_bio_PUBKEY);
   if (!key || EVP_PKEY_is_a(key.get(), "ED25519") != 1) {
-    return core::fail(wrong_key(public_key_pem, key, "public",
-                                "openssl pkey -in KEY.pem -pubout -out PUBLIC.pem"));
+    return core::fail(wrong_key(public_key_pem, key, "public", kMakePublic));
   }
   const Context context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
   const bool holds =
@@ -85,6 +97,12 @@ core::Result<bool> signature_holds(std::string_view bytes, std::string_view sign
                        bytes.size()) == 1;
   ERR_clear_error();
   return holds;
+}
+
+core::Result<std::string> key_sha256(const std::string& public_key_pem) {
+  const Key key = read_key(public_key_pem, &PEM_read_bio_PUBKEY);
+  if (!key) return core::fail(wrong_key(public_key_pem, key, "public", kMakePublic));
+  return sha256_of(key);
 }
 
 }  // namespace rondure::record

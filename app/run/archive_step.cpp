@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void tell_failure(const record::ArchivePlace& place, const fs::path& directory,
-                  const fs::path& queue, const record::Delivery& delivery) {
+void tell_delivery(const record::ArchivePlace& place, const fs::path& directory,
+                   const fs::path& queue, const record::Delivery& delivery, bool quiet) {
   if (delivery.failure) print_error(*delivery.failure);
   if (delivery.queue_failure) {
     print_error(*delivery.queue_failure);
@@ -32,6 +32,8 @@ void tell_failure(const record::ArchivePlace& place, const fs::path& directory,
         "or now: rondure history {} --push --queue {}\n",
         reports::count(delivery.waiting, "run waits", "runs wait"), queue.string(),
         delivery.waiting == 1 ? "goes" : "go", quoted(place.shown), quoted(queue.string())));
+  } else if (delivery.sent > 0 && !quiet) {
+    say_line(fmt::format("Archived in {}", place.shown));
   }
 }
 
@@ -72,7 +74,8 @@ void keep_earlier_results(const record::ArchivePlace& place, const fs::path& dir
 }
 
 bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
-                 const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
+                 const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                 bool quiet) {
   if (place.kind == record::ArchivePlace::Kind::kNone) return false;
   std::fflush(stdout);  // shows the result while a server is slow to answer
   const auto entry = entry_of(directory, record, evaluation);
@@ -84,7 +87,7 @@ bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
   record::DeliveryOptions options;
   options.stop_requested = stop_requested;
   const auto delivery = record::deliver(place, queue, &*entry, options);
-  tell_failure(place, directory, queue, delivery);
+  tell_delivery(place, directory, queue, delivery, quiet);
   return !delivery.known;
 }
 

@@ -32,7 +32,9 @@ void keep_earlier_results(const record::ArchivePlace& place, const std::filesyst
 /// directory, with a message. Does not change the exit status of the run.
 /// @return  Whether there was anything to do: false when the archive already held the run, or there
 ///          is no archive.
+/// @param quiet  Says nothing of a success.
 bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
-                 const record::RunRecord& record, const evaluation::Evaluation& evaluation);
+                 const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                 bool quiet);
 
 }  // namespace rondure::app

@@ -85,7 +85,7 @@ core::Result<void> close_sealed(const record::ReadJournal& read, const fs::path&
 int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
                     const EvaluatedRun& evaluated) {
   evaluated.trials.keep();  // the last of its files: a run may have died before it
-  if (archive_run(archive, directory, evaluated.record, evaluated.evaluation)) {
+  if (archive_run(archive, directory, evaluated.record, evaluated.evaluation, true)) {
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
         directory.string(), archive.shown));
@@ -144,7 +144,7 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
                *written);
   }
   if (failed) return kRunFailed;
-  (void)archive_run(archive, directory, evaluated.record, evaluation);
+  (void)archive_run(archive, directory, evaluated.record, evaluation, arguments.quiet);
   return exit_status(evaluation.verdict);
 }
 

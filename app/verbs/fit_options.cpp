@@ -96,6 +96,11 @@ void check_fit(const FitArguments& a) {
                                "form and place are those of the tip centres; it acts on "
                                "--size and on the diameter of a cone only");
   }
+  if (a.tip_diameter_mm && a.points_are == record::PointsAre::kSurface) {
+    throw CLI::ValidationError("--points",
+                               "points of the surface have no tip; take one of it and "
+                               "--tip-diameter-mm out");
+  }
   if (a.tip_diameter_mm && *a.tip_diameter_mm < 0.0) {
     throw CLI::ValidationError("--tip-diameter-mm", "must not be below 0");
   }
@@ -141,6 +146,10 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
   verb->add_option("--tip-diameter-mm", arguments.tip_diameter_mm,
                    "Of the ball whose centres the file has: sizes and the diameter of a cone\n"
                    "are then those of the surface (default: 0)");
+  add_words<record::PointsAre>(
+      *verb, "--points", arguments.points_are,
+      "surface: the points are corrected already, as of a scanner or another program;\n"
+      "tip-centres (default)");
   verb->add_flag("--inside", arguments.inside, "A bore: the tip touches from the inside");
   add_list(*verb, "--outward", arguments.outward,
            "Direction out of the material of a plane: for peak, valley and outer plane", "X,Y,Z")

@@ -32,6 +32,8 @@ Json source_of(const FitArguments& arguments, const fs::path& folder) {
     out["feature"] = arguments.points.feature;
     out["others"] = name_of(record::UntakenRows::kLeftOut);
   }
+  if (arguments.points_are != record::PointsAre::kTipCentres)
+    out["points"] = name_of(arguments.points_are);
   if (arguments.tip_diameter_mm) out["tip_diameter_mm"] = *arguments.tip_diameter_mm;
   for (std::size_t i = 0; i < arguments.points.columns.size(); ++i) {
     out["columns"].push_back({{"column", std::string(1, static_cast<char>('x' + i))},
@@ -67,7 +69,8 @@ std::string place_name(const std::string& pointer) {
   for (const auto& [end, name] :
        {std::pair("/source/file", "FILE"), std::pair("/source/feature", "--feature"),
         std::pair("/source/unit", "--unit"), std::pair("/source/layers", "--layers"),
-        std::pair("/source/tip_diameter_mm", "--tip-diameter-mm"), std::pair("/side", "--inside"),
+        std::pair("/source/tip_diameter_mm", "--tip-diameter-mm"),
+        std::pair("/source/points", "--points"), std::pair("/side", "--inside"),
         std::pair("/reference", "--reference"), std::pair("/tolerance_um", "--tolerance-um")}) {
     if (pointer.ends_with(end)) return name;
   }

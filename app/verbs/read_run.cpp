@@ -140,25 +140,26 @@ void tell_readable_key(const fs::path& key) {
                   key.string()));
 }
 
-core::Result<fs::path> write_signature(const SignArguments& arguments) {
+/// @return  Which key signed.
+core::Result<std::string> write_signature(const SignArguments& arguments) {
   const fs::path directory = arguments.directory;
   TRY(const auto key, record::read_file(arguments.key));
   TRY(const auto sums, record::read_inside(directory, record::kChecksumsName));
   const auto signature = record::sign(sums, key);
   if (!signature) return core::fail(signature.error().at(arguments.key));
-  const fs::path file = directory / record::kSignatureName;
-  TRY_DO(record::write_file(file, *signature));
-  return file;
+  TRY_DO(record::write_file(directory / record::kSignatureName, signature->bytes));
+  return signature->key_sha256;
 }
 
 }  // namespace
 
 int sign(const SignArguments& arguments) {
   if (!verifies(arguments.directory)) return kBadInput;
-  const auto file = write_signature(arguments);
-  if (!file) return refuse(file.error());
+  const auto key = write_signature(arguments);
+  if (!key) return refuse(key.error());
   tell_readable_key(arguments.key);
-  say_line(file->string());
+  say_line((fs::path(arguments.directory) / record::kSignatureName).string());
+  say_line(fmt::format("signed with the key {}", *key));
   return kAllWell;
 }
 

@@ -112,6 +112,7 @@ struct FitArguments {
   std::string reference = "all";
   std::vector<std::string> sizes;  ///< "GG", "GN", "GX", "GC", "LP".
   std::optional<double> tip_diameter_mm;
+  record::PointsAre points_are = record::PointsAre::kTipCentres;
   bool inside = false;
   std::vector<double> outward;  ///< Of a plane, three numbers; empty: not known.
   bool json = false;

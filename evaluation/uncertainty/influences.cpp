@@ -137,9 +137,13 @@ void say_probe(const Influences& influences, Declaration& out) {
   out.limit("probe-lobing", limited || !lobes.empty(),
             limited ? contained : core::phrase("{}, phase unknown, uniform", lobes));
   const auto& span_mm = influences.probing_span_mm;
-  out.limit("probing-form-limit", limited,
-            core::phrase("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
-                         kUm * probe.form_limit_mm),
+  // Repeatability and lobes state the same form in two parts.
+  const bool in_parts = probe.repeatability_known && !probe.lobes.empty();
+  out.limit("probing-form-limit", limited || in_parts,
+            limited ? core::phrase("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation "
+                                   "P / 3.93",
+                                   kUm * probe.form_limit_mm)
+                    : core::phrase("declared as repeatability and lobes"),
             span_mm ? core::phrase("not declared; the qualification of this run shows a probing "
                                    "form of {:.3f} um",
                                    kUm * *span_mm)

@@ -114,8 +114,12 @@ std::string in_words(const Hit& hit) {
     return fmt::format("the tip would leave the volume of the machine {}", where);
   }
   const std::string name = hit.name.empty() ? hit.name : fmt::format(" \"{}\"", hit.name);
-  return fmt::format("{} would come nearer than {:.7g} mm to {}{} {}", name_of(hit.limb),
-                     hit.room_mm, name_of(hit.body), name, where);
+  std::string key = *hit.key == '\0' ? "" : fmt::format(" ({}", hit.key);
+  if (!key.empty() && hit.location_mm > 0.0)
+    key += fmt::format(" and {:.4g} mm by which the part may be off", hit.location_mm);
+  if (!key.empty()) key += ")";
+  return fmt::format("{} would come nearer than {:.7g} mm{} to {}{} {}", name_of(hit.limb),
+                     hit.gap_mm, key, name_of(hit.body), name, where);
 }
 
 Eigen::Isometry3d frame_of(BodyPlan::Frame frame, const FixturePlan& fixture,
@@ -255,17 +259,16 @@ void Scene::add_spheres(const Plan& plan, const FeaturePlan& feature,
   }
 }
 
-std::optional<double> Scene::room_mm(Body body, Limb limb, Phase phase,
-                                     const PathGeometry& geometry) const {
-  const double radius_mm = limb_radius(tool_, limb);
-  const double near_mm = std::min(geometry.approach_mm, geometry.clearance_mm);
-  if (!is_part(body) || phase == Phase::kTravel) return radius_mm + geometry.clearance_mm;
-  if (phase == Phase::kNear) return radius_mm + near_mm;
+std::optional<Scene::Gap> Scene::gap(Body body, Limb limb, Phase phase,
+                                     const PathGeometry& geometry) {
+  const Gap clearance{geometry.clearance_mm, "machine.clearance_mm"};
+  const Gap approach{geometry.approach_mm, "machine.approach_mm"};
+  if (!is_part(body) || phase == Phase::kTravel) return clearance;
   // The ball meets the surface wherever it is; a shoulder may be nearer to the shaft.
   const double off_mm = body == Body::kShoulder ? geometry.location_mm : 0.0;
-  if (limb == Limb::kShaft) return radius_mm + kTouchGap_mm + off_mm;
-  if (limb == Limb::kBall && body != Body::kShoulder) return std::nullopt;
-  return radius_mm + near_mm;
+  if (phase == Phase::kTouch && limb == Limb::kShaft) return Gap{kTouchGap_mm + off_mm, ""};
+  if (phase == Phase::kTouch && limb == Limb::kBall && body != Body::kShoulder) return std::nullopt;
+  return approach.mm < clearance.mm ? approach : clearance;
 }
 
 bool Scene::meets(Solid& solid, const Sweep& sweep, double room_mm) {
@@ -304,17 +307,18 @@ std::optional<Hit> Scene::first_hit(const Way& way, const Placement& placement,
   for (std::size_t i = 1; i < way.corners.size(); ++i) {
     const Vector3d& a = way.corners[i - 1];
     const Vector3d& b = way.corners[i];
-    if (!inside_volume(b)) return Hit{Body::kVolume, Limb::kBall, 0.0, b};
+    if (!inside_volume(b)) return Hit{Body::kVolume, Limb::kBall, 0.0, "", 0.0, b};
     for (const Limb limb : {Limb::kBall, Limb::kShaft, Limb::kHolder}) {
       if (!has(tool_, limb)) continue;
       const Sweep sweep = sweep_of(tool_, limb, a, b);
       for (std::size_t k = 0; k < solids_.size(); ++k) {
         Solid& solid = solids_[k];
-        auto room = room_mm(solid.body, limb, way.phases[i - 1], geometry);
-        if (!room) continue;
-        *room += solid.more_mm;
-        if (meets(solid, moved(sweep, into[k]), *room)) {
-          return Hit{solid.body, limb, *room, b, solid.name};
+        auto to_keep = gap(solid.body, limb, way.phases[i - 1], geometry);
+        if (!to_keep) continue;
+        to_keep->mm += solid.more_mm;
+        if (meets(solid, moved(sweep, into[k]), limb_radius(tool_, limb) + to_keep->mm)) {
+          return Hit{solid.body,           limb, to_keep->mm, to_keep->key,
+                     geometry.location_mm, b,    solid.name};
         }
       }
     }

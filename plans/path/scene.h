@@ -70,13 +70,15 @@ struct Placement {
 struct Hit {
   Body body = Body::kFeature;
   Limb limb = Limb::kBall;
-  double room_mm = 0.0;                                ///< Distance to keep.
+  double gap_mm = 0.0;                                 ///< To keep between tool and obstacle.
+  const char* key = "";                                ///< Of the plan, that asks for the gap;
+  double location_mm = 0.0;                            ///< and what the location of the part adds.
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which the hit occurs.
   std::string name = {};                               ///< Of a body of the plan.
 };
 
-/// "the shaft of the stylus would come nearer than 5.3 mm to the clamping ring on the way to
-/// machine (1.0, 2.0, 3.0) mm".
+/// "the shaft of the stylus would come nearer than 5 mm (machine.clearance_mm) to the clamping ring
+/// on the way to machine (1.0, 2.0, 3.0) mm".
 [[nodiscard]] std::string in_words(const Hit& hit);
 
 /// The tool, pointing to machine -z: ball, shaft from its centre up, holder above the shaft. Shaft
@@ -127,8 +129,13 @@ class Scene {
   void add_cell(const Plan& plan, const FeaturePlan& feature);
   void add_spheres(const Plan& plan, const FeaturePlan& feature,
                    const std::array<double, 3>* touched);
-  [[nodiscard]] std::optional<double> room_mm(Body body, Limb limb, Phase phase,
-                                              const PathGeometry& geometry) const;
+  struct Gap {
+    double mm;
+    const char* key;
+  };
+  /// What this limb keeps from a body in a phase; none where it may touch.
+  [[nodiscard]] static std::optional<Gap> gap(Body body, Limb limb, Phase phase,
+                                              const PathGeometry& geometry);
   [[nodiscard]] static bool meets(Solid& solid, const Sweep& sweep, double room_mm);
   [[nodiscard]] Eigen::Isometry3d machine_into(const Solid& solid,
                                                const Placement& placement) const;

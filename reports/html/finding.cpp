@@ -133,20 +133,8 @@ std::string datum_table(const evaluation::CharacteristicResult& result,
                                      {tr("Datum"), tr("Kind"), tr("Association"), tr("Features"),
                                       tr("Length / mm"), tr("Play / µm")},
                                      rows));
-  constexpr double kPlay_mm = core::kMicrometre;  // less is that of every real surface
-  if (std::ranges::none_of(finding.datums,
-                           [](const auto& datum) { return datum.play_mm > kPlay_mm; })) {
-    return html;
-  }
-  for (std::size_t i = 0; i < std::min(finding.about_equalised_mm.size(), finding.judged.size());
-       ++i) {
-    const std::string unit(core::sign_of(result.value->unit()));
-    html += note(trf("{}: {} about the one-sided datum, {} about the equalised one.",
-                     escaped(tr(finding.judged[i].symbol)),
-                     result.value->in_digits(finding.judged[i].value_mm) + " " + unit,
-                     result.value->in_digits(finding.about_equalised_mm[i]) + " " + unit));
-  }
-  return html;
+  const std::string values = values_about_datum(result);
+  return values.empty() ? html : html + note(values + ".");
 }
 
 /// Rows that take no part, counted by window, with their numbers to unfold.
@@ -231,6 +219,27 @@ std::string callout_part(const evaluation::CharacteristicResult& result,
 }
 
 }  // namespace
+
+std::string values_about_datum(const evaluation::CharacteristicResult& result) {
+  if (!result.finding || !result.value) return {};
+  const Finding& finding = *result.finding;
+  constexpr double kPlay_mm = core::kMicrometre;  // less is that of every real surface
+  if (std::ranges::none_of(finding.datums,
+                           [](const auto& datum) { return datum.play_mm > kPlay_mm; })) {
+    return {};
+  }
+  std::string html;
+  for (std::size_t i = 0; i < std::min(finding.about_equalised_mm.size(), finding.judged.size());
+       ++i) {
+    const std::string unit(core::sign_of(result.value->unit()));
+    html += (html.empty() ? "" : "; ") +
+            trf("{}: {} about the one-sided datum, {} about the equalised one",
+                escaped(tr(finding.judged[i].symbol)),
+                result.value->in_digits(finding.judged[i].value_mm) + " " + unit,
+                result.value->in_digits(finding.about_equalised_mm[i]) + " " + unit);
+  }
+  return html;
+}
 
 bool has_findings(const evaluation::Evaluation& evaluation) {
   return std::ranges::any_of(evaluation.features, [](const evaluation::FeatureResult& feature) {

@@ -217,6 +217,7 @@ std::string row(const Callout& callout, const std::string& usual, Footnotes& not
     letters += notes.letter(filter);
   if (const std::string own = own_rule_in_words(asked); !own.empty())
     letters += notes.letter(trf("Decision rule of this line: {}", escaped(own)));
+  letters += notes.letter(values_about_datum(result));
   std::string html = fmt::format(
       R"(<tr title="{}"><td>{}{}</td>)", escaped(core::printable(asked.id)),
       tolerance_frame(callout.feature->feature, result),
@@ -271,7 +272,8 @@ std::string callout_in_html(const Callout& callout) {
   return trf("{0} of {1}", escaped(callout.symbol), isolated(callout.feature->feature.id));
 }
 
-/// The worst call-out: the section where it is worst and the whole surface beside it.
+/// The worst call-out: the lines that its value was found on, or the section where it is worst and
+/// the whole surface beside it.
 std::string worst_drawing(const Callout* callout) {
   if (callout == nullptr) return {};
   const evaluation::FeatureResult& feature = *callout->feature;
@@ -280,6 +282,7 @@ std::string worst_drawing(const Callout* callout) {
       "<h3>{}</h3>",
       trf("{} of {}: where it is worst", escaped(callout->symbol), isolated(feature.feature.id)));
   if (feature.mz_plane) return title + face_map(drawn.feature);
+  if (const std::string lines = line_plots(*callout->result); !lines.empty()) return title + lines;
   const std::string map = deviation_map(drawn.feature, *drawn.zone, drawn.places);
   if (!zone_of(feature)) return title + map;
   std::vector<std::string> words;

@@ -167,9 +167,14 @@ std::string median_chart(const evaluation::CharacteristicResult& result) {
 
 }  // namespace
 
+std::string line_plots(const evaluation::CharacteristicResult& result) {
+  if (!result.finding) return {};
+  return generatrix_chart(*result.finding) + median_chart(result);
+}
+
 std::string finding_plots(const evaluation::CharacteristicResult& result, double nominal_mm) {
   if (!result.finding) return {};
-  return local_chart(result, nominal_mm) + generatrix_chart(*result.finding) + median_chart(result);
+  return local_chart(result, nominal_mm) + line_plots(result);
 }
 
 namespace {

@@ -62,6 +62,9 @@ struct DrawnFeature {
 /// generatrices, the median line about its datum.
 [[nodiscard]] std::string finding_plots(const evaluation::CharacteristicResult& result,
                                         double nominal_mm);
+/// Of these the lines that a value was found on, generatrices or the median line; empty where it
+/// lies on sections or on the whole surface.
+[[nodiscard]] std::string line_plots(const evaluation::CharacteristicResult& result);
 /// f over the visits, and the positions of the poses.
 [[nodiscard]] std::string pose_plots(const evaluation::FeatureResult& feature,
                                      const std::optional<evaluation::Zone>& zone);

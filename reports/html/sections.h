@@ -64,6 +64,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string feature_title(const record::Feature& feature);
 /// Whether something on the page needs kDrawingStyle.
 [[nodiscard]] bool has_findings(const evaluation::Evaluation& evaluation);
+/// "Coax: 4.3 um about the one-sided datum, 6.2 um about the equalised one", without a full stop;
+/// empty where no datum of the value rocks.
+[[nodiscard]] std::string values_about_datum(const evaluation::CharacteristicResult& result);
 /// How the values of a feature came about: verdict, local values, numbers, datums, points left out,
 /// warnings, pictures.
 /// @param failing  Those that do not conform, are undecided or void; else all others.

@@ -338,7 +338,8 @@ core::Result<std::string> about_signature(const fs::path& directory, const Verif
   }
   TRY_DO(check_signature(directory, *options.public_key_pem, listed,
                          signed_files(directory, listed), out.differences));
-  return "; the signature holds for this key";
+  TRY(const auto key, record::key_sha256(*options.public_key_pem));
+  return "; the signature holds for this key, " + key;
 }
 
 }  // namespace

@@ -73,6 +73,17 @@ TEST_F(FitToAPage, OfOneFeatureOfAFileNamesTheOthers) {
               HasSubstr("has rows that no feature of the plan takes: \"B\""));
 }
 
+TEST_F(FitToAPage, PointsOfTheSurfaceHaveNoTip) {
+  const fs::path plan = folder_ / "plan.json";
+  ASSERT_EQ(
+      rondure({"fit", "cylinder", points_, "--points", "surface", "--save-plan", plan}).status, 0);
+  EXPECT_EQ(json::parse(read(plan))["features"][0]["source"]["points"], "surface");
+  const Outcome both = rondure({"fit", "cylinder", points_, "--points", "surface", "--size", "GG",
+                                "--tip-diameter-mm", "3"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("points of the surface have no tip"));
+}
+
 TEST_F(FitToAPage, APlanAloneTakesNoSerialNumber) {
   for (const char* option : {"--serial", "--operator"}) {
     const Outcome refused =
@@ -88,6 +99,7 @@ TEST_F(FitToAPage, IsARunThatVerifiesAndSigns) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, StartsWith("Read as "));
   EXPECT_THAT(outcome.out, HasSubstr((run_ / "report.html").string()));
+  EXPECT_THAT(outcome.out, HasSubstr("\nArchived in "));
   const json asked = cylindricity_of(run_);
   EXPECT_EQ(asked["id"], "CYLt 2.5");
   EXPECT_EQ(asked["verdict"], "conforms");

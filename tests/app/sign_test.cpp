@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/signature.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 
@@ -49,7 +50,9 @@ class SignedRun : public ::testing::Test {
 TEST_F(SignedRun, VerifiesWithTheKeyOfItsSignerOnly) {
   const Outcome outcome = verify();
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.out, HasSubstr("; the signature holds for this key"));
+  const std::string key = record::key_sha256(read(folder_ / "mine_public.pem")).value();
+  EXPECT_THAT(outcome.out, HasSubstr("; the signature holds for this key, " + key));
+  EXPECT_THAT(sign().out, HasSubstr("signed with the key " + key));
   const Outcome other = verify("another_public.pem");
   EXPECT_EQ(other.status, 1);
   EXPECT_THAT(other.out, HasSubstr("SHA256SUMS.sig: the signature does not hold"));

@@ -826,6 +826,22 @@ TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
   EXPECT_FALSE(declared_for(points_run(rough_part(3, 4, 7, 6.0), 4), feature, std::nullopt));
 }
 
+// The limit of a form and its two parts say the same: neither is missing beside the other.
+TEST(Declared, APartedProbingFormNeedsNoLimit) {
+  evaluation::Influences influences;
+  influences.probe.emplace().repeatability_mm = 0.3e-3;
+  influences.probe->repeatability_known = true;
+  const auto covered = [&](std::string_view name) {
+    const auto lines = evaluation::influence_statements(influences);
+    const auto line = std::ranges::find(lines, name, &evaluation::InfluenceStatement::name);
+    return line != lines.end() && line->covered;
+  };
+  EXPECT_FALSE(covered("probing-form-limit")) << "without its lobes";
+  influences.probe->lobes = {{3, 0.4e-3, 0.0}};
+  EXPECT_TRUE(covered("probing-form-limit"));
+  EXPECT_TRUE(covered("probe-lobing"));
+}
+
 TEST(Verdict, IsVoidWhereAWordOfTheJournalIsUnknown) {
   RunRecord run = touched_run("simple-acceptance");
   run.settings.push_back({"decision_rule/measurand", std::nullopt, "every-surface"});

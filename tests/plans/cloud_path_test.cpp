@@ -369,8 +369,9 @@ TEST(Reach, NamesTheRimAndTheMarginThatWouldDo) {
   EXPECT_EQ(refusal(plan), "everything is reached");
   plan.fixture->rim_height_mm = 108.5;
   EXPECT_EQ(refusal(plan),
-            "layer 1, point 1 (0.0 deg): the ball of the stylus would come nearer than 7 mm to the "
-            "rim of the bowl on the way to machine (27.000, 0.000, 115.000) mm; nor can layer 1 "
+            "layer 1, point 1 (0.0 deg): the ball of the stylus would come nearer than 5 mm "
+            "(machine.clearance_mm) to the rim of the bowl on the way to machine (27.000, 0.000, "
+            "115.000) mm; nor can layer 1 "
             "point 2, 3, 4, 5, 6, 7 be reached; to reach all of them: give a margin of 6 mm "
             "(margin_mm)");
 }
@@ -422,7 +423,7 @@ TEST(Reach, NamesTheShaftUnderALeaningPartAndThePoseThatWouldDo) {
   EXPECT_EQ(refusal(plan), "everything is reached");
   plan.features.front().pose_search.start_alpha_deg = 15.0;
   EXPECT_THAT(refusal(plan),
-              AllOf(HasSubstr("the shaft of the stylus would come nearer than 1.25 mm to the part"),
+              AllOf(HasSubstr("the shaft of the stylus would come nearer than 0.25 mm to the part"),
                     HasSubstr("turn it to (0, 0) deg (start_alpha_deg, start_beta_deg)")));
 }
 

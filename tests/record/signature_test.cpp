@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "record/files.h"
+#include "record/sha256.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {
@@ -49,7 +50,7 @@ class Signature : public ::testing::Test {
 TEST_F(Signature, IsTheOneOfRfc8032) {
   const auto signature = sign("", kSecret1);
   ASSERT_TRUE(signature) << signature.error().what;
-  EXPECT_EQ(*signature,
+  EXPECT_EQ(signature->bytes,
             from_hex("e5564300c360ac729086e2cc806e828a84877f1eb8e5d974d873e065224901555fb8821590a33"
                      "bacc61e39701cf9b46bd25bf5f0595bbe24655141438e7a100b"));
 }
@@ -58,24 +59,33 @@ TEST_F(Signature, HoldsForTheSignedBytesOnly) {
   const std::string bytes = "sums\n";
   const auto signature = sign(bytes, text("key.pem"));
   ASSERT_TRUE(signature) << signature.error().what;
-  EXPECT_TRUE(*signature_holds(bytes, *signature, text("public.pem")));
-  EXPECT_FALSE(*signature_holds("Sums\n", *signature, text("public.pem")));
-  for (std::size_t i = 0; i < signature->size(); ++i) {
-    std::string changed = *signature;
+  EXPECT_TRUE(*signature_holds(bytes, signature->bytes, text("public.pem")));
+  EXPECT_FALSE(*signature_holds("Sums\n", signature->bytes, text("public.pem")));
+  for (std::size_t i = 0; i < signature->bytes.size(); ++i) {
+    std::string changed = signature->bytes;
     changed[i] = static_cast<char>(changed[i] ^ 1);
     EXPECT_FALSE(*signature_holds(bytes, changed, text("public.pem"))) << i;
   }
-  for (const std::string& wrong : {std::string(), signature->substr(1), *signature + "x"}) {
+  for (const std::string& wrong :
+       {std::string(), signature->bytes.substr(1), signature->bytes + "x"}) {
     EXPECT_FALSE(*signature_holds(bytes, wrong, text("public.pem")));
   }
   openssl("genpkey -algorithm ed25519 -out other.pem");
   openssl("pkey -in other.pem -pubout -out other_public.pem");
-  EXPECT_FALSE(*signature_holds(bytes, *signature, text("other_public.pem")));
+  EXPECT_FALSE(*signature_holds(bytes, signature->bytes, text("other_public.pem")));
+}
+
+TEST_F(Signature, NamesItsKeyAsTheOpensslCommandDoes) {
+  openssl("pkey -in key.pem -pubout -outform DER -out public.der");
+  const std::string expected = sha256_hex(text("public.der"));
+  EXPECT_EQ(sign("sums", text("key.pem"))->key_sha256, expected);
+  EXPECT_EQ(key_sha256(text("public.pem")).value_or(""), expected);
+  EXPECT_FALSE(key_sha256(text("key.pem"))) << "a private key is not for others to read";
 }
 
 TEST_F(Signature, IsReadAndWrittenByTheOpensslCommandToo) {
   ASSERT_TRUE(write_file(scratch / "sums", "some sums\n"));
-  ASSERT_TRUE(write_file(scratch / "ours.sig", *sign("some sums\n", text("key.pem"))));
+  ASSERT_TRUE(write_file(scratch / "ours.sig", sign("some sums\n", text("key.pem"))->bytes));
   openssl("pkeyutl -verify -pubin -inkey public.pem -rawin -in sums -sigfile ours.sig");
   openssl("pkeyutl -sign -inkey key.pem -rawin -in sums -out theirs.sig");
   EXPECT_TRUE(*signature_holds("some sums\n", text("theirs.sig"), text("public.pem")));

@@ -276,6 +276,8 @@ TEST(FindingPage, FramesNameTheirDatums) {
   EXPECT_THAT(page, AllOf(HasSubstr("<span>0.015</span><span><bdi>A-B</bdi></span></span>"),
                           HasSubstr("aria-label=\"perpendicularity\""),
                           HasSubstr("about the one-sided datum, 11.300 µm about the equalised")));
+  const std::string first = page.substr(0, page.find("<h2", page.find("class=\"results\"")));
+  EXPECT_THAT(first, HasSubstr("about the one-sided datum")) << "beside the value on page one";
 }
 
 TEST(FindingPage, HasEverySectionAndThePointsThatTakeNoPart) {
