@@ -86,6 +86,17 @@ test_rooms() {  # ROOM...
   ctest --preset release -R "^($*)\\."
 }
 
+# Everything but the browser tests runs also where there is no Chromium.
+fetch_browser() {
+  (ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
+}
+# Waits for the one that runs, if any, and shows what it said.
+await_browser() {
+  [ -z "$browser" ] || wait "$browser" || true
+  cat "$log" >&2
+  rm -f "$log"
+}
+
 # The commit that last passed ./test.sh here, with nothing uncommitted.
 passed=build/release/passed
 clean() { [ -z "$(git status --porcelain 2>/dev/null || echo unknown)" ]; }
@@ -123,12 +134,19 @@ case "$mode" in
     exec ctest --preset asan -E "$unsanitized"
     ;;
   all | --full)
-    # Everything else is tested also where there is no Chromium.
-    (ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
+    # Chromium comes while the compiler works, where nobody has to be asked for a password.
+    browser="" log=$(new_log browser)
+    if [ "$(id -u)" -ne 0 ]; then
+      fetch_browser
+    else
+      fetch_browser >"$log" 2>&1 &
+      browser=$!
+    fi
     ;;&
   all)
     clean && commit=$(git rev-parse HEAD) || commit=""
     build release ON all
+    await_browser
     # The tests wait for much and leave room on two cores: `doors` is built meanwhile, at the lowest priority, in a
     # process group of its own.
     set -m
@@ -145,6 +163,7 @@ case "$mode" in
   --full)
     export RONDURE_FULL=1
     build release ON all
+    await_browser
     ctest --preset release
     build tsan ON threads_tests
     env -u RONDURE_FULL ctest --preset tsan -R "^threads\.(GrowingRecord|Live|Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"

@@ -56,7 +56,7 @@ class RoundnessVerb : public ::testing::Test {
     return std::to_string(degrees) + "," + std::to_string(um) + "\n";
   }
 
-  Scratch folder_;
+  test::Scratch folder_;
 };
 
 TEST_F(RoundnessVerb, GivesTheNumbersOfTheWorkedExampleAsJson) {
