@@ -98,8 +98,8 @@ void check_fit(const FitArguments& a) {
   }
   if (a.tip_diameter_mm && a.points_are == record::PointsAre::kSurface) {
     throw CLI::ValidationError("--points",
-                               "points of the surface have no tip; take one of it and "
-                               "--tip-diameter-mm out");
+                               "points of the surface have no tip; leave out --points "
+                               "surface or --tip-diameter-mm");
   }
   if (a.tip_diameter_mm && *a.tip_diameter_mm < 0.0) {
     throw CLI::ValidationError("--tip-diameter-mm", "must not be below 0");

@@ -282,7 +282,8 @@ std::string worst_drawing(const Callout* callout) {
       "<h3>{}</h3>",
       trf("{} of {}: where it is worst", escaped(callout->symbol), isolated(feature.feature.id)));
   if (feature.mz_plane) return title + face_map(drawn.feature);
-  if (const std::string lines = line_plots(*callout->result); !lines.empty()) return title + lines;
+  if (const std::string lines = line_plots(*callout->result); !lines.empty())
+    return fmt::format(R"({}<div class="views">{}</div>)", title, lines);
   const std::string map = deviation_map(drawn.feature, *drawn.zone, drawn.places);
   if (!zone_of(feature)) return title + map;
   std::vector<std::string> words;

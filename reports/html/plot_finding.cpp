@@ -111,8 +111,9 @@ fit::Axis median_axis(const Finding& finding) {
 }
 
 /// One side view of the median line.
+/// @param reach_um  The greatest offset in either view: both have one scale.
 std::string side_view(const evaluation::CharacteristicResult& result, const fit::Axis& axis,
-                      const Eigen::Vector3d& across, std::string_view seen) {
+                      const Eigen::Vector3d& across, std::string_view seen, double reach_um) {
   const Finding& finding = *result.finding;
   Curve line{tr("median line"), "profile", {}, {}};
   for (const Eigen::Vector3d& center : finding.centers_mm) {
@@ -143,7 +144,7 @@ std::string side_view(const evaluation::CharacteristicResult& result, const fit:
   curves.push_back(std::move(marks));
   return scrolling(line_chart(
       seen, datum ? tr("height along the datum / mm") : tr("height above the first section / mm"),
-      tr("offset / µm"), curves));
+      tr("offset / µm"), curves, reach_um));
 }
 
 /// The median line seen from two sides, along the two machine axes that lie across it, its offsets
@@ -155,12 +156,20 @@ std::string median_chart(const evaluation::CharacteristicResult& result) {
   const fit::Axis axis = median_axis(finding);
   Eigen::Index along = 0;
   axis.direction.cwiseAbs().maxCoeff(&along);
-  std::string html;
+  std::vector<std::pair<Eigen::Index, Eigen::Vector3d>> views;
+  double reach_um = 0.0;
   for (const Eigen::Index c : {0, 1, 2}) {
     if (c == along) continue;
     const Eigen::Vector3d across = Eigen::Vector3d::Unit(c) - axis.direction * axis.direction(c);
-    html +=
-        side_view(result, axis, across.normalized(), trf("Side view: offset along {}", "xyz"[c]));
+    views.emplace_back(c, across.normalized());
+    for (const Eigen::Vector3d& center : finding.centers_mm) {
+      const double offset_mm = (center - axis.point_mm).dot(views.back().second);
+      reach_um = std::max(reach_um, std::abs(offset_mm) / core::kMicrometre);
+    }
+  }
+  std::string html;
+  for (const auto& [c, across] : views) {
+    html += side_view(result, axis, across, trf("Side view: offset along {}", "xyz"[c]), reach_um);
   }
   return html;
 }

@@ -74,6 +74,7 @@ table.results .value{font-weight:700;font-size:inherit;color:inherit}.place{whit
 table.results .verdict-word{font-weight:650;white-space:nowrap}
 table.results tr:has(.is-does-not-conform) td{background:var(--alarm)}
 .bar{max-width:none;vertical-align:middle}table.results .verdict-word .mark{max-width:none;vertical-align:-2px;margin-right:5px}
+.views{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr));gap:0 20px;break-inside:avoid}
 .worst-one{display:grid;grid-template-columns:minmax(0,2fr) minmax(0,3fr);gap:0 20px;align-items:start}
 .said{fill:var(--label);font-size:11.5px;paint-order:stroke;stroke:var(--paper);stroke-width:3px}
 .said.first{font-weight:650;fill:var(--ink)}.worst{fill:none;stroke:var(--bad);stroke-width:2}

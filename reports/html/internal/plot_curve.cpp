@@ -145,7 +145,7 @@ std::string polar_chart(std::string_view title, const std::vector<Curve>& curves
 }
 
 std::string line_chart(std::string_view title, std::string_view x_title, std::string_view y_title,
-                       const std::vector<Curve>& curves) {
+                       const std::vector<Curve>& curves, double y_reach) {
   double x_low = 0.0;
   double x_high = 0.0;
   double y_low = 0.0;
@@ -162,6 +162,10 @@ std::string line_chart(std::string_view title, std::string_view x_title, std::st
     y_low = any ? std::min(y_low, *y0 - band) : *y0 - band;
     y_high = any ? std::max(y_high, *y1 + band) : *y1 + band;
     any = true;
+  }
+  if (y_reach > 0.0) {
+    y_low = std::min(y_low, -y_reach);
+    y_high = std::max(y_high, y_reach);
   }
   const ChartAxes axes = axes_over(x_low, x_high, y_low, y_high);
   Svg svg(kChartWidth, kChartHeight, "wide", std::string(title));

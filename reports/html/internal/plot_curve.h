@@ -27,8 +27,10 @@ struct Curve {
                                       bool closed = true);
 
 /// An ordinary chart of lines.
+/// @param y_reach  The y axis goes at least so far up and down: of charts that are compared.
 [[nodiscard]] std::string line_chart(std::string_view title, std::string_view x_title,
-                                     std::string_view y_title, const std::vector<Curve>& curves);
+                                     std::string_view y_title, const std::vector<Curve>& curves,
+                                     double y_reach = 0.0);
 
 /// Bars over whole numbers, with limits drawn as steps where there are any.
 struct Bar {
