@@ -114,10 +114,12 @@ std::string in_words(const Hit& hit) {
     return fmt::format("the tip would leave the volume of the machine {}", where);
   }
   const std::string name = hit.name.empty() ? hit.name : fmt::format(" \"{}\"", hit.name);
-  std::string key = *hit.key == '\0' ? "" : fmt::format(" ({}", hit.key);
+  std::string key = hit.key;
   if (!key.empty() && hit.location_mm > 0.0)
-    key += fmt::format(" and {:.4g} mm by which the part may be off", hit.location_mm);
-  if (!key.empty()) key += ")";
+    key += fmt::format(" with {:.4g} mm by which the part may be off", hit.location_mm);
+  if (hit.body_mm > 0.0)
+    key += fmt::format("{}{:.4g} mm of the body", key.empty() ? "" : " and ", hit.body_mm);
+  if (!key.empty()) key = " (" + key + ")";
   return fmt::format("{} would come nearer than {:.7g} mm{} to {}{} {}", name_of(hit.limb),
                      hit.gap_mm, key, name_of(hit.body), name, where);
 }
@@ -307,7 +309,7 @@ std::optional<Hit> Scene::first_hit(const Way& way, const Placement& placement,
   for (std::size_t i = 1; i < way.corners.size(); ++i) {
     const Vector3d& a = way.corners[i - 1];
     const Vector3d& b = way.corners[i];
-    if (!inside_volume(b)) return Hit{Body::kVolume, Limb::kBall, 0.0, "", 0.0, b};
+    if (!inside_volume(b)) return Hit{Body::kVolume, Limb::kBall, 0.0, "", 0.0, 0.0, b};
     for (const Limb limb : {Limb::kBall, Limb::kShaft, Limb::kHolder}) {
       if (!has(tool_, limb)) continue;
       const Sweep sweep = sweep_of(tool_, limb, a, b);
@@ -317,8 +319,14 @@ std::optional<Hit> Scene::first_hit(const Way& way, const Placement& placement,
         if (!to_keep) continue;
         to_keep->mm += solid.more_mm;
         if (meets(solid, moved(sweep, into[k]), limb_radius(tool_, limb) + to_keep->mm)) {
-          return Hit{solid.body,           limb, to_keep->mm, to_keep->key,
-                     geometry.location_mm, b,    solid.name};
+          return Hit{solid.body,
+                     limb,
+                     to_keep->mm,
+                     to_keep->key,
+                     geometry.location_mm,
+                     std::max(0.0, solid.more_mm),
+                     b,
+                     solid.name};
         }
       }
     }

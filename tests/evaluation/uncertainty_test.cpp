@@ -371,7 +371,8 @@ TEST(Uncertainty, RanksTheInfluencesAndNamesWhatIsNotCovered) {
   EXPECT_DOUBLE_EQ(result.uncorrected_mm, result.whole->estimate_mm + result.noise_inflation_mm +
                                               *result.sampling_loss_mm);
   for (const evaluation::InfluenceStatement& each : result.declaration) {
-    EXPECT_EQ(each.covered, each.name.starts_with("probe-") || each.name == "tip-qualification")
+    EXPECT_EQ(each.covered, each.name.starts_with("probe-") || each.name == "tip-qualification" ||
+                                each.name == "probing-form-limit")
         << each.name;
     EXPECT_FALSE(each.text.empty());
   }

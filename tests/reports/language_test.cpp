@@ -66,7 +66,7 @@ std::string sources_of(const std::vector<std::string>& rooms,
 
 /// Runs a command; its status and what it said.
 std::pair<int, std::string> run(const std::string& command, const fs::path& said) {
-  const int status = std::system((command + " >" + said.string() + " 2>&1").c_str());
+  const int status = std::system((command + " >'" + said.string() + "' 2>&1").c_str());
   return {status, text_of(said)};
 }
 
@@ -76,7 +76,7 @@ void extract(const std::string& sources, const std::string& how, const fs::path&
   std::ofstream(files) << sources;
   const auto [status, said] =
       run("xgettext --language=C++ --from-code=UTF-8 --no-wrap --add-location=file " + how +
-              " --files-from=" + files.string() + " --output=" + to.string(),
+              " --files-from='" + files.string() + "' --output='" + to.string() + "'",
           to.string() + ".said");
   ASSERT_EQ(status, 0) << said;
 }
@@ -91,8 +91,8 @@ TEST(LanguageTable, HasEveryTextThatTheReportsAskFor) {
                                   kAsked, folder / "asked"));
   const std::string asked = text_of(folder / "asked");
   EXPECT_GT(std::count(asked.begin(), asked.end(), '\n'), 3 * 600);  // place, text and translation
-  const auto [status, said] =
-      run("msgcmp " + kCatalogue.string() + ' ' + (folder / "asked").string(), folder / "said");
+  const auto [status, said] = run(
+      "msgcmp " + kCatalogue.string() + " '" + (folder / "asked").string() + "'", folder / "said");
   // A line of the catalogue that no tr() names is none too many: a variable may.
   EXPECT_EQ(status, 0) << said;
 }
@@ -106,7 +106,8 @@ TEST(LanguageTable, ATextWithoutChineseFailsTheComparison) {
         extract((folder / "more.cpp").string() + '\n', kAsked, folder / "asked"));
     EXPECT_THAT(text_of(folder / "asked"), HasSubstr("msgid \"nobody translated this\"\n"));
     const auto [status, said] =
-        run("msgcmp " + kCatalogue.string() + ' ' + (folder / "asked").string(), folder / "said");
+        run("msgcmp " + kCatalogue.string() + " '" + (folder / "asked").string() + "'",
+            folder / "said");
     EXPECT_NE(status, 0);
     EXPECT_THAT(said, HasSubstr("this message is used but not defined"));
   }
