@@ -208,7 +208,7 @@ TEST(Examples, TheTruthOfARoundnessIsFilteredAsItsValue) {
 
 TEST(Examples, ValidateNamesWhatIsNotDeclared) {
   EXPECT_THAT(rondure({"validate", example("01_spool_simulated.json")}).out,
-              HasSubstr("uncertainty: not declared, so in no interval: probing-form-limit"));
+              HasSubstr("uncertainty: not declared, so in no interval: machine-length-limit"));
   EXPECT_THAT(rondure({"validate", example("16_four_analyses.json")}).out,
               HasSubstr("feature wheel: not declared, so in no interval: expansion_per_K"));
   EXPECT_THAT(rondure({"validate", example("15_shaft_drawing.json")}).out,

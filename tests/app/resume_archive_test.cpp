@@ -71,8 +71,8 @@ TEST(ResumeArchive, BesideThePlanIsFoundOnlyWithThePlan) {
   const Beside beside;
   const fs::path run = beside.folder / "runs" / "1";
   const fs::path plan = beside.folder / "plan.json";
-  EXPECT_THAT(beside.lost.err,
-              HasSubstr("rondure run " + plan.string() + " --out " + run.string() + " --resume"));
+  EXPECT_THAT(beside.lost.err, HasSubstr("rondure run '" + plan.string() + "' --out '" +
+                                         run.string() + "' --resume"));
   const Outcome blind = rondure({"run", run, "--resume"});
   EXPECT_EQ(blind.status, 2);
   EXPECT_THAT(blind.err, AllOf(HasSubstr("mine.db stands beside the plan"), HasSubstr("--out")));

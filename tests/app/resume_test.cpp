@@ -68,7 +68,7 @@ TEST(Resume, ALostConnectionSaysHowToGoOnAndDoes) {
   EXPECT_EQ(run.outcome().status, 3);
   EXPECT_THAT(run.outcome().err,
               AllOf(HasSubstr("connection is lost"), HasSubstr("[machine]"),
-                    HasSubstr("rondure run " + run.directory().string() + " --resume")));
+                    HasSubstr("rondure run '" + run.directory().string() + "' --resume")));
   EXPECT_EQ(journal_of(run.directory()).touches.size(), 59U);
   const Outcome resumed = run.resume();
   EXPECT_EQ(resumed.status, 0) << resumed.err;

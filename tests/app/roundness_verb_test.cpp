@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -26,10 +26,11 @@ struct Outcome {
   std::string text;  ///< Both streams.
 };
 
-/// @param arguments  Words between single blanks.
+/// @param arguments  Words between blanks, or in quotes.
 Outcome rondure(const std::string& arguments) {
   std::istringstream stream(arguments);
-  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  std::vector<std::string> words;
+  for (std::string word; stream >> std::quoted(word);) words.push_back(word);
   const testing::Outcome out = testing::rondure(words);
   return {out.status, out.err + out.out};
 }
@@ -42,7 +43,7 @@ class RoundnessVerb : public ::testing::Test {
   std::string file(const std::string& text) {
     const auto path = folder_ / "part.csv";
     std::ofstream(path) << text;
-    return path.string();
+    return '"' + path.string() + '"';
   }
   /// 360 rows of a two-lobed profile, each given to `row(degrees, um)`.
   std::string profile(const std::function<std::string(int, double)>& row) {

@@ -32,8 +32,8 @@ TEST(Waiting, SaysWhichTrialItIsAtAndCtrlCEndsItAtOnce) {
   program.type("\x03");
   EXPECT_EQ(program.finish(), -1);
   EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::milliseconds(500));
-  EXPECT_THAT(program.shown(), HasSubstr("every touch is kept; to finish the run: rondure run " +
-                                         plan + " --out " + run + " --resume"));
+  EXPECT_THAT(program.shown(), HasSubstr("every touch is kept; to finish the run: rondure run '" +
+                                         plan + "' --out '" + run + "' --resume"));
   EXPECT_EQ(journal_of(run).ending, "finished");
 }
 
