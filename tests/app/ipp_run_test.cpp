@@ -300,8 +300,8 @@ TEST(IppRun, APersonChangesBallsForThePartAndTheRunGoesOnThere) {
     EXPECT_EQ(alone.status, 3) << alone.out;
     EXPECT_THAT(alone.err, AllOf(HasSubstr("nobody can answer"),
                                  HasSubstr("clamp the part \"SP-50-80\" as the plan says"),
-                                 HasSubstr("to resume it after its last touch: rondure run " +
-                                           (folder / "plan.json").string() + " --out ")));
+                                 HasSubstr("to resume it after its last touch: rondure run '" +
+                                           (folder / "plan.json").string() + "' --out ")));
     EXPECT_EQ(journal_of(folder / "run").decisions.back().message.code,
               core::MessageCode::kCalibrationTaken);
     OnTerminal asked(resumed);
