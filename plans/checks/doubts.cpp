@@ -70,8 +70,18 @@ std::vector<core::Error> doubts_of(const Plan& plan) {
   const auto add = [&](std::optional<core::Error> found) {
     if (found) out.push_back(*std::move(found));
   };
+  const bool writes_corrections =
+      std::ranges::find(plan.reports.formats, name_of(record::Format::kCorrections)) !=
+      plan.reports.formats.end();
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const FeaturePlan& feature = plan.features[i];
+    if (feature.wheel && feature.wheel->program && !writes_corrections) {
+      add(core::Error{
+          core::Code::kMeaning,
+          "the program is written only with --format corrections: reports.formats has no "
+          "\"corrections\"; was it meant to be there?",
+          feature_pointer(i) + "/wheel/program"});
+    }
     if (record::is_analysis(feature.type)) continue;
     for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
       const record::CharacteristicTask& asked = feature.characteristics[k];

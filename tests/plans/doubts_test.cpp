@@ -63,5 +63,15 @@ TEST(Doubts, ASecondDatumAxisOnTheFirstLocksNothing) {
   EXPECT_EQ(about(R"(["A"])"), "");
 }
 
+TEST(Doubts, AProgramThatNoFormatWritesIsNamed) {
+  Plan plan = testing::plan_of("06_wheel.json");
+  plan.features.front().wheel->program.emplace();
+  plan.reports.formats = {"html", "corrections"};
+  EXPECT_TRUE(doubts_of(plan).empty());
+  plan.reports.formats = {"html"};
+  ASSERT_EQ(doubts_of(plan).size(), 1U);
+  EXPECT_EQ(doubts_of(plan).front().where, "/features/0/wheel/program");
+}
+
 }  // namespace
 }  // namespace rondure::plans
