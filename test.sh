@@ -86,14 +86,22 @@ test_rooms() {  # ROOM...
   ctest --preset release -R "^($*)\\."
 }
 
-# Everything but the browser tests runs also where there is no Chromium.
+# Chromium comes while the compiler works, where nobody has to be asked for a password. Everything but the browser tests
+# runs also without it.
 fetch_browser() {
-  (ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
+  browser="" log=$(new_log browser)
+  if [ "$(id -u)" -eq 0 ]; then
+    (ensure_packages $rondure_browser_packages) >"$log" 2>&1 &
+    browser=$!
+  else
+    (ensure_packages $rondure_browser_packages) || browser=none
+  fi
 }
-# Waits for the one that runs, if any, and shows what it said.
 await_browser() {
-  [ -z "$browser" ] || wait "$browser" || true
-  cat "$log" >&2
+  if [ "$browser" = none ] || { [ -n "$browser" ] && ! wait "$browser"; }; then
+    cat "$log" >&2
+    echo "Without these packages the browser tests are skipped." >&2
+  fi
   rm -f "$log"
 }
 
@@ -134,14 +142,7 @@ case "$mode" in
     exec ctest --preset asan -E "$unsanitized"
     ;;
   all | --full)
-    # Chromium comes while the compiler works, where nobody has to be asked for a password.
-    browser="" log=$(new_log browser)
-    if [ "$(id -u)" -ne 0 ]; then
-      fetch_browser
-    else
-      fetch_browser >"$log" 2>&1 &
-      browser=$!
-    fi
+    fetch_browser
     ;;&
   all)
     clean && commit=$(git rev-parse HEAD) || commit=""
