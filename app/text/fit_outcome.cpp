@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
+#include "core/numbers.h"
 #include "core/units.h"
 
 namespace rondure::app {
@@ -95,31 +96,29 @@ Json sizes_json(const FitSizes& sizes) {
   return out;
 }
 
+/// "(1.000000, 0.000000, 2.000000)", no zero with a minus sign.
+std::string in_parentheses(const Eigen::Vector3d& v, int decimals) {
+  return fmt::format("({}, {}, {})", core::fixed(v.x(), decimals), core::fixed(v.y(), decimals),
+                     core::fixed(v.z(), decimals));
+}
+
 std::string place_lines(const FitReference& found) {
-  if (found.place.axis) {
-    const Eigen::Vector3d& p = found.place.axis->point_mm;
-    const Eigen::Vector3d& d = found.place.axis->direction;
-    return fmt::format(
-        "    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n", p.x(),
-        p.y(), p.z(), d.x(), d.y(), d.z());
+  if (const auto& axis = found.place.axis) {
+    return fmt::format("    axis through {} mm along {}\n", in_parentheses(axis->point_mm, 6),
+                       in_parentheses(axis->direction, 9));
   }
-  if (found.place.plane) {
-    const Eigen::Vector3d& p = found.place.plane->point_mm;
-    const Eigen::Vector3d& n = found.place.plane->normal;
-    return fmt::format(
-        "    {} through ({:.6f}, {:.6f}, {:.6f}) mm, normal ({:.9f}, {:.9f}, {:.9f})\n",
-        found.two_sided ? "outer (one-sided) plane" : "plane", p.x(), p.y(), p.z(), n.x(), n.y(),
-        n.z());
+  if (const auto& plane = found.place.plane) {
+    return fmt::format("    {} through {} mm, normal {}\n",
+                       found.two_sided ? "outer (one-sided) plane" : "plane",
+                       in_parentheses(plane->point_mm, 6), in_parentheses(plane->normal, 9));
   }
   const Eigen::Vector3d& c = found.place.center_mm;
   if (found.place.coordinates == 2) {
-    return fmt::format("    centre ({:.6f}, {:.6f}) mm\n", c.x(), c.y());
+    return fmt::format("    centre ({}, {}) mm\n", core::fixed(c.x(), 6), core::fixed(c.y(), 6));
   }
-  const Eigen::Vector3d n = found.place.normal.value_or(Eigen::Vector3d::Zero());
-  return fmt::format("    centre ({:.6f}, {:.6f}, {:.6f}) mm{}\n", c.x(), c.y(), c.z(),
-                     found.place.normal
-                         ? fmt::format(", normal ({:.9f}, {:.9f}, {:.9f})", n.x(), n.y(), n.z())
-                         : "");
+  return fmt::format(
+      "    centre {} mm{}\n", in_parentheses(c, 6),
+      found.place.normal ? ", normal " + in_parentheses(*found.place.normal, 9) : "");
 }
 
 std::string radii_line(const FitReference& found) {

@@ -156,6 +156,19 @@ TEST(FitData, ACircleInSpaceHasCentreNormalAndRadius) {
 
 // A plan reads what the verb reads: corrected hits of a bore of 50 mm in five heights, with three
 // lobes of 4 um, in inches and with decimal commas.
+TEST(FitData, NoZeroHasAMinusSign) {
+  const Scratch folder;
+  std::string oval = "x,y,z\n";
+  for (int i = 0; i < 48; ++i) {
+    const double angle = M_PI * (i % 12) / 6.0;
+    const double r = 10.0 + 0.003 * std::cos(2.0 * angle);
+    oval += fmt::format("{:.6f},{:.6f},{}\n", r * std::cos(angle), r * std::sin(angle), i / 12);
+  }
+  write(folder / "oval.csv", oval);
+  EXPECT_THAT(rondure({"fit", "cylinder", folder / "oval.csv"}).out,
+              AllOf(HasSubstr("axis through (0.000000, 0.000000, "), Not(HasSubstr("-0.000000"))));
+}
+
 TEST(FitData, APlanReadsTheSameFile) {
   std::string text = "Bohrung 3\r\nPunkt;X-Ist;Y-Ist;Z-Ist;\r\n;inch;inch;inch;\r\n";
   for (int i = 0; i < 5 * 72; ++i) {
