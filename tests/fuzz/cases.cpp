@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

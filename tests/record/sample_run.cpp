@@ -1,10 +1,8 @@
 #include "tests/record/sample_run.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 #include "core/noise.h"

@@ -191,10 +191,15 @@ TEST_F(Pdf, SaysEveryTextOfThePage) {
     const std::string pdf = printed(html, Paper::kA4);
     EXPECT_THAT(lacking(pdf, html), IsEmpty());
     EXPECT_EQ(edition_of_pdf(pdf), Edition(Language::kEnglish, true));
-    std::string more = html;  // the comparison sees a text that is missing
-    more.insert(more.find("</footer>"), "<b>not on paper</b>");
-    EXPECT_THAT(lacking(pdf, more), ::testing::ElementsAre("notonpaper"));
   }
+}
+
+TEST_F(Pdf, TheComparisonOfTextsSeesOneThatIsMissing) {
+  const Case made = cylinder_case(4, 7, 3);
+  std::string html = write_html(made.record, made.evaluation, Edition(Language::kEnglish, true));
+  const std::string pdf = printed(html, Paper::kA4);
+  html.insert(html.find("</footer>"), "<b>not on paper</b>");
+  EXPECT_THAT(lacking(pdf, html), ::testing::ElementsAre("notonpaper"));
 }
 
 TEST_F(Pdf, IsTaggedHasItsTitleAndTheSizeOfItsPaperAndEmbedsItsFonts) {
@@ -233,9 +238,9 @@ TEST_F(Pdf, AChinesePageIsPrintedInChinese) {
 }
 
 TEST_F(Pdf, HostileNamesStayTextInTheHeadOfEachPage) {
-  for (const std::string& text : {std::string("</style><b>q</b>\"'}\\{<!-- */ %PDF-1.4 endobj "
-                                              "page-sha256-0000, page-language-zh-Hans"),
-                                  std::string(10'000, 'W')}) {
+  for (const std::string& text :
+       {std::string("</style><b>q</b>\"'}\\{"), std::string("<!-- */ %PDF-1.4 endobj"),
+        std::string("page-sha256-0000, page-language-zh-Hans"), std::string(10'000, 'W')}) {
     SCOPED_TRACE(text.substr(0, 40));
     Case made = cylinder_case(4, 7, 3);
     made.record.header.part_id = text;

@@ -42,9 +42,7 @@ class RunOfAnotherVersion : public ::testing::Test {
     if (change_results) change_results(run.results);
     results = run.results.size();
     ASSERT_TRUE(record::write_run(directory, run));
-    std::vector<std::string> formats = all_formats();
-    std::erase(formats, "pdf");  // its bytes alone are compared, see FormatPdf
-    ASSERT_TRUE(write_exports(directory, formats, run, evaluation));
+    ASSERT_TRUE(write_exports(directory, all_formats(), run, evaluation));
   }
   /// Changes an export, as another version would have written it: with its digest.
   void rewrite(const std::string& file, const std::string& from, const std::string& to,
