@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/shortest_turn.h"
 #include "core/units.h"
 #include "evaluation/results/internal/fixture_use.h"
 #include "fit/zone/center_search.h"
@@ -214,7 +215,8 @@ Eigen::Matrix3d part_turn(const record::RunRecord& record, const record::PoseVis
   const auto& feature = record.features[static_cast<std::size_t>(visit.feature)];
   const auto settings = record::task_of<record::SurfaceSettings>(feature.settings);
   if (!settings || settings->part_axis.size() != 3) return out;
-  return out * fixture::turn_of_part(Eigen::Vector3d::Map(settings->part_axis.data()));
+  return out * core::shortest_turn(Eigen::Vector3d::UnitZ(),
+                                   Eigen::Vector3d::Map(settings->part_axis.data()));
 }
 
 PoseValue pose_value(const std::vector<Eigen::Vector2d>& section, record::Strategy strategy) {

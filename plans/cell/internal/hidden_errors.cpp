@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "cmm/simulated/machine.h"
+#include "core/shortest_turn.h"
 #include "core/units.h"
 #include "fixture/axis_motion.h"
 #include "plans/analyses/features.h"
@@ -225,8 +226,7 @@ cmm::SimulatedPart::Placed placed_surface(const SimulationPlan& simulation,
         Eigen::Vector2d(own->offset_x_um, own->offset_y_um) * core::kMicrometre;
     const Eigen::Vector3d axis(own->slope_x_urad * kMicroradian, own->slope_y_urad * kMicroradian,
                                1.0);
-    out.X_PS.linear() =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+    out.X_PS.linear() = core::shortest_turn(Eigen::Vector3d::UnitZ(), axis);
   }
   if (!ball) {
     out.surface = simulated_surface(simulation, feature);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cmm/simulated/part.h"
+#include "core/shortest_turn.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 #include "plans/path/solid_mesh.h"
@@ -24,7 +25,7 @@ fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
 Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {
   Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
   X_BP.translation() = vector3(fixture.part_position_mm);
-  X_BP.linear() = fixture::turn_of_part(vector3(fixture.part_axis));
+  X_BP.linear() = core::shortest_turn(Eigen::Vector3d::UnitZ(), vector3(fixture.part_axis));
   return X_BP;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/shortest_turn.h"
 #include "core/units.h"
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_reach.h"
@@ -278,8 +279,7 @@ void FeatureSession::follow_axis(const fit::Axis& axis_W) {
   if (z.dot(expected) < 0.0) z = -z;  // a cylinder's axis has two directions
   // A cylinder shows neither the rotation about its axis nor the shift along it: both stay nominal.
   const Eigen::Vector3d on_axis = X_BW * axis_W.point_mm;
-  X_BP_.linear() =
-      Eigen::Quaterniond::FromTwoVectors(expected, z).toRotationMatrix() * nominal.linear();
+  X_BP_.linear() = core::shortest_turn(expected, z) * nominal.linear();
   X_BP_.translation() = on_axis + z * (nominal.translation() - on_axis).dot(z);
   geometry_ = path_geometry(context_.plan, feature_, 0.0);
 }

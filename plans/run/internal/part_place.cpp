@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/shortest_turn.h"
 #include "fit/geometry/registration.h"
 #include "fixture/kinematics.h"
 #include "plans/analyses/features.h"
@@ -68,8 +69,7 @@ core::Result<fit::Registration> aligned(RunContext& context) {
   const double face_mm = plan.features[face].nominal.z_mm;
   const Vector3d on_face = X_WP * Vector3d(0.0, 0.0, face_mm);
   fit::Registration out;
-  out.motion.linear() =
-      Eigen::Quaterniond::FromTwoVectors(expected, z).toRotationMatrix() * X_WP.linear();
+  out.motion.linear() = core::shortest_turn(expected, z) * X_WP.linear();
   out.motion.translation() = axis.point_mm + z * ((on_face - axis.point_mm).dot(z) - face_mm);
   return out;
 }
