@@ -167,12 +167,4 @@ core::Result<void> keep_defects(const std::vector<Defect>& defects, const record
                                 first.where});
 }
 
-core::Result<Evaluation> evaluate_run(const record::RunRecord& record,
-                                      const std::filesystem::path& directory,
-                                      const std::string& processor) {
-  CheckedEvaluation checked = evaluate_checked(record);
-  TRY_DO(keep_defects(checked.defects, record.header, directory, processor));
-  return std::move(checked.evaluation);
-}
-
 }  // namespace rondure::evaluation

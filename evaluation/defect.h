@@ -54,11 +54,4 @@ inline constexpr const char* kDefectFile = "defect.txt";
                                               const std::filesystem::path& directory,
                                               const std::string& processor);
 
-/// Like evaluate(), for a run directory; writes defect.txt there when there are defects.
-/// @param processor  Processor of this machine, as app spells it in the journal.
-/// @return The error of keep_defects().
-[[nodiscard]] core::Result<Evaluation> evaluate_run(const record::RunRecord& record,
-                                                    const std::filesystem::path& directory,
-                                                    const std::string& processor);
-
 }  // namespace rondure::evaluation

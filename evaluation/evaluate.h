@@ -11,7 +11,7 @@ namespace rondure::evaluation {
 ///
 /// @return Always an evaluation: every fault of the data is stated in its feature, and so is a
 ///         violated invariant (a defect of the program: no value, all characteristics void;
-///         evaluate_run() of defect.h keeps its numbers).
+///         evaluate_checked() of defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
 /// Evaluates feature `index`, which calibrates the fixture, when its last ball was touched, as

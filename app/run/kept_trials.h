@@ -26,7 +26,7 @@ class KeptTrials {
   /// Says on the terminal why draws that are there are not taken.
   explicit KeptTrials(std::filesystem::path directory);
 
-  /// evaluation::evaluate_run() of the record in the directory. Draws again, and says so, where
+  /// evaluation::evaluate_checked() of the record in the directory. Draws again, and says so, where
   /// those that were kept do not give the sealed results.
   [[nodiscard]] core::Result<evaluation::Evaluation> evaluate(const record::RunRecord& record);
 

@@ -218,10 +218,6 @@ Eigen::Isometry3d head_motion(const HeadPose& pose, const RotaryErrors& c, const
   return rotary_motion(head_axis_c(), pose.c_rad, c) * rotary_motion(head_axis_a(), pose.a_rad, a);
 }
 
-Vector3d head_pivot(const HeadPose& pose, const Vector3d& ball_mm, const Vector3d& target_mm) {
-  return target_mm - head_motion(pose) * ball_mm;
-}
-
 Eigen::Matrix<double, 6, Eigen::Dynamic> HeadStudy::modes_at(const RotaryAxis& axis,
                                                              double angle_rad) const {
   Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, reference_modes.cols());

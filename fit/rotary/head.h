@@ -27,10 +27,6 @@ struct HeadPose {
 [[nodiscard]] Eigen::Isometry3d head_motion(const HeadPose& pose, const RotaryErrors& c = {},
                                             const RotaryErrors& a = {});
 
-/// Place of the pivot for which a control holds the ball at `target_mm`: q - Rz(C) Rx(A) b.
-[[nodiscard]] Eigen::Vector3d head_pivot(const HeadPose& pose, const Eigen::Vector3d& ball_mm,
-                                         const Eigen::Vector3d& target_mm);
-
 enum class HeadStep { kReference, kC, kA, kVerification };
 
 /// One reading of the nest.

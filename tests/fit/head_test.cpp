@@ -57,6 +57,11 @@ RotaryErrors errors(const Vector6& values) {
   return out;
 }
 
+/// Place of the pivot for which a control holds the ball at a target: q - Rz(C) Rx(A) b.
+Vector3d head_pivot(const HeadPose& pose, const Vector3d& ball_mm, const Vector3d& target_mm) {
+  return target_mm - head_motion(pose) * ball_mm;
+}
+
 /// A head, how it is read, and what the nest reads.
 struct World {
   std::vector<Vector3d> balls = hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
