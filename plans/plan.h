@@ -130,13 +130,43 @@ struct DatumSpherePlan {
   std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Nominal, base frame.
 };
 
-/// Position of the fixture base, found by touching its spheres.
+/// A reamed hole or counterbore of the base, or a dowel or bolt head that stands out of it. Its
+/// axis is z of the base.
+struct DatumHolePlan {
+  std::array<double, 3> center_mm = {0.0, 0.0,
+                                     0.0};  ///< Nominal centre of its mouth or foot, base frame.
+  double diameter_mm = 0.0;
+  record::Side side = record::Side::kInside;
+  double depth_mm =
+      0.0;  ///< Of the touches below its mouth, or height of what stands above its foot.
+};
+
+/// A place of the seat, which is touched from above.
+struct DatumSeatPlan {
+  std::array<double, 3> point_mm = {0.0, 0.0, 0.0};  ///< Base frame.
+};
+
+/// Position of the fixture base, found by touching its spheres, or its seat and holes.
 struct DatumPlan {
   double sphere_diameter_mm = 20.0;
   std::vector<DatumSpherePlan> spheres;
-  int points = 7;               ///< Touches of each sphere.
-  double uncertainty_mm = 1.0;  ///< Largest distance of a sphere from its nominal place.
+  std::vector<DatumHolePlan> holes;
+  std::vector<DatumSeatPlan> seat;
+  int points = 7;               ///< Touches of each sphere, or of each height of a hole.
+  int heights = 2;              ///< Of the touches of a hole.
+  double uncertainty_mm = 1.0;  ///< Largest distance of one of them from its nominal place.
   double residual_limit_um = 20.0;
+
+  [[nodiscard]] bool on_holes() const { return !holes.empty() || !seat.empty(); }
+  /// Layers that its touches have: one a sphere; the seat, and one a hole.
+  [[nodiscard]] std::size_t layers() const {
+    return on_holes() ? holes.size() + 1 : spheres.size();
+  }
+  [[nodiscard]] std::size_t touches() const {
+    return (spheres.size() + holes.size() * static_cast<std::size_t>(heights)) *
+               static_cast<std::size_t>(points) +
+           seat.size();
+  }
 };
 
 struct FixturePlan {

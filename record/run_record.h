@@ -211,8 +211,8 @@ struct PoseVisit {
 /// One touch of the probe (or one row of a points file).
 struct Touch {
   /// kLocate finds the position of the part before the first measuring touch. Without a pose it
-  /// finds the base of the fixture (`layer` counts its spheres) or the pose in which the fixture
-  /// was set (the count continues with the spheres on its ring).
+  /// finds the base of the fixture (`layer` counts its spheres, or its seat and holes) or the pose
+  /// in which the fixture was set (the count continues with the spheres on its ring).
   /// kCheck repeats an earlier touch before an interrupted run is resumed.
   /// Neither enters a result.
   enum class Purpose { kQualification, kLocate, kMeasure, kCheck };

@@ -18,7 +18,8 @@ using plans::ForecastStage;
 constexpr std::size_t kFewStages = 4;  // identical stages in a row that are listed one by one
 
 std::string feature_of(const plans::Plan& plan, const ForecastStage& stage) {
-  if (stage.kind == ForecastStage::Kind::kBase) return "spheres of fixture";
+  if (stage.kind == ForecastStage::Kind::kBase)
+    return plan.fixture->datum->on_holes() ? "holes of fixture" : "spheres of fixture";
   return stage.feature < 0 ? plan.probe->qualification.name()
                            : plan.features[static_cast<std::size_t>(stage.feature)].id;
 }

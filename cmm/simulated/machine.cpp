@@ -14,6 +14,7 @@
 #include "cmm/simulated/internal/machine_map.h"
 #include "cmm/touch_check.h"
 #include "core/noise.h"
+#include "core/shortest_turn.h"
 #include "core/units.h"
 
 namespace rondure::cmm {
@@ -115,6 +116,36 @@ core::Result<void> SimulatedMachine::home() {
   return moved;
 }
 
+namespace {
+
+/// First contact with what stands on the table, machine frame.
+core::Result<Contact> contact_with(const ReferenceSphere& body, const Vector3d& start_W_mm,
+                                   const Vector3d& direction_W, double tip_radius_mm,
+                                   double max_travel_mm) {
+  using Shape = ReferenceSphere::Shape;
+  if (body.shape == Shape::kSphere) {
+    return first_contact_with_sphere(body.center_W_mm, body.radius_mm, start_W_mm, direction_W,
+                                     tip_radius_mm, max_travel_mm);
+  }
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
+  X_WC.translation() = body.center_W_mm;
+  X_WC.linear() = core::shortest_turn(Vector3d::UnitZ(), body.axis);
+  const Eigen::Isometry3d X_CW = X_WC.inverse();
+  const auto meet = [&](const auto& surface) {
+    return first_contact(surface, X_CW * start_W_mm, X_CW.linear() * direction_W, tip_radius_mm,
+                         max_travel_mm);
+  };
+  auto contact =
+      body.shape == Shape::kSpot
+          ? meet(FaceSurface{.outer_mm = body.radius_mm})
+          : meet(PartSurface{
+                body.radius_mm, body.half_length_mm, body.shape == Shape::kHole, {}, {}});
+  if (contact) contact->point_P_mm = X_WC * contact->point_P_mm;
+  return contact;
+}
+
+}  // namespace
+
 core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
     const SimulatedPart* part, const Vector3d& start_W_mm, const Vector3d& direction_W,
     double tip_radius_mm, double max_travel_mm) const {
@@ -137,21 +168,8 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
     }
   }
   for (const ReferenceSphere& sphere : spheres_) {
-    auto contact = core::Result<Contact>();
-    if (sphere.half_length_mm > 0.0) {
-      Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
-      X_WC.translation() = sphere.center_W_mm;
-      X_WC.linear() =
-          Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sphere.axis).toRotationMatrix();
-      const Eigen::Isometry3d X_CW = X_WC.inverse();
-      contact = first_contact(PartSurface{sphere.radius_mm, sphere.half_length_mm, false, {}, {}},
-                              X_CW * start_W_mm, X_CW.linear() * direction_W, tip_radius_mm,
-                              max_travel_mm);
-      if (contact) contact->point_P_mm = X_WC * contact->point_P_mm;
-    } else {
-      contact = first_contact_with_sphere(sphere.center_W_mm, sphere.radius_mm, start_W_mm,
-                                          direction_W, tip_radius_mm, max_travel_mm);
-    }
+    const auto contact =
+        contact_with(sphere, start_W_mm, direction_W, tip_radius_mm, max_travel_mm);
     if (contact && (!first || contact->travel_mm < first->travel_mm)) {
       first = Obstacle{contact->travel_mm, true, contact->point_P_mm};
     } else if (!contact && contact.error().code != core::Code::kNoTouch) {

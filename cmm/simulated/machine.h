@@ -15,12 +15,16 @@
 
 namespace rondure::cmm {
 
-/// A reference sphere on the table of a simulated machine, or a reference column.
+/// A reference sphere on the table of a simulated machine, a reference column, a hole in a block,
+/// or a round flat spot.
 struct ReferenceSphere {
+  enum class Shape { kSphere, kColumn, kHole, kSpot };
+
   Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();
   double radius_mm = 0.0;
-  double half_length_mm = 0.0;                      ///< Of a column; 0: a sphere.
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of a column; unit vector.
+  Shape shape = Shape::kSphere;
+  double half_length_mm = 0.0;                      ///< Of a column or hole.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of what is no sphere; unit vector.
 };
 
 /// Settings of a simulated machine.

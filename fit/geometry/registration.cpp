@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <Eigen/SVD>
+
+#include "core/shortest_turn.h"
 
 namespace rondure::fit {
 namespace {
@@ -40,22 +43,27 @@ Eigen::Isometry3d best_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3
   return out;
 }
 
-}  // namespace
-
-core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints to_mm,
-                                              std::span<const double> weights) {
-  if (from_mm.size() < 3 || from_mm.size() != to_mm.size()) {
+core::Result<void> check_pairs(SpacePoints from_mm, SpacePoints to_mm, std::size_t least) {
+  if (from_mm.size() < least || from_mm.size() != to_mm.size()) {
     return core::fail_with(
         core::Code::kTooFewPoints,
-        "{} and {} points do not determine a motion; at least 3 pairs are needed", from_mm.size(),
-        to_mm.size());
+        "{} and {} points do not determine a motion; at least {} pairs are needed", from_mm.size(),
+        to_mm.size(), least);
   }
-  const Eigen::Matrix3Xd from = columns(from_mm);
-  const Eigen::Matrix3Xd to = columns(to_mm);
   if (!check_points(from_mm) || !check_points(to_mm)) {
     return core::fail(core::Code::kNotFinite,
                       "a point to be registered is not a finite number up to 1e7 mm");
   }
+  return {};
+}
+
+}  // namespace
+
+core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints to_mm,
+                                              std::span<const double> weights) {
+  TRY_DO(check_pairs(from_mm, to_mm, 3));
+  const Eigen::Matrix3Xd from = columns(from_mm);
+  const Eigen::Matrix3Xd to = columns(to_mm);
   if (on_one_line(from)) {
     return core::fail(core::Code::kCollinear,
                       "the points lie on one line, so the turn about it is not determined");
@@ -69,6 +77,35 @@ core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints t
     out.largest_residual_mm =
         std::max(out.largest_residual_mm, (out.motion * from_mm[i] - to_mm[i]).norm());
   }
+  return out;
+}
+
+core::Result<Registration> plane_registration(SpacePoints from_mm, SpacePoints to_mm,
+                                              const Plane& plane) {
+  TRY_DO(check_pairs(from_mm, to_mm, 2));
+  const Eigen::Matrix3Xd from = columns(from_mm);
+  // The plane laid level, its point in the origin.
+  const Eigen::Matrix3d lay = core::shortest_turn(plane.normal, Eigen::Vector3d::UnitZ());
+  Eigen::Matrix3Xd level = lay * (columns(to_mm).colwise() - plane.point_mm);
+  level.row(2).setZero();
+  const Eigen::Vector3d from_mean = from.rowwise().mean();
+  const Eigen::Vector3d level_mean = level.rowwise().mean();
+  const Eigen::Matrix3Xd a = from.colwise() - from_mean;
+  const Eigen::Matrix3Xd b = level.colwise() - level_mean;
+  if (!(a.topRows<2>().squaredNorm() > 0.0)) {
+    return core::fail(core::Code::kCollinear,
+                      "the points coincide, so the turn about the normal is not determined");
+  }
+  const double along = (a.topRows<2>().cwiseProduct(b.topRows<2>())).sum();
+  const double across = a.row(0).dot(b.row(1)) - a.row(1).dot(b.row(0));
+  const Eigen::AngleAxisd turn(std::atan2(across, along), Eigen::Vector3d::UnitZ());
+  Registration out;
+  out.motion.linear() = lay.transpose() * turn.toRotationMatrix();
+  out.motion.translation() =
+      plane.point_mm + lay.transpose() * level_mean - out.motion.linear() * from_mean;
+  // All points of one height lie on the plane: what is left is within it.
+  out.largest_residual_mm =
+      std::sqrt((turn.toRotationMatrix() * a - b).topRows<2>().colwise().squaredNorm().maxCoeff());
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/result.h"
+#include "fit/geometry/plane.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {
@@ -25,5 +26,15 @@ struct Registration {
 /// patterns", IEEE Trans. PAMI 13(4), 1991 (the guard against reflections).
 [[nodiscard]] core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints to_mm,
                                                             std::span<const double> weights = {});
+
+/// The rigid motion that brings points of one height z closest to their partners on a plane: it
+/// carries z to the normal, and their height onto the plane. The turn about the normal and the
+/// shift along the plane minimise the sum of squared distances, in closed form.
+/// @param from_mm, to_mm  Partners in the same order, n >= 2, not all in one place. Partners off
+///                        the plane stand for their feet on it [mm].
+/// @return as rigid_registration(); kCollinear where all points of `from` coincide.
+/// Source: methods, machine cell section 6.2.
+[[nodiscard]] core::Result<Registration> plane_registration(SpacePoints from_mm, SpacePoints to_mm,
+                                                            const Plane& plane);
 
 }  // namespace rondure::fit

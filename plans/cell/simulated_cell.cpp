@@ -100,6 +100,7 @@ cmm::ReferenceSphere reference_artefact(const Plan& plan) {
   if (!q.on_column()) return out;
   const double lean_rad = plan.simulation->probe.column_lean_deg * core::kDegree;
   const Eigen::Vector3d axis(std::tan(lean_rad), 0.0, 1.0);
+  out.shape = cmm::ReferenceSphere::Shape::kColumn;
   out.axis = axis.normalized();
   out.half_length_mm = 0.5 * (q.column_to_mm - q.column_from_mm);
   out.center_W_mm += 0.5 * (q.column_from_mm + q.column_to_mm) * axis;
@@ -123,6 +124,7 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
       table_spheres_.push_back(
           {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
     }
+    add_holes(*datum, 0.5 * plan.probe->tip_diameter_mm);
   }
   table_spheres_.push_back(reference_artefact(plan));
   machine_.place_spheres(table_spheres_);
@@ -130,6 +132,24 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
     for (const CarriedSpherePlan& sphere : reached->spheres) {
       ring_spheres_.push_back({vector3(sphere.center_mm), 0.5 * reached->sphere_diameter_mm});
     }
+  }
+}
+
+void SimulatedCell::add_holes(const DatumPlan& datum, double tip_mm) {
+  using Shape = cmm::ReferenceSphere::Shape;
+  constexpr double kSpot_mm = 10.0;
+  const Eigen::Vector3d up = true_X_WF_.linear().col(2);
+  for (const DatumSeatPlan& at : datum.seat) {
+    table_spheres_.push_back({true_X_WF_ * vector3(at.point_mm), kSpot_mm, Shape::kSpot, 0.0, up});
+  }
+  for (const DatumHolePlan& hole : datum.holes) {
+    const bool inside = hole.side == record::Side::kInside;
+    // A hole goes on below its lowest touch.
+    const double half_mm =
+        0.5 * (hole.depth_mm + (inside ? 2.0 * tip_mm + datum.uncertainty_mm : 0.0));
+    table_spheres_.push_back(
+        {true_X_WF_ * vector3(hole.center_mm) + (inside ? -half_mm : half_mm) * up,
+         0.5 * hole.diameter_mm, inside ? Shape::kHole : Shape::kColumn, half_mm, up});
   }
 }
 

@@ -80,6 +80,8 @@ class SimulatedCell final : public Cell {
 
  private:
   void place_part();
+  /// Seat, holes, dowels and bolt heads of the base.
+  void add_holes(const DatumPlan& datum, double tip_mm);
   core::Result<core::Pose> turn(const core::Pose& commanded);
   core::Result<core::Pose> turn_driven(const core::Pose& commanded);
   core::Result<core::Pose> home_driven();

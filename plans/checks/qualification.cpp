@@ -48,7 +48,9 @@ void check_side_touches(const Plan& plan, Findings& findings) {
                                  what));
   };
   if (plan.fixture && (plan.fixture->datum || plan.fixture->reached_pose)) {
-    return refuse("the spheres of the fixture are");
+    return refuse(plan.fixture->datum && plan.fixture->datum->on_holes()
+                      ? "the seat of the fixture is"
+                      : "the spheres of the fixture are");
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const FeaturePlan& feature = plan.features[i];

@@ -46,6 +46,8 @@ const char* name_of(Body body) {
       return "the stem of the reference sphere";
     case Body::kColumn:
       return "the reference column";
+    case Body::kDowel:
+      return "a dowel or bolt head of the fixture";
     case Body::kRingSphere:
       return "a sphere on the ring";
     case Body::kBody:
@@ -251,6 +253,12 @@ void Scene::add_spheres(const Plan& plan, const FeaturePlan& feature,
   };
   if (const auto& datum = fixture.datum) {
     add_all(Body::kSphere, datum->spheres, 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
+    for (const DatumHolePlan& of : datum->holes) {
+      if (of.side == record::Side::kInside || &of.center_mm == touched) continue;
+      add(Body::kDowel, Frame::kMachine, vector3(of.center_mm),
+          {0.0, 0.5 * of.diameter_mm + datum->uncertainty_mm, -kDeep_mm,
+           of.depth_mm + datum->uncertainty_mm});
+    }
   }
   if (const auto& on_ring = fixture.reached_pose) {
     add_all(Body::kRingSphere, on_ring->spheres, 0.5 * on_ring->sphere_diameter_mm);

@@ -27,6 +27,7 @@ enum class Body {
   kSphere,
   kStem,
   kColumn,
+  kDowel,  ///< A dowel or bolt head on the base.
   kRingSphere,
   kBody,      ///< fixture.bodies.
   kPartMesh,  ///< One of them that is the part itself.

@@ -194,9 +194,9 @@ core::Result<void> prepare(RunContext& context) {
     if (auto homed = context.cell->machine().home(); !homed) return homed;
     TRY_DO(context.cell->home_fixture());
   }
-  if (auto tip = qualify_probe(context); !tip)
-    return core::fail(tip.error().at("/probe/qualification"));
-  if (auto base = find_fixture_base(context); !base) return base;
+  const auto tip = qualify_probe(context);
+  if (!tip) return core::fail(tip.error().at("/probe/qualification"));
+  TRY_DO(find_fixture_base(context, tip->radius_mm));
   return find_part_place(context);
 }
 
@@ -282,11 +282,8 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   if (touching)
     context.progress.touches_expected +=
         static_cast<std::size_t>(plan.probe->qualification.touches());
-  if (touching && plan.fixture->datum) {
-    const DatumPlan& datum = *plan.fixture->datum;
-    context.progress.touches_expected +=
-        datum.spheres.size() * static_cast<std::size_t>(datum.points);
-  }
+  if (touching && plan.fixture->datum)
+    context.progress.touches_expected += plan.fixture->datum->touches();
   auto done = touching ? note_single_steps(context) : core::Result<void>{};
   if (done && touching) done = prepare(context);
   if (done) done = inspect(context, known.targets, known.data);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -103,4 +104,29 @@ inline RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   return resume_plan(plan, options, *std::move(held));
 }
 
+namespace testing {
+
+/// Stops the run before the touch after each of these numbers of touches: resumed, it must measure
+/// the bits of a run without interruption.
+inline void expect_resumed_bits(const Plan& plan, std::initializer_list<int> numbers) {
+  const record::Scratch whole;
+  const auto run = run_plan(plan, options_for(whole / "run"));
+  ASSERT_TRUE(run && !run->failure);
+  const std::string bits = record::measured_bits(journal_of(whole / "run"));
+  for (const int touches : numbers) {
+    SCOPED_TRACE(touches);
+    const record::Scratch scratch;
+    RunOptions options = options_for(scratch / "run");
+    options.stop_requested = [left = touches]() mutable { return left-- == 0; };
+    {
+      const auto stopped = run_plan(plan, options);
+      ASSERT_TRUE(stopped && stopped->failure);
+    }
+    const auto resumed = resume_plan(plan, options_for(scratch / "run"));
+    ASSERT_TRUE(resumed && !resumed->failure) << (resumed ? resumed->failure->what : "refused");
+    EXPECT_EQ(record::measured_bits(journal_of(scratch / "run")), bits);
+  }
+}
+
+}  // namespace testing
 }  // namespace rondure::plans

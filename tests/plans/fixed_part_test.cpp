@@ -364,22 +364,7 @@ TEST(FixedPart, IsFoundFromTheJournalByARunThatGoesOn) {
   for (const Json& patch : {in_part_system(), fixed_aligned()}) {
     const auto plan = fixed_plan(patch);
     ASSERT_TRUE(plan) << lines_of(plan);
-    const record::Scratch whole;
-    ASSERT_FALSE(run_plan(*plan, testing::options_for(whole / "run"))->failure);
-    const std::string bits = record::measured_bits(testing::journal_of(whole / "run"));
-    for (const int touches : {4, 13, 15, 20, 40}) {
-      SCOPED_TRACE(touches);
-      const record::Scratch scratch;
-      RunOptions options = testing::options_for(scratch / "run");
-      options.stop_requested = [left = touches]() mutable { return left-- == 0; };
-      {
-        const auto stopped = run_plan(*plan, options);
-        ASSERT_TRUE(stopped && stopped->failure);
-      }
-      const auto resumed = resume_plan(*plan, testing::options_for(scratch / "run"));
-      ASSERT_TRUE(resumed && !resumed->failure) << (resumed ? resumed->failure->what : "refused");
-      EXPECT_EQ(record::measured_bits(testing::journal_of(scratch / "run")), bits);
-    }
+    testing::expect_resumed_bits(*plan, {4, 13, 15, 20, 40});
   }
 }
 

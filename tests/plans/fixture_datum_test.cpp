@@ -11,9 +11,7 @@
 #include "plans/forecast/forecast.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/runner.h"
-#include "record/journal/journal.h"
 #include "tests/plans/files.h"
-#include "tests/record/sample_run.h"
 
 namespace rondure::plans {
 namespace {
@@ -21,7 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::options_for;
 
 /// The spool in a world without errors but for where the fixture stands.
 Plan plan_with_base(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
@@ -125,23 +122,8 @@ TEST(FixtureBase, ARunThatEndsAtASphereSaysAtWhich) {
 }
 
 TEST(FixtureBase, IsTakenFromTheJournalByARunThatGoesOn) {
-  const Plan plan = plan_with_base({0.6, -0.2, 0.3}, {0.1, 0.1, -0.1});
-  const record::Scratch whole;
-  ASSERT_FALSE(run_plan(plan, options_for(whole / "run"))->failure);
-  const std::string bits = record::measured_bits(record::read_journal(whole / "run")->record);
-  for (const int touches : {5, 13, 20, 34, 36, 50}) {
-    SCOPED_TRACE(touches);
-    const record::Scratch scratch;
-    RunOptions options = options_for(scratch / "run");
-    options.stop_requested = [left = touches]() mutable { return left-- == 0; };
-    {
-      const auto stopped = run_plan(plan, options);
-      ASSERT_TRUE(stopped && stopped->failure);
-    }
-    const auto resumed = resume_plan(plan, options_for(scratch / "run"));
-    ASSERT_TRUE(resumed && !resumed->failure);
-    EXPECT_EQ(record::measured_bits(record::read_journal(scratch / "run")->record), bits);
-  }
+  testing::expect_resumed_bits(plan_with_base({0.6, -0.2, 0.3}, {0.1, 0.1, -0.1}),
+                               {5, 13, 20, 34, 36, 50});
 }
 
 TEST(FixtureBase, IsForetold) {

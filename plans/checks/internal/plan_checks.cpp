@@ -97,13 +97,17 @@ void check_sections(const PartPlan& part, Findings& findings) {
   }
 }
 
-void check_datum(const FixturePlan& fixture, Findings& findings) {
+void check_datum(const Plan& plan, Findings& findings) {
+  const FixturePlan& fixture = *plan.fixture;
   if (!fixture.datum || !findings.sound("/fixture/datum")) return;
+  if (fixture.datum->on_holes()) return check_datum_holes(plan, findings);
   const std::size_t spheres = fixture.datum->spheres.size();
   if (spheres >= 3) return;
   findings.meaning(
       Code::kTooFewPoints, "/fixture/datum/spheres",
-      fmt::format("{} spheres do not tell where the base is; at least 3 are needed", spheres));
+      fmt::format("{} spheres do not tell where the base is; at least 3 are needed, or holes "
+                  "and a seat",
+                  spheres));
 }
 
 void check_archive(const Plan& plan, Findings& findings) {
@@ -305,7 +309,7 @@ void check_equipment(const Plan& plan, Findings& findings) {
   check_qualification(plan, findings);
   check_sections(plan.part, findings);
   if (turns) {
-    check_datum(*plan.fixture, findings);
+    check_datum(plan, findings);
     check_driver_sections(*plan.fixture, findings);
     check_calibration_use(plan, findings);
   }

@@ -18,6 +18,10 @@ void check_plan(const Plan& plan, Findings& findings);
 /// Checks travel, resolution, temperature limits, and everything that touched features need.
 void check_equipment(const Plan& plan, Findings& findings);
 
+/// Checks seat and holes of `fixture.datum`.
+/// @pre There are some.
+void check_datum_holes(const Plan& plan, Findings& findings);
+
 /// Checks the keys of the sphere or column that qualifies the probe, and that a column can vouch
 /// for what is touched.
 void check_qualification(const Plan& plan, Findings& findings);

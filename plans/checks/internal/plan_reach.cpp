@@ -170,6 +170,10 @@ core::Result<void> check_room(const Plan& plan) {
       highest_mm = std::max(
           highest_mm, of.center_mm[2] + 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
     }
+    for (const DatumHolePlan& of : datum->holes) {
+      const double out_mm = of.side == record::Side::kOutside ? of.depth_mm : 0.0;
+      highest_mm = std::max(highest_mm, of.center_mm[2] + out_mm + datum->uncertainty_mm);
+    }
   }
   if (const auto& on_ring = fixture.reached_pose) {
     for (const CarriedSpherePlan& of : on_ring->spheres) {

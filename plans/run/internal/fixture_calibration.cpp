@@ -11,6 +11,7 @@
 #include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/rotary_poses.h"
+#include "plans/run/internal/datum_holes.h"
 #include "plans/run/internal/qualification.h"
 
 namespace rondure::plans {
@@ -51,6 +52,11 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
   std::vector<TouchStep> out;
   if (!plan.fixture->datum) return out;
   const DatumPlan& datum = *plan.fixture->datum;
+  if (datum.on_holes()) {
+    auto steps = hole_steps(plan);
+    if (!steps) return core::fail(steps.error().at(kDatumPointer));
+    return steps;
+  }
   const auto clamped = std::find_if(plan.features.begin(), plan.features.end(), needs_machine);
   const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
   for (std::size_t i = 0; i < datum.spheres.size(); ++i) {
@@ -74,8 +80,14 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
 }
 
 core::Result<fit::Registration> fixture_base(const Plan& plan,
-                                             std::span<const std::vector<Vector3d>> tips_W_mm) {
+                                             std::span<const std::vector<Vector3d>> tips_W_mm,
+                                             double tip_radius_mm) {
   const DatumPlan& datum = *plan.fixture->datum;
+  if (datum.on_holes()) {
+    auto base = base_from_holes(plan, tips_W_mm, tip_radius_mm);
+    if (!base) return core::fail(base.error().at(kDatumPointer));
+    return base;
+  }
   std::vector<Vector3d> nominal;
   std::vector<Vector3d> found;
   for (std::size_t i = 0; i < tips_W_mm.size(); ++i) {
@@ -98,11 +110,15 @@ core::Result<fit::Registration> fixture_base(const Plan& plan,
   return *base;
 }
 
-core::Result<void> find_fixture_base(RunContext& context) {
+core::Result<void> find_fixture_base(RunContext& context, double tip_radius_mm) {
   TRY(auto steps, datum_steps(context.plan));
   if (steps.empty()) return {};
-  TRY(const auto tips, touch_spheres(context, steps, "sphere of the fixture"));
-  TRY(const auto base, fixture_base(context.plan, tips));
+  const DatumPlan& datum = *context.plan.fixture->datum;
+  TRY(const auto tips, touch_spheres(context, steps, [&](std::size_t i) {
+        return datum.on_holes() ? name_of_layer(datum, i)
+                                : fmt::format("sphere of the fixture {}", i + 1);
+      }));
+  TRY(const auto base, fixture_base(context.plan, tips, tip_radius_mm));
   context.cell->set_base(base.motion);
   const core::Message found = base_message(base);
   if (context.recorded.has_decision(found)) return {};

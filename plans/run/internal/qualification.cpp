@@ -85,14 +85,14 @@ core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& contex
 }
 
 core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
-    RunContext& context, const std::vector<TouchStep>& steps, const std::string& name) {
+    RunContext& context, const std::vector<TouchStep>& steps,
+    const std::function<std::string(std::size_t)>& name) {
   std::vector<std::vector<Eigen::Vector3d>> tips;
   std::vector<TouchStep> of_one;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     of_one.push_back(steps[i]);
     if (i + 1 < steps.size() && steps[i + 1].row.layer == steps[i].row.layer) continue;
-    TRY(auto touched,
-        touch_sphere_steps(context, of_one, fmt::format("{} {}", name, tips.size() + 1)));
+    TRY(auto touched, touch_sphere_steps(context, of_one, name(tips.size())));
     tips.push_back(std::move(touched));
     of_one.clear();
   }
@@ -156,8 +156,9 @@ core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& featu
   const Scene scene(plan, feature, &center_mm);
   const Eigen::Isometry3d X_WN = X_WB * nominal_seat(*plan.fixture);
   PathGeometry geometry;
-  geometry.clearance_mm = plan.machine->clearance_mm + off_mm +
-                          (is_touched(feature) ? plan.part.location_uncertainty_mm : 0.0);
+  geometry.location_mm =
+      off_mm + (is_touched(feature) ? plan.part.location_uncertainty_mm : 0.0);
+  geometry.clearance_mm = plan.machine->clearance_mm + geometry.location_mm;
   for (const TouchStep& step : steps) {
     Way way = {step.way_W, {}};
     way.corners.push_back(step.command.expected_tip_W_mm);
@@ -170,35 +171,33 @@ core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& featu
   return {};
 }
 
-namespace {
-
-/// Steps around a column, from its upper height down: along a polygon that keeps the distance of
-/// the pre-touch points, then straight down beside the column.
-core::Result<std::vector<TouchStep>> column_steps(const Plan& plan) {
-  const QualificationPlan& q = plan.probe->qualification;
+std::vector<TouchStep> round_steps(const Plan& plan, const RoundToTouch& round) {
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
-  const double reach_mm = 0.5 * q.column_diameter_mm + tip_mm;
-  const double apart_mm = reach_mm + plan.machine->approach_mm;
-  const double step_rad = core::kTwoPi / q.points_per_height;
+  const double out = round.inside ? -1.0 : 1.0;
+  const double reach_mm = round.radius_mm + out * tip_mm;
+  const double approach_mm =
+      round.inside ? reach_mm : plan.machine->approach_mm + round.uncertainty_mm;
+  const double apart_mm = reach_mm + out * approach_mm;  // a hole is touched from its axis
+  const double step_rad = core::kTwoPi / round.points;
   const auto at = [&](double radius_mm, double angle_rad, double height_mm) {
-    return Eigen::Vector3d(vector3(q.column_point_mm) +
-                           Eigen::Vector3d(radius_mm * std::cos(angle_rad),
-                                           radius_mm * std::sin(angle_rad), height_mm));
+    return Eigen::Vector3d(round.foot_W_mm + Eigen::Vector3d(radius_mm * std::cos(angle_rad),
+                                                             radius_mm * std::sin(angle_rad),
+                                                             height_mm));
   };
   std::vector<TouchStep> steps;
-  for (int k = q.heights - 1; k >= 0; --k) {
-    const double height_mm =
-        q.column_from_mm + (q.column_to_mm - q.column_from_mm) * (k + 0.5) / q.heights;
-    for (int i = 0; i < q.points_per_height; ++i) {
+  const int heights = static_cast<int>(round.heights_mm.size());
+  for (int k = 0; k < heights; ++k) {
+    const double height_mm = round.heights_mm[static_cast<std::size_t>(k)];
+    for (int i = 0; i < round.points; ++i) {
       const double angle_rad = i * step_rad;
       const Eigen::Vector3d before = at(apart_mm, angle_rad, height_mm);
       TouchStep step;
-      step.command.direction_W = -at(1.0, angle_rad, 0.0) + vector3(q.column_point_mm);
+      step.command.direction_W = out * (round.foot_W_mm - at(1.0, angle_rad, 0.0));
       step.command.expected_tip_W_mm = at(reach_mm, angle_rad, height_mm);
-      step.command.approach_mm = plan.machine->approach_mm;
-      step.command.search_mm = plan.machine->search_mm;
-      step.row.purpose = record::Touch::Purpose::kQualification;
-      step.row.layer = k;
+      step.command.approach_mm = approach_mm;
+      step.command.search_mm = plan.machine->search_mm + round.uncertainty_mm;
+      step.row.purpose = round.purpose;
+      step.row.layer = round.layer < 0 ? heights - 1 - k : round.layer;
       step.row.point = static_cast<int>(steps.size());
       step.entry_W = {{before.x(), before.y(), std::max(before.z(), plan.machine->park_mm[2])},
                       before};
@@ -217,11 +216,24 @@ core::Result<std::vector<TouchStep>> column_steps(const Plan& plan) {
   return steps;
 }
 
+namespace {
+
+std::vector<TouchStep> column_steps(const Plan& plan) {
+  const QualificationPlan& q = plan.probe->qualification;
+  RoundToTouch column = {
+      vector3(q.column_point_mm), 0.5 * q.column_diameter_mm, false, {}, q.points_per_height};
+  for (int k = q.heights - 1; k >= 0; --k) {
+    column.heights_mm.push_back(q.column_from_mm +
+                                (q.column_to_mm - q.column_from_mm) * (k + 0.5) / q.heights);
+  }
+  return round_steps(plan, column);
+}
+
 }  // namespace
 
 core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
   const QualificationPlan& q = plan.probe->qualification;
-  TRY(auto steps, q.on_column() ? column_steps(plan)
+  TRY(auto steps, q.on_column() ? core::Result<std::vector<TouchStep>>(column_steps(plan))
                                 : sphere_steps(plan, {vector3(q.sphere_center_mm),
                                                       0.5 * q.sphere_diameter_mm, q.points, 0.0}));
   // check_room() keeps everything else away from it.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,23 @@ struct SphereToTouch {
 [[nodiscard]] core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan,
                                                                 const SphereToTouch& sphere);
 
+/// An upright column, dowel or bolt head, or a hole.
+struct RoundToTouch {
+  Eigen::Vector3d foot_W_mm = Eigen::Vector3d::Zero();  ///< A point of its axis.
+  double radius_mm = 0.0;
+  bool inside = false;             ///< true: a hole, touched from its axis.
+  std::vector<double> heights_mm;  ///< From the foot, falling.
+  int points = 8;                  ///< Of each height.
+  double uncertainty_mm = 0.0;     ///< As of a sphere.
+  record::Touch::Purpose purpose = record::Touch::Purpose::kQualification;
+  int layer = -1;  ///< Layer of its touches; -1: one a height, counted from the lowest.
+};
+
+/// Steps from park height down to the upper height and around, then the same at the next one.
+/// Around a column they keep to a polygon at the distance of the pre-touch points.
+/// @pre A hole has room for the ball.
+[[nodiscard]] std::vector<TouchStep> round_steps(const Plan& plan, const RoundToTouch& round);
+
 /// Checks that the tool is clear of all known obstacles, other spheres among them, on its path to
 /// and around a sphere.
 /// @param feature    The feature in the clamping ring meanwhile.
@@ -49,9 +67,10 @@ struct SphereToTouch {
 
 /// Touches several spheres, one after the other; the steps of one sphere have the same `row.layer`.
 /// Returns one list of tip centres per sphere, in the order of the steps.
-/// @param name  Name of the spheres, for messages: "sphere of the fixture".
+/// @param name  Name of one of them by its number from 0, for messages.
 [[nodiscard]] core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
-    RunContext& context, const std::vector<TouchStep>& steps, const std::string& name);
+    RunContext& context, const std::vector<TouchStep>& steps,
+    const std::function<std::string(std::size_t)>& name);
 
 /// The centre of a sphere from its tip centres. kCalibration when it has more form than probing
 /// allows (probe.qualification.form_limit_um).

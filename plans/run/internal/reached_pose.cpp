@@ -97,7 +97,7 @@ core::Result<std::vector<TouchStep>> reached_pose_steps(const Plan& plan,
   const ReachedPosePlan& wanted = *plan.fixture->reached_pose;
   const FeaturePlan& of = plan.features[static_cast<std::size_t>(feature)];
   const Eigen::Isometry3d X_WB = fixture::body_to_machine(kinematics, asked);
-  const std::size_t of_base = plan.fixture->datum ? plan.fixture->datum->spheres.size() : 0;
+  const std::size_t of_base = plan.fixture->datum ? plan.fixture->datum->layers() : 0;
   for (std::size_t i = 0; i < wanted.spheres.size(); ++i) {
     const Vector3d center_B = vector3(wanted.spheres[i].center_mm);
     const double off_mm = setting_room_mm(wanted, kinematics, center_B);
@@ -144,7 +144,9 @@ core::Result<core::Pose> reached_pose(const Plan& plan, const fixture::Kinematic
 core::Result<core::Pose> measure_reached_pose(RunContext& context,
                                               const std::vector<TouchStep>& steps,
                                               const core::Pose& asked) {
-  TRY(const auto tips, touch_spheres(context, steps, "sphere on the ring"));
+  TRY(const auto tips, touch_spheres(context, steps, [](std::size_t i) {
+        return fmt::format("sphere on the ring {}", i + 1);
+      }));
   return reached_pose(context.plan, context.cell->kinematics(), tips, asked);
 }
 

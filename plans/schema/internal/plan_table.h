@@ -179,19 +179,42 @@ void describe(Visitor& v, DatumSpherePlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, DatumHolePlan& p) {
+  v.numbers("center_mm", p.center_mm,
+            within(kMaxCoordinate_mm, "Of its mouth or foot, base frame."));
+  v.number("diameter_mm", p.diameter_mm, required(range(1.0, 500.0, "Nominal diameter.")));
+  v.text("side", p.side, {.meaning = "outside: a dowel or bolt head."});
+  v.number("depth_mm", p.depth_mm,
+           required(above(0.0, 500.0, "Touched depth, or height above the foot.")));
+}
+
+template <class Visitor>
+void describe(Visitor& v, DatumSeatPlan& p) {
+  v.numbers("point_mm", p.point_mm,
+            within(kMaxCoordinate_mm, "Touched from above, base frame; one z for all."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, DatumPlan& p) {
   v.number("sphere_diameter_mm", p.sphere_diameter_mm,
            range(1.0, 200.0, "Diameter of the spheres."));
   v.list("spheres", p.spheres,
-         {.required = true, .empty_allowed = false, .meaning = "Three or more, not on one line."});
-  v.whole("points", p.points, range(5, 100, "Touches of each sphere."));
-  v.number(
-      "uncertainty_mm", p.uncertainty_mm,
-      range(0.0, 50.0,
-            "Largest distance of a sphere from its nominal place, as the fixture is bolted down."));
+         {.meaning = "Three or more, not on one line. Needed without holes."});
+  v.list("holes", p.holes,
+         {.meaning = "In place of spheres: two or more holes, dowels or bolt heads."});
+  v.list("seat", p.seat,
+         {.meaning = "With holes: three or more places of their plane, not on one line."});
+  v.whole("points", p.points,
+          range(5, 100, "Touches of each sphere, or of each height of a hole."));
+  v.whole("heights", p.heights, range(1, 10, "Of the touches of a hole."));
+  v.number("uncertainty_mm", p.uncertainty_mm,
+           range(0.0, 50.0,
+                 "Largest distance of a sphere or hole from its nominal place, as the fixture is "
+                 "bolted down."));
   v.number("residual_limit_um", p.residual_limit_um,
            above(0.0, 1000.0,
-                 "Largest distance of a sphere from its place in the base that was found."));
+                 "Largest distance of a sphere or hole from its place in the base that was found, "
+                 "and form of seat and holes."));
 }
 
 template <class Visitor>
@@ -247,8 +270,8 @@ void describe(Visitor& v, FixturePlan& p) {
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
   v.list("bodies", p.bodies, {.meaning = "What else paths keep clear of (docs/planning.md)."});
   v.object("datum", p.datum,
-           {.meaning = "Reference spheres on the base, touched before a run; axis_point_mm is then "
-                       "in their base frame."});
+           {.meaning = "Reference spheres or fixing holes of the base, touched before a run; "
+                       "axis_point_mm is then in their base frame."});
   v.object(
       "calibration", p.calibration,
       {.meaning = "Errors of the fixture, which the run corrects (docs/fixture-calibration.md). "

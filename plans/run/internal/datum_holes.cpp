@@ -1,0 +1,177 @@
+#include "plans/run/internal/datum_holes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/geometry/axis.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/plane.h"
+#include "plans/analyses/features.h"
+#include "plans/path/internal/nominal_geometry.h"
+#include "plans/run/internal/qualification.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+using core::kMicrometre;
+using Eigen::Vector3d;
+
+constexpr double kOtherHole_mm = 0.2;  // of the diameter
+
+std::vector<TouchStep> seat_steps(const Plan& plan) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
+  std::vector<TouchStep> steps;
+  for (const DatumSeatPlan& at : datum.seat) {
+    TouchStep step;
+    step.command.direction_W = -Vector3d::UnitZ();
+    step.command.expected_tip_W_mm = vector3(at.point_mm) + tip_mm * Vector3d::UnitZ();
+    step.command.approach_mm = plan.machine->approach_mm + datum.uncertainty_mm;
+    step.command.search_mm = plan.machine->search_mm + datum.uncertainty_mm;
+    step.row.purpose = record::Touch::Purpose::kLocate;
+    step.row.layer = 0;
+    step.row.point = static_cast<int>(steps.size());
+    const Vector3d before =
+        step.command.expected_tip_W_mm + step.command.approach_mm * Vector3d::UnitZ();
+    const Vector3d above(before.x(), before.y(), std::max(before.z(), plan.machine->park_mm[2]));
+    step.entry_W = {above, before};
+    step.way_W = step.entry_W;
+    if (!steps.empty()) {
+      const Vector3d last = steps.back().way_W.back();
+      step.way_W.insert(step.way_W.begin(), {last.x(), last.y(), above.z()});
+    }
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+std::vector<TouchStep> steps_of_hole(const Plan& plan, std::size_t index) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  const DatumHolePlan& hole = datum.holes[index];
+  RoundToTouch round;
+  round.foot_W_mm = vector3(hole.center_mm);
+  round.radius_mm = 0.5 * hole.diameter_mm;
+  round.inside = hole.side == record::Side::kInside;
+  const double foot_mm = round.inside ? -hole.depth_mm : 0.0;
+  for (int k = datum.heights - 1; k >= 0; --k)
+    round.heights_mm.push_back(foot_mm + hole.depth_mm * (k + 0.5) / datum.heights);
+  round.points = datum.points;
+  round.uncertainty_mm = datum.uncertainty_mm;
+  round.purpose = record::Touch::Purpose::kLocate;
+  round.layer = static_cast<int>(index) + 1;
+  return round_steps(plan, round);
+}
+
+tl::unexpected<core::Error> uneven(const std::string& name, double form_mm, double limit_um) {
+  return core::fail_with(
+      Code::kCalibration,
+      "{} has a form of {:.3f} um, the limit is {:g} um (residual_limit_um); clean it, "
+      "and check that the fixture is tight",
+      name, form_mm / kMicrometre, limit_um);
+}
+
+/// The plane of the seat, through the points that were touched.
+core::Result<fit::Plane> seat_plane(const DatumPlan& datum, const std::vector<Vector3d>& tips,
+                                    double tip_radius_mm) {
+  TRY(auto found, fit::ls_plane(tips, Vector3d(Vector3d::UnitZ())));
+  if (found.deviation_mm > datum.residual_limit_um * kMicrometre)
+    return uneven(name_of_layer(datum, 0), found.deviation_mm, datum.residual_limit_um);
+  found.plane.point_mm -= tip_radius_mm * found.plane.normal;
+  for (std::size_t i = 0; i < datum.seat.size(); ++i) {
+    const double off_mm = fit::height_mm(found.plane, vector3(datum.seat[i].point_mm));
+    if (std::abs(off_mm) <= datum.uncertainty_mm) continue;
+    return core::fail_with(
+        Code::kLocation,
+        "the seat of the fixture is {:.3f} mm from place {} of it, the plan allows {:g} mm "
+        "(uncertainty_mm); check where the fixture is bolted",
+        std::abs(off_mm), i + 1, datum.uncertainty_mm);
+  }
+  return found.plane;
+}
+
+/// Where the axis of a hole meets the plane of the seat.
+core::Result<Vector3d> hole_center(const DatumPlan& datum, std::size_t index,
+                                   const std::vector<Vector3d>& tips, const fit::Plane& seat,
+                                   double tip_radius_mm) {
+  const DatumHolePlan& hole = datum.holes[index];
+  const std::string name = name_of_layer(datum, index + 1);
+  const Eigen::Matrix<double, 3, 2> along = fit::across(seat.normal);
+  std::vector<Eigen::Vector2d> seen;
+  for (const Vector3d& tip : tips) seen.emplace_back(along.transpose() * (tip - seat.point_mm));
+  TRY(const auto circle, fit::ls_circle(seen));
+  const double ball_mm = hole.side == record::Side::kInside ? tip_radius_mm : -tip_radius_mm;
+  const double diameter_mm = 2.0 * (circle.radius_mm + ball_mm);
+  if (!(std::abs(diameter_mm - hole.diameter_mm) <= kOtherHole_mm)) {
+    return core::fail_with(
+        Code::kCalibration,
+        "{} has a diameter of {:.3f} mm, the plan says {:g} mm, and up to {:g} mm are taken "
+        "for the same; check its number and diameter_mm",
+        name, diameter_mm, hole.diameter_mm, kOtherHole_mm);
+  }
+  if (circle.deviation_mm > datum.residual_limit_um * kMicrometre)
+    return uneven(name, circle.deviation_mm, datum.residual_limit_um);
+  const Vector3d center = seat.point_mm + along * circle.center_mm;
+  const Vector3d nominal = vector3(hole.center_mm);
+  const double off_mm = (center - nominal).head<2>().norm();
+  if (off_mm <= datum.uncertainty_mm) return center;
+  return core::fail_with(Code::kLocation,
+                         "{} stands {:.3f} mm from its nominal place, the plan allows {:g} mm "
+                         "(uncertainty_mm); check where the fixture is bolted",
+                         name, off_mm, datum.uncertainty_mm);
+}
+
+}  // namespace
+
+std::string name_of_layer(const DatumPlan& datum, std::size_t layer) {
+  if (layer == 0) return "the seat of the fixture";
+  const bool inside = datum.holes[layer - 1].side == record::Side::kInside;
+  return fmt::format("{} {} of the fixture", inside ? "hole" : "dowel or bolt head", layer);
+}
+
+core::Result<std::vector<TouchStep>> hole_steps(const Plan& plan) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  const auto clamped = std::find_if(plan.features.begin(), plan.features.end(), needs_machine);
+  const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
+  std::vector<TouchStep> out;
+  for (std::size_t layer = 0; layer <= datum.holes.size(); ++layer) {
+    auto steps = layer == 0 ? seat_steps(plan) : steps_of_hole(plan, layer - 1);
+    const auto& place = layer == 0 ? datum.seat.front().point_mm : datum.holes[layer - 1].center_mm;
+    TRY_DO(check_sphere_steps(plan, *clamped, X_WB, place, datum.uncertainty_mm, steps,
+                              name_of_layer(datum, layer)));
+    std::move(steps.begin(), steps.end(), std::back_inserter(out));
+  }
+  return out;
+}
+
+core::Result<fit::Registration> base_from_holes(const Plan& plan,
+                                                std::span<const std::vector<Vector3d>> tips_W_mm,
+                                                double tip_radius_mm) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  TRY(const auto seat, seat_plane(datum, tips_W_mm[0], tip_radius_mm));
+  std::vector<Vector3d> nominal;
+  std::vector<Vector3d> found;
+  for (std::size_t i = 0; i < datum.holes.size(); ++i) {
+    TRY(const auto center, hole_center(datum, i, tips_W_mm[i + 1], seat, tip_radius_mm));
+    nominal.emplace_back(datum.holes[i].center_mm[0], datum.holes[i].center_mm[1],
+                         datum.seat.front().point_mm[2]);
+    found.push_back(center);
+  }
+  TRY(const auto base, fit::plane_registration(nominal, found, seat));
+  if (base.largest_residual_mm <= datum.residual_limit_um * kMicrometre) return base;
+  std::size_t worst = 0;
+  const auto off_mm = [&](std::size_t i) { return (base.motion * nominal[i] - found[i]).norm(); };
+  for (std::size_t i = 1; i < found.size(); ++i) worst = off_mm(i) > off_mm(worst) ? i : worst;
+  return core::fail_with(
+      Code::kCalibration,
+      "{} is {:.3f} um off the place that all of them give it, the limit is {:g} um "
+      "(residual_limit_um); check the certified centres, and their order",
+      name_of_layer(datum, worst + 1), base.largest_residual_mm / kMicrometre,
+      datum.residual_limit_um);
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,222 @@
+#include "plans/run/internal/datum_holes.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "plans/forecast/forecast.h"
+#include "plans/run/internal/fixture_calibration.h"
+#include "tests/plans/files.h"
+
+namespace rondure::plans {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::Ran;
+
+constexpr double kTip_mm = 2.0;  // of example 01
+
+/// The spool in a world without errors but for where the fixture stands, which its holes tell.
+Plan plan_on_holes(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
+  auto plan = read_plan(testing::example("01_spool_simulated.json"));
+  if (!plan) throw std::runtime_error(testing::lines_of(plan));  // fails the test
+  plan->simulation->part = {};
+  plan->simulation->probe = {};
+  plan->simulation->fixture = {};
+  DatumPlan& datum = plan->fixture->datum.emplace();
+  using enum record::Side;
+  datum.holes = {{{-240.0, -150.0, 60.0}, 16.0, kInside, 10.0},
+                 {{240.0, -150.0, 58.0}, 12.0, kInside, 12.0},
+                 {{-240.0, 150.0, 60.0}, 20.0, kOutside, 24.0}};
+  datum.seat = {{{-220.0, -180.0, 60.0}},
+                {{220.0, -180.0, 60.0}},
+                {{-220.0, 180.0, 60.0}},
+                {{220.0, 180.0, 60.0}}};
+  datum.uncertainty_mm = 2.0;
+  plan->features.front().pose_search.repeats = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    plan->simulation->fixture.base_offset_mm[i] = offset_mm(k);
+    plan->simulation->fixture.base_rotation_deg[i] = rotation_deg(k);
+  }
+  return std::move(*plan);
+}
+
+/// Tip centres of seat and holes.
+std::vector<std::vector<Vector3d>> hole_touches(const Plan& plan, const record::RunRecord& record) {
+  std::vector<std::vector<Vector3d>> out(plan.fixture->datum->layers());
+  for (const record::Touch& touch : record.touches) {
+    if (touch.purpose == record::Touch::Purpose::kLocate && touch.pose < 0)
+      out[static_cast<std::size_t>(touch.layer)].push_back(touch.tip_mm);
+  }
+  return out;
+}
+
+/// Exact tip centres of seat and holes of a base that stands at X_WF.
+std::vector<std::vector<Vector3d>> exact_tips(const DatumPlan& datum, const Isometry3d& X_WF) {
+  std::vector<std::vector<Vector3d>> out(1);
+  for (const DatumSeatPlan& at : datum.seat)
+    out[0].push_back(X_WF * (Vector3d(at.point_mm.data()) + kTip_mm * Vector3d::UnitZ()));
+  for (const DatumHolePlan& hole : datum.holes) {
+    const double reach =
+        0.5 * hole.diameter_mm + (hole.side == record::Side::kInside ? -kTip_mm : kTip_mm);
+    auto& tips = out.emplace_back();
+    for (int i = 0; i < 14; ++i) {
+      const double t = core::kTwoPi * i / 7.0;
+      tips.push_back(X_WF *
+                     (Vector3d(hole.center_mm.data()) +
+                      Vector3d(reach * std::cos(t), reach * std::sin(t), i < 7 ? 1.0 : 4.0)));
+    }
+  }
+  return out;
+}
+
+Isometry3d base_placed(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
+  const Vector3d turn = rotation_deg * core::kDegree;
+  Isometry3d out = Isometry3d::Identity();
+  out.translate(offset_mm);
+  out.rotate(Eigen::AngleAxisd(turn.z(), Vector3d::UnitZ()) *
+             Eigen::AngleAxisd(turn.y(), Vector3d::UnitY()) *
+             Eigen::AngleAxisd(turn.x(), Vector3d::UnitX()));
+  return out;
+}
+
+TEST(DatumHoles, GiveTheBaseToANanometre) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise random(seed, {1});
+    const auto draw = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
+    const Vector3d offset(draw(0.8), draw(0.8), draw(0.8));
+    const Vector3d rotation(draw(0.1), draw(0.1), draw(0.1));
+    Plan plan = plan_on_holes(offset, rotation);
+    if (seed == 3) plan.fixture->datum->holes.pop_back();  // two holes are enough
+    const Ran result = testing::ran(plan);
+    ASSERT_FALSE(result.failure) << result.failure->what;
+    const auto found = fixture_base(plan, hole_touches(plan, result.record), kTip_mm);
+    ASSERT_TRUE(found) << found.error().what;
+    const Isometry3d truth = base_placed(offset, rotation);
+    for (const Vector3d& p : {Vector3d(0.0, 0.0, 150.0), Vector3d(200.0, 150.0, 250.0)})
+      EXPECT_LT((found->motion * p - truth * p).norm(), 1e-6);
+    EXPECT_LT(found->largest_residual_mm, 1e-6);
+    EXPECT_EQ(result.record.decisions.front().message.code, core::MessageCode::kFixtureBaseFound);
+  }
+}
+
+TEST(DatumHoles, ScatterOfTheTurnIsThatOfTheSpecification) {
+  // 1 um a coordinate on the corners of 180 x 120 mm turn the frame by 4.6 urad.
+  Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
+  DatumPlan& datum = *plan.fixture->datum;
+  datum.holes.clear();
+  for (const double x : {-90.0, 90.0})
+    for (const double y : {-60.0, 60.0})
+      datum.holes.push_back({{x, y, 60.0}, 12.0, record::Side::kInside, 10.0});
+  const auto exact = exact_tips(datum, Isometry3d::Identity());
+  double squares = 0.0;
+  constexpr int kRuns = 2000;
+  for (int k = 0; k < kRuns; ++k) {
+    core::KeyedNoise random(static_cast<std::uint64_t>(k), {2});
+    auto tips = exact;
+    for (std::size_t i = 1; i < tips.size(); ++i) {
+      const Vector3d off(1e-3 * random.normal(), 1e-3 * random.normal(), 0.0);
+      for (Vector3d& tip : tips[i]) tip += off;
+    }
+    const auto found = base_from_holes(plan, tips, kTip_mm);
+    ASSERT_TRUE(found) << found.error().what;
+    const double turn_rad = found->motion.linear()(1, 0);
+    squares += turn_rad * turn_rad;
+  }
+  EXPECT_NEAR(std::sqrt(squares / kRuns) * 1e6, 1e3 / std::sqrt(4.0 * (90.0 * 90.0 + 60.0 * 60.0)),
+              0.3);
+}
+
+TEST(DatumHoles, RefuseWhatDoesNotFit) {
+  const Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
+  const DatumPlan& datum = *plan.fixture->datum;
+  const auto exact = exact_tips(datum, base_placed({0.3, -0.2, 0.1}, {0.02, -0.03, 0.05}));
+  ASSERT_TRUE(base_from_holes(plan, exact, kTip_mm));
+  const auto refused = [&](const auto& change) {
+    auto tips = exact;
+    Plan other = plan;
+    change(tips, *other.fixture->datum);
+    const auto found = fixture_base(other, tips, kTip_mm);
+    return found ? core::Error{} : found.error();
+  };
+  const auto moved = refused([](auto& tips, DatumPlan&) {
+    for (auto& tip : tips[2]) tip.x() += 0.1;
+  });
+  EXPECT_EQ(moved.code, core::Code::kCalibration);
+  EXPECT_EQ(moved.where, "/fixture/datum");
+  EXPECT_THAT(moved.what, AllOf(HasSubstr("hole 2 of the fixture is "),
+                                HasSubstr("the limit is 20 um (residual_limit_um)")));
+  const auto wider = refused([](auto&, DatumPlan& wanted) { wanted.holes[1].diameter_mm = 12.3; });
+  EXPECT_THAT(
+      wider.what,
+      HasSubstr("hole 2 of the fixture has a diameter of 12.000 mm, the plan says 12.3 mm"));
+  const auto far = refused([](auto&, DatumPlan& wanted) { wanted.uncertainty_mm = 0.3; });
+  EXPECT_EQ(far.code, core::Code::kLocation);
+  EXPECT_THAT(far.what, HasSubstr("the plan allows 0.3 mm (uncertainty_mm)"));
+  const auto high = refused([](auto& tips, DatumPlan&) {
+    for (auto& tip : tips[0]) tip.z() += 3.0;
+  });
+  EXPECT_THAT(high.what, HasSubstr("the seat of the fixture is 2.9"));
+  const auto chip = refused([](auto& tips, DatumPlan&) { tips[0][3].z() += 0.2; });
+  EXPECT_THAT(chip.what, HasSubstr("the seat of the fixture has a form of "));
+  const auto dirt =
+      refused([](auto& tips, DatumPlan&) { tips[3][5] += Vector3d(0.02, 0.02, 0.0); });
+  EXPECT_THAT(dirt.what, HasSubstr("dowel or bolt head 3 of the fixture has a form of "));
+  const auto swapped = refused([](auto& tips, DatumPlan& wanted) {
+    wanted.holes[0].diameter_mm = wanted.holes[1].diameter_mm = 12.0;
+    std::swap(tips[1], tips[2]);
+  });
+  EXPECT_NE(swapped.what, "");
+}
+
+TEST(DatumHoles, ARunThatEndsAtAHoleSaysWhere) {
+  Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
+  plan.simulation->fixture.base_offset_mm = {4.0, 0.0, 0.0};
+  const auto off = testing::ran(plan).failure;
+  ASSERT_TRUE(off);
+  EXPECT_EQ(off->what,
+            "hole 1 of the fixture stands 4.000 mm from its nominal place, the plan allows 2 mm "
+            "(uncertainty_mm); check where the fixture is bolted");
+  plan.simulation->fixture.base_offset_mm = {};
+  plan.simulation->faults.connection_lost_at_touch = 13 + 4 + 14 + 3;  // sphere, seat, hole 1
+  const auto lost = testing::ran(plan).failure;
+  ASSERT_TRUE(lost);
+  EXPECT_THAT(lost->what, HasSubstr("hole 2 of the fixture, point 3: "));
+}
+
+TEST(DatumHoles, AreTakenFromTheJournalByARunThatGoesOn) {
+  testing::expect_resumed_bits(plan_on_holes({0.6, -0.2, 0.3}, {0.1, 0.05, -0.1}),
+                               {14, 18, 26, 44, 58});
+}
+
+TEST(DatumHoles, AreForetold) {
+  const Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
+  const auto told = forecast(plan);
+  ASSERT_TRUE(told) << told.error().what;
+  EXPECT_EQ(told->stages[1].kind, ForecastStage::Kind::kBase);
+  int touches = 0;
+  for (const ForecastStage& stage : told->stages)
+    if (stage.kind == ForecastStage::Kind::kBase) touches += stage.touches;
+  EXPECT_EQ(touches, 4 + 3 * 2 * 7);
+  EXPECT_EQ(testing::ran(plan).record.touches.size(), static_cast<std::size_t>(told->touches));
+}
+
+TEST(DatumHoles, ADowelIsAnObstacle) {
+  Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
+  plan.fixture->datum->holes[2] = {{-240.0, -135.0, 60.0}, 8.0, record::Side::kOutside, 60.0};
+  const auto told = forecast(plan);
+  ASSERT_FALSE(told);
+  EXPECT_EQ(told.error().code, core::Code::kUnreachable);
+  EXPECT_THAT(told.error().what, HasSubstr("a dowel or bolt head of the fixture"));
+}
+
+}  // namespace
+}  // namespace rondure::plans
