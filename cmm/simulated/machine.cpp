@@ -50,8 +50,8 @@ void SimulatedMachine::remove_part() {
   warm_part_.reset();
 }
 
-void SimulatedMachine::place_spheres(std::vector<ReferenceSphere> spheres) {
-  spheres_ = std::move(spheres);
+void SimulatedMachine::place_references(std::vector<ReferenceBody> bodies) {
+  references_ = std::move(bodies);
 }
 
 std::string SimulatedMachine::description() const {
@@ -118,11 +118,25 @@ core::Result<void> SimulatedMachine::home() {
 
 namespace {
 
-/// First contact with what stands on the table, machine frame.
-core::Result<Contact> contact_with(const ReferenceSphere& body, const Vector3d& start_W_mm,
+const char* name_of(ReferenceBody::Shape shape) {
+  switch (shape) {
+    case ReferenceBody::Shape::kSphere:
+      return "reference sphere";
+    case ReferenceBody::Shape::kColumn:
+      return "reference column or dowel";
+    case ReferenceBody::Shape::kHole:
+      return "block of a hole";
+    case ReferenceBody::Shape::kSpot:
+      return "seat";
+  }
+  return "";
+}
+
+/// First contact with a reference body, machine frame.
+core::Result<Contact> contact_with(const ReferenceBody& body, const Vector3d& start_W_mm,
                                    const Vector3d& direction_W, double tip_radius_mm,
                                    double max_travel_mm) {
-  using Shape = ReferenceSphere::Shape;
+  using Shape = ReferenceBody::Shape;
   if (body.shape == Shape::kSphere) {
     return first_contact_with_sphere(body.center_W_mm, body.radius_mm, start_W_mm, direction_W,
                                      tip_radius_mm, max_travel_mm);
@@ -162,16 +176,15 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
         },
         part->surfaces[i].surface);
     if (contact && (!first || contact->travel_mm < first->travel_mm)) {
-      first = Obstacle{contact->travel_mm, false, X_WS * contact->point_P_mm};
+      first = Obstacle{contact->travel_mm, std::nullopt, X_WS * contact->point_P_mm};
     } else if (!contact && contact.error().code != core::Code::kNoTouch) {
       return core::fail(contact.error());
     }
   }
-  for (const ReferenceSphere& sphere : spheres_) {
-    const auto contact =
-        contact_with(sphere, start_W_mm, direction_W, tip_radius_mm, max_travel_mm);
+  for (const ReferenceBody& body : references_) {
+    const auto contact = contact_with(body, start_W_mm, direction_W, tip_radius_mm, max_travel_mm);
     if (contact && (!first || contact->travel_mm < first->travel_mm)) {
-      first = Obstacle{contact->travel_mm, true, contact->point_P_mm};
+      first = Obstacle{contact->travel_mm, body.shape, contact->point_P_mm};
     } else if (!contact && contact.error().code != core::Code::kNoTouch) {
       return core::fail(contact.error());
     }
@@ -212,8 +225,8 @@ core::Error SimulatedMachine::stop_before(const Obstacle& obstacle, const Vector
   return {
       core::Code::kCollision,
       fmt::format("the tip met the {} at {} on the move to {}; the machine stopped at {}",
-                  obstacle.is_sphere ? "reference sphere" : "part", in_words(obstacle.point_W_mm),
-                  in_words(target_W_mm), in_words(position_W_mm_)),
+                  obstacle.reference ? name_of(*obstacle.reference) : "part",
+                  in_words(obstacle.point_W_mm), in_words(target_W_mm), in_words(position_W_mm_)),
       {}};
 }
 
@@ -296,7 +309,7 @@ core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const Touch
   if (!has_map(options_.errors) || reach_mm == 0.0) {
     TRY(const auto contact,
         first_obstacle(warm_part(), start, command.direction_W, tip_radius_mm(), reach_mm));
-    return Found{start + contact.travel_mm * command.direction_W, !contact.is_sphere};
+    return Found{start + contact.travel_mm * command.direction_W, !contact.reference};
   }
   // The errors bend a path of a few mm by less than 1e-9 mm: it is treated as a straight line.
   const Vector3d from = true_position(options_.errors, start, time_s);
@@ -306,7 +319,7 @@ core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const Touch
   TRY(const auto contact,
       first_obstacle(warm_part(), from, direction, tip_radius_mm(), way.norm()));
   return Found{reading_of(options_.errors, from + contact.travel_mm * direction, time_s),
-               !contact.is_sphere};
+               !contact.reference};
 }
 
 Vector3d SimulatedMachine::truth_of(const TouchCommand& command, const Found& found) const {

@@ -17,7 +17,7 @@ namespace rondure::cmm {
 
 /// A reference sphere on the table of a simulated machine, a reference column, a hole in a block,
 /// or a round flat spot.
-struct ReferenceSphere {
+struct ReferenceBody {
   enum class Shape { kSphere, kColumn, kHole, kSpot };
 
   Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();
@@ -72,8 +72,8 @@ class SimulatedMachine final : public Machine {
     place_part(SimulatedPart{{{surface}}}, X_WP);
   }
   void remove_part();
-  /// Replaces all spheres on the table.
-  void place_spheres(std::vector<ReferenceSphere> spheres);
+  /// Replaces all reference bodies.
+  void place_references(std::vector<ReferenceBody> bodies);
 
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] Capabilities capabilities() const override;
@@ -115,7 +115,7 @@ class SimulatedMachine final : public Machine {
   /// The first obstacle on a straight line.
   struct Obstacle {
     double travel_mm = 0.0;
-    bool is_sphere = false;
+    std::optional<ReferenceBody::Shape> reference;  ///< None: it is the part.
     Eigen::Vector3d point_W_mm = Eigen::Vector3d::Zero();
   };
 
@@ -128,7 +128,7 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] double tip_radius_mm() const;
   /// The part at its temperature, or nullptr.
   [[nodiscard]] const SimulatedPart* warm_part() const;
-  /// @param part  Null: there are only the reference spheres.
+  /// @param part  Null: there are only the reference bodies.
   [[nodiscard]] core::Result<Obstacle> first_obstacle(const SimulatedPart* part,
                                                       const Eigen::Vector3d& start_W_mm,
                                                       const Eigen::Vector3d& direction_W,
@@ -169,7 +169,7 @@ class SimulatedMachine final : public Machine {
   std::optional<SimulatedPart> part_;       ///< Part at 20 degC.
   std::optional<SimulatedPart> warm_part_;  ///< Part at its temperature.
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
-  std::vector<ReferenceSphere> spheres_;
+  std::vector<ReferenceBody> references_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> true_tips_W_mm_ = {Eigen::Vector3d::Zero()};
   double time_s_ = 0.0;

@@ -94,13 +94,13 @@ Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
 }
 
 /// The sphere or the column that qualifies the probe.
-cmm::ReferenceSphere reference_artefact(const Plan& plan) {
+cmm::ReferenceBody reference_artefact(const Plan& plan) {
   const QualificationPlan& q = plan.probe->qualification;
-  cmm::ReferenceSphere out{vector3(q.place_mm()), 0.5 * q.diameter_mm()};
+  cmm::ReferenceBody out{vector3(q.place_mm()), 0.5 * q.diameter_mm()};
   if (!q.on_column()) return out;
   const double lean_rad = plan.simulation->probe.column_lean_deg * core::kDegree;
   const Eigen::Vector3d axis(std::tan(lean_rad), 0.0, 1.0);
-  out.shape = cmm::ReferenceSphere::Shape::kColumn;
+  out.shape = cmm::ReferenceBody::Shape::kColumn;
   out.axis = axis.normalized();
   out.half_length_mm = 0.5 * (q.column_to_mm - q.column_from_mm);
   out.center_W_mm += 0.5 * (q.column_from_mm + q.column_to_mm) * axis;
@@ -121,13 +121,13 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
       true_X_WF_(true_base(plan.simulation->fixture)) {
   if (const auto& datum = plan.fixture->datum) {
     for (const DatumSpherePlan& sphere : datum->spheres) {
-      table_spheres_.push_back(
+      references_.push_back(
           {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
     }
     add_holes(*datum, 0.5 * plan.probe->tip_diameter_mm);
   }
-  table_spheres_.push_back(reference_artefact(plan));
-  machine_.place_spheres(table_spheres_);
+  references_.push_back(reference_artefact(plan));
+  machine_.place_references(references_);
   if (const auto& reached = plan.fixture->reached_pose) {
     for (const CarriedSpherePlan& sphere : reached->spheres) {
       ring_spheres_.push_back({vector3(sphere.center_mm), 0.5 * reached->sphere_diameter_mm});
@@ -136,18 +136,18 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
 }
 
 void SimulatedCell::add_holes(const DatumPlan& datum, double tip_mm) {
-  using Shape = cmm::ReferenceSphere::Shape;
+  using Shape = cmm::ReferenceBody::Shape;
   constexpr double kSpot_mm = 10.0;
   const Eigen::Vector3d up = true_X_WF_.linear().col(2);
   for (const DatumSeatPlan& at : datum.seat) {
-    table_spheres_.push_back({true_X_WF_ * vector3(at.point_mm), kSpot_mm, Shape::kSpot, 0.0, up});
+    references_.push_back({true_X_WF_ * vector3(at.point_mm), kSpot_mm, Shape::kSpot, 0.0, up});
   }
   for (const DatumHolePlan& hole : datum.holes) {
     const bool inside = hole.side == record::Side::kInside;
     // A hole goes on below its lowest touch.
     const double half_mm =
         0.5 * (hole.depth_mm + (inside ? 2.0 * tip_mm + datum.uncertainty_mm : 0.0));
-    table_spheres_.push_back(
+    references_.push_back(
         {true_X_WF_ * vector3(hole.center_mm) + (inside ? -half_mm : half_mm) * up,
          0.5 * hole.diameter_mm, inside ? Shape::kHole : Shape::kColumn, half_mm, up});
   }
@@ -252,14 +252,14 @@ void SimulatedCell::place_part() {
   const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
   const Eigen::Isometry3d X_WP = X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_;
   if (part_) machine_.place_part(*part_, X_WP);
-  std::vector<cmm::ReferenceSphere> spheres = table_spheres_;
-  for (const cmm::ReferenceSphere& ball : balls_) {
-    spheres.push_back({X_WP * ball.center_W_mm, ball.radius_mm});
+  std::vector<cmm::ReferenceBody> bodies = references_;
+  for (const cmm::ReferenceBody& ball : balls_) {
+    bodies.push_back({X_WP * ball.center_W_mm, ball.radius_mm});
   }
-  for (const cmm::ReferenceSphere& sphere : ring_spheres_) {
-    spheres.push_back({X_WB * sphere.center_W_mm, sphere.radius_mm});
+  for (const cmm::ReferenceBody& sphere : ring_spheres_) {
+    bodies.push_back({X_WB * sphere.center_W_mm, sphere.radius_mm});
   }
-  machine_.place_spheres(std::move(spheres));
+  machine_.place_references(std::move(bodies));
 }
 
 }  // namespace rondure::plans

@@ -91,12 +91,12 @@ class SimulatedCell final : public Cell {
   fixture::SimulatedFixture fixture_;  ///< Turns the part in software.
   cmm::SimulatedMachine machine_;
   std::vector<FeaturePlan> features_;
-  bool whole_part_ = false;                 ///< All surfaces at once: see has_whole_part().
-  std::optional<cmm::SimulatedPart> part_;  ///< None for balls on the ring.
-  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< Spheres on the table, machine frame.
-  std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
+  bool whole_part_ = false;                     ///< All surfaces at once: see has_whole_part().
+  std::optional<cmm::SimulatedPart> part_;      ///< None for balls on the ring.
+  std::vector<cmm::ReferenceBody> references_;  ///< On table and base, machine frame.
+  std::vector<cmm::ReferenceBody> balls_;       ///< Carried by the ring, part frame.
   /// Spheres that show the pose of the ring, body frame.
-  std::vector<cmm::ReferenceSphere> ring_spheres_;
+  std::vector<cmm::ReferenceBody> ring_spheres_;
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
   /// Shift of the part during the interruption.

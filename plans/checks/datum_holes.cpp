@@ -40,12 +40,13 @@ void check_hole(const Plan& plan, std::size_t index, Findings& findings) {
             inside ? "" : " and the radius of the ball"));
   }
   const double stylus_mm = plan.probe->stylus_length_mm;
-  if (inside && stylus_mm > 0.0 && stylus_mm < hole.depth_mm + plan.machine->clearance_mm) {
+  const double room_mm = plan.machine->clearance_mm + datum.uncertainty_mm;
+  if (stylus_mm > 0.0 && stylus_mm < hole.depth_mm + room_mm) {
     findings.meaning(
         Code::kMeaning, where + "/depth_mm",
-        fmt::format("a stylus of {:g} mm does not reach {:g} mm deep with {:g} mm of clearance "
-                    "(machine.clearance_mm) above",
-                    stylus_mm, hole.depth_mm, plan.machine->clearance_mm));
+        fmt::format("a stylus of {:g} mm does not reach {:g} mm below the {} with {:g} mm of room "
+                    "for what holds it (machine.clearance_mm, uncertainty_mm)",
+                    stylus_mm, hole.depth_mm, inside ? "mouth" : "top", room_mm));
   }
   for (std::size_t other = 0; other < index; ++other) {
     const DatumHolePlan& of = datum.holes[other];

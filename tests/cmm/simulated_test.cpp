@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -166,7 +169,7 @@ TEST(SimulatedMachine, MayGrazeASurfaceByAMicrometreThousandthButNotMore) {
 
 TEST(SimulatedMachine, StopsBeforeTheReferenceSphere) {
   SimulatedMachine machine({});
-  machine.place_spheres({{{0, 0, 100}, 12.5}});
+  machine.place_references({{{0, 0, 100}, 12.5}});
   ASSERT_TRUE(machine.home());
   const auto crash = machine.move_to({0.0, 0.0, 0.0});
   ASSERT_FALSE(crash);
@@ -177,10 +180,34 @@ TEST(SimulatedMachine, StopsBeforeTheReferenceSphere) {
   EXPECT_NEAR(reading->tip_W_mm.z(), 114.5, 1e-12);
 }
 
+TEST(SimulatedMachine, NamesTheReferenceBodyThatItMet) {
+  using Shape = ReferenceBody::Shape;
+  const Vector3d center(0.0, 0.0, 100.0);
+  for (const auto& [body, name] : std::vector<std::pair<ReferenceBody, std::string>>{
+           {{center, 12.5, Shape::kColumn, 10.0}, "the reference column or dowel at"},
+           {{center, 1.0, Shape::kHole, 10.0}, "the block of a hole at"},
+           {{center, 10.0, Shape::kSpot}, "the seat at"}}) {
+    SimulatedMachine machine({});
+    machine.place_references({body});
+    ASSERT_TRUE(machine.home());
+    const auto crash = machine.move_to({0.0, 0.0, 0.0});
+    ASSERT_FALSE(crash);
+    EXPECT_THAT(crash.error().what, HasSubstr("met " + name));
+  }
+  // A wide hole lets the tip through, which touches it from inside.
+  SimulatedMachine machine({});
+  machine.place_references({{center, 8.0, Shape::kHole, 10.0}});
+  ASSERT_TRUE(machine.home());
+  ASSERT_TRUE(machine.move_to(center));
+  const auto reading = machine.touch({1, {6.0, 0.0, 100.0}, Vector3d::UnitX(), 6.0, 3.0});
+  ASSERT_TRUE(reading) << reading.error().what;
+  EXPECT_NEAR(reading->tip_W_mm.x(), 6.0, 1e-9);
+}
+
 TEST(SimulatedMachine, TouchesWhatComesFirst) {
   SimulatedMachine machine({});
   place_shaft(machine);
-  machine.place_spheres({{{28.0, 0.0, 0.0}, 1.0}});
+  machine.place_references({{{28.0, 0.0, 0.0}, 1.0}});
   ASSERT_TRUE(machine.home());
   ASSERT_TRUE(machine.move_to({34.0, 0.0, 500.0}));
   ASSERT_TRUE(machine.move_to({34.0, 0.0, 0.0}));

@@ -1,15 +1,14 @@
 #include "plans/run/internal/datum_holes.h"
 
-#include <stdexcept>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/forecast/forecast.h"
 #include "plans/run/internal/fixture_calibration.h"
-#include "tests/plans/files.h"
+#include "tests/plans/fixture_base.h"
 
 namespace rondure::plans {
 namespace {
@@ -20,17 +19,12 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::Ran;
 
-constexpr double kTip_mm = 2.0;  // of example 01
+constexpr double kTip_mm = testing::kSpoolTip_mm;
 
-/// The spool in a world without errors but for where the fixture stands, which its holes tell.
+/// The base stands as its holes tell.
 Plan plan_on_holes(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
-  auto plan = read_plan(testing::example("01_spool_simulated.json"));
-  if (!plan) throw std::runtime_error(testing::lines_of(plan));  // fails the test
-  plan->simulation->part = {};
-  plan->simulation->probe = {};
-  plan->simulation->fixture = {};
-  DatumPlan& datum = plan->fixture->datum.emplace();
   using enum record::Side;
+  DatumPlan datum;
   datum.holes = {{{-240.0, -150.0, 60.0}, 16.0, kInside, 10.0},
                  {{240.0, -150.0, 58.0}, 12.0, kInside, 12.0},
                  {{-240.0, 150.0, 60.0}, 20.0, kOutside, 24.0}};
@@ -39,23 +33,7 @@ Plan plan_on_holes(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
                 {{-220.0, 180.0, 60.0}},
                 {{220.0, 180.0, 60.0}}};
   datum.uncertainty_mm = 2.0;
-  plan->features.front().pose_search.repeats = 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    plan->simulation->fixture.base_offset_mm[i] = offset_mm(k);
-    plan->simulation->fixture.base_rotation_deg[i] = rotation_deg(k);
-  }
-  return std::move(*plan);
-}
-
-/// Tip centres of seat and holes.
-std::vector<std::vector<Vector3d>> hole_touches(const Plan& plan, const record::RunRecord& record) {
-  std::vector<std::vector<Vector3d>> out(plan.fixture->datum->layers());
-  for (const record::Touch& touch : record.touches) {
-    if (touch.purpose == record::Touch::Purpose::kLocate && touch.pose < 0)
-      out[static_cast<std::size_t>(touch.layer)].push_back(touch.tip_mm);
-  }
-  return out;
+  return testing::spool_on(datum, offset_mm, rotation_deg);
 }
 
 /// Exact tip centres of seat and holes of a base that stands at X_WF.
@@ -77,16 +55,6 @@ std::vector<std::vector<Vector3d>> exact_tips(const DatumPlan& datum, const Isom
   return out;
 }
 
-Isometry3d base_placed(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
-  const Vector3d turn = rotation_deg * core::kDegree;
-  Isometry3d out = Isometry3d::Identity();
-  out.translate(offset_mm);
-  out.rotate(Eigen::AngleAxisd(turn.z(), Vector3d::UnitZ()) *
-             Eigen::AngleAxisd(turn.y(), Vector3d::UnitY()) *
-             Eigen::AngleAxisd(turn.x(), Vector3d::UnitX()));
-  return out;
-}
-
 TEST(DatumHoles, GiveTheBaseToANanometre) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -98,9 +66,9 @@ TEST(DatumHoles, GiveTheBaseToANanometre) {
     if (seed == 3) plan.fixture->datum->holes.pop_back();  // two holes are enough
     const Ran result = testing::ran(plan);
     ASSERT_FALSE(result.failure) << result.failure->what;
-    const auto found = fixture_base(plan, hole_touches(plan, result.record), kTip_mm);
+    const auto found = fixture_base(plan, testing::base_touches(plan, result.record), kTip_mm);
     ASSERT_TRUE(found) << found.error().what;
-    const Isometry3d truth = base_placed(offset, rotation);
+    const Isometry3d truth = testing::base_at(offset, rotation);
     for (const Vector3d& p : {Vector3d(0.0, 0.0, 150.0), Vector3d(200.0, 150.0, 250.0)})
       EXPECT_LT((found->motion * p - truth * p).norm(), 1e-6);
     EXPECT_LT(found->largest_residual_mm, 1e-6);
@@ -138,7 +106,7 @@ TEST(DatumHoles, ScatterOfTheTurnIsThatOfTheSpecification) {
 TEST(DatumHoles, RefuseWhatDoesNotFit) {
   const Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
   const DatumPlan& datum = *plan.fixture->datum;
-  const auto exact = exact_tips(datum, base_placed({0.3, -0.2, 0.1}, {0.02, -0.03, 0.05}));
+  const auto exact = exact_tips(datum, testing::base_at({0.3, -0.2, 0.1}, {0.02, -0.03, 0.05}));
   ASSERT_TRUE(base_from_holes(plan, exact, kTip_mm));
   const auto refused = [&](const auto& change) {
     auto tips = exact;
@@ -174,7 +142,8 @@ TEST(DatumHoles, RefuseWhatDoesNotFit) {
     wanted.holes[0].diameter_mm = wanted.holes[1].diameter_mm = 12.0;
     std::swap(tips[1], tips[2]);
   });
-  EXPECT_NE(swapped.what, "");
+  EXPECT_EQ(swapped.code, core::Code::kLocation);
+  EXPECT_THAT(swapped.what, HasSubstr("hole 1 of the fixture stands 480."));
 }
 
 TEST(DatumHoles, ARunThatEndsAtAHoleSaysWhere) {
@@ -216,6 +185,29 @@ TEST(DatumHoles, ADowelIsAnObstacle) {
   ASSERT_FALSE(told);
   EXPECT_EQ(told.error().code, core::Code::kUnreachable);
   EXPECT_THAT(told.error().what, HasSubstr("a dowel or bolt head of the fixture"));
+}
+
+TEST(DatumHoles, KeepWhatHoldsTheStylusAndTheParkedTipAboveThem) {
+  nlohmann::json plan =
+      nlohmann::json::parse(testing::bytes_of(testing::example("01_spool_simulated.json")));
+  plan["probe"].update({{"stylus_length_mm", 60}, {"stylus_diameter_mm", 2}});
+  auto& datum = plan["fixture"]["datum"];
+  datum = nlohmann::json::parse(R"({"seat": [{"point_mm": [-220, -180, 60]},
+    {"point_mm": [220, -180, 60]}, {"point_mm": [0, 180, 60]}], "holes": [
+    {"center_mm": [-240, -150, 60], "diameter_mm": 12, "side": "outside", "depth_mm": 50},
+    {"center_mm": [240, -150, 60], "diameter_mm": 12, "depth_mm": 50}]})");
+  const auto read = [&] { return parse_plan(plan.dump(), "", "plan.json"); };
+  EXPECT_TRUE(read()) << testing::lines_of(read());
+  for (auto& hole : datum["holes"]) hole["depth_mm"] = 55;  // and 5 mm of clearance, 1 of place
+  EXPECT_THAT(
+      testing::lines_of(read()),
+      AllOf(HasSubstr("/fixture/datum/holes/0/depth_mm: a stylus of 60 mm does not reach 55 "
+                      "mm below the top with 6 mm of room"),
+            HasSubstr("/fixture/datum/holes/1/depth_mm: a stylus of 60 mm does not reach 55 "
+                      "mm below the mouth")));
+  for (auto& hole : datum["holes"]) hole["depth_mm"] = 50;
+  for (auto& at : datum["seat"]) at["point_mm"][2] = 495;
+  EXPECT_THAT(testing::lines_of(read()), HasSubstr("park height 500 mm is below 503.000 mm"));
 }
 
 }  // namespace

@@ -1,17 +1,13 @@
 #include "plans/run/internal/fixture_calibration.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
-#include "core/units.h"
 #include "plans/forecast/forecast.h"
-#include "plans/path/internal/nominal_geometry.h"
-#include "plans/run/runner.h"
-#include "tests/plans/files.h"
+#include "tests/plans/fixture_base.h"
 
 namespace rondure::plans {
 namespace {
@@ -20,39 +16,16 @@ using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// The spool in a world without errors but for where the fixture stands.
 Plan plan_with_base(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
-  auto plan = read_plan(testing::example("01_spool_simulated.json"));
-  if (!plan) throw std::runtime_error(testing::lines_of(plan));  // fails the test
-  plan->simulation->part = {};
-  plan->simulation->probe = {};
-  plan->simulation->fixture = {};
-  plan->fixture->datum.emplace();
-  DatumPlan& datum = *plan->fixture->datum;
+  DatumPlan datum;
   datum.spheres = {{{-200.0, -150.0, 60.0}}, {{-200.0, 150.0, 60.0}}, {{200.0, -150.0, 60.0}}};
   datum.uncertainty_mm = 3.0;
-  plan->features.front().pose_search.repeats = 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    plan->simulation->fixture.base_offset_mm[i] = offset_mm(k);
-    plan->simulation->fixture.base_rotation_deg[i] = rotation_deg(k);
-  }
-  return std::move(*plan);
+  return testing::spool_on(datum, offset_mm, rotation_deg);
 }
 
 using testing::Ran;
 
 Ran run(const Plan& plan) { return testing::ran(plan); }
-
-std::vector<std::vector<Vector3d>> base_touches(const record::RunRecord& record) {
-  std::vector<std::vector<Vector3d>> out(3);
-  for (const record::Touch& touch : record.touches) {
-    if (touch.purpose == record::Touch::Purpose::kLocate && touch.pose < 0) {
-      out[static_cast<std::size_t>(touch.layer)].push_back(touch.tip_mm);
-    }
-  }
-  return out;
-}
 
 TEST(FixtureBase, IsRecoveredToANanometre) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -64,14 +37,10 @@ TEST(FixtureBase, IsRecoveredToANanometre) {
     const Plan plan = plan_with_base(offset, rotation);
     const Ran result = run(plan);
     ASSERT_FALSE(result.failure) << result.failure->what;
-    const auto found = fixture_base(plan, base_touches(result.record));
+    const auto found =
+        fixture_base(plan, testing::base_touches(plan, result.record), testing::kSpoolTip_mm);
     ASSERT_TRUE(found) << found.error().what;
-    Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
-    const Vector3d turn = rotation * core::kDegree;
-    truth.translate(offset);
-    truth.rotate(Eigen::AngleAxisd(turn.z(), Vector3d::UnitZ()) *
-                 Eigen::AngleAxisd(turn.y(), Vector3d::UnitY()) *
-                 Eigen::AngleAxisd(turn.x(), Vector3d::UnitX()));
+    const Eigen::Isometry3d truth = testing::base_at(offset, rotation);
     for (const Vector3d& p : {Vector3d(0.0, 0.0, 150.0), Vector3d(200.0, 150.0, 250.0)}) {
       EXPECT_LT((found->motion * p - truth * p).norm(), 1e-6);
     }
@@ -94,14 +63,14 @@ TEST(FixtureBase, BringsThePartUprightAndWithinTheFirstSearch) {
 
 TEST(FixtureBase, RefusesSpheresThatDoNotFitOrStandTooFarOff) {
   Plan plan = plan_with_base({0.1, 0.0, 0.0}, {0.0, 0.0, 0.0});
-  const auto touches = base_touches(run(plan).record);
+  const auto touches = testing::base_touches(plan, run(plan).record);
   plan.fixture->datum->spheres[1].center_mm[1] += 0.1;
-  const auto crooked = fixture_base(plan, touches);
+  const auto crooked = fixture_base(plan, touches, testing::kSpoolTip_mm);
   ASSERT_FALSE(crooked);
   EXPECT_EQ(crooked.error().code, core::Code::kCalibration);
   EXPECT_THAT(crooked.error().what, HasSubstr("the limit is 20 um (residual_limit_um)"));
   plan.fixture->datum->uncertainty_mm = 0.05;
-  const auto far = fixture_base(plan, touches);
+  const auto far = fixture_base(plan, touches, testing::kSpoolTip_mm);
   ASSERT_FALSE(far);
   EXPECT_EQ(far.error().code, core::Code::kLocation);
   EXPECT_THAT(far.error().what,
@@ -118,7 +87,7 @@ TEST(FixtureBase, ARunThatEndsAtASphereSaysAtWhich) {
   plan.simulation->faults.connection_lost_at_touch = static_cast<int>(second - touches.begin()) + 1;
   const auto failure = run(plan).failure;
   ASSERT_TRUE(failure);
-  EXPECT_THAT(failure->what, HasSubstr("sphere of the fixture 2, point 1: "));
+  EXPECT_THAT(failure->what, HasSubstr("sphere 2 of the fixture, point 1: "));
 }
 
 TEST(FixtureBase, IsTakenFromTheJournalByARunThatGoesOn) {

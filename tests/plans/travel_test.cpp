@@ -229,7 +229,7 @@ TEST(Travel, GoesAroundTheReferenceSphereWithoutTouchingIt) {
   for (const int points : {5, 13, 40}) {
     const auto directions = *qualification_directions(points);
     cmm::SimulatedMachine machine({});
-    machine.place_spheres({{center, 12.5}});
+    machine.place_references({{center, 12.5}});
     const double expected_mm = 12.5 + g.tip_radius_mm;
     ASSERT_TRUE(machine.home());
     ASSERT_TRUE(machine.move_to(center + 300.0 * Vector3d::UnitZ()));

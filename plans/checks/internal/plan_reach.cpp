@@ -170,6 +170,8 @@ core::Result<void> check_room(const Plan& plan) {
       highest_mm = std::max(
           highest_mm, of.center_mm[2] + 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
     }
+    for (const DatumSeatPlan& of : datum->seat)
+      highest_mm = std::max(highest_mm, of.point_mm[2] + datum->uncertainty_mm);
     for (const DatumHolePlan& of : datum->holes) {
       const double out_mm = of.side == record::Side::kOutside ? of.depth_mm : 0.0;
       highest_mm = std::max(highest_mm, of.center_mm[2] + out_mm + datum->uncertainty_mm);

@@ -10,8 +10,8 @@
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/plane.h"
-#include "plans/analyses/features.h"
 #include "plans/path/internal/nominal_geometry.h"
+#include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/qualification.h"
 
 namespace rondure::plans {
@@ -80,7 +80,7 @@ core::Result<fit::Plane> seat_plane(const DatumPlan& datum, const std::vector<Ve
                                     double tip_radius_mm) {
   TRY(auto found, fit::ls_plane(tips, Vector3d(Vector3d::UnitZ())));
   if (found.deviation_mm > datum.residual_limit_um * kMicrometre)
-    return uneven(name_of_layer(datum, 0), found.deviation_mm, datum.residual_limit_um);
+    return uneven(datum_name(datum, 0), found.deviation_mm, datum.residual_limit_um);
   found.plane.point_mm -= tip_radius_mm * found.plane.normal;
   for (std::size_t i = 0; i < datum.seat.size(); ++i) {
     const double off_mm = fit::height_mm(found.plane, vector3(datum.seat[i].point_mm));
@@ -99,7 +99,7 @@ core::Result<Vector3d> hole_center(const DatumPlan& datum, std::size_t index,
                                    const std::vector<Vector3d>& tips, const fit::Plane& seat,
                                    double tip_radius_mm) {
   const DatumHolePlan& hole = datum.holes[index];
-  const std::string name = name_of_layer(datum, index + 1);
+  const std::string name = datum_name(datum, index + 1);
   const Eigen::Matrix<double, 3, 2> along = fit::across(seat.normal);
   std::vector<Eigen::Vector2d> seen;
   for (const Vector3d& tip : tips) seen.emplace_back(along.transpose() * (tip - seat.point_mm));
@@ -127,25 +127,8 @@ core::Result<Vector3d> hole_center(const DatumPlan& datum, std::size_t index,
 
 }  // namespace
 
-std::string name_of_layer(const DatumPlan& datum, std::size_t layer) {
-  if (layer == 0) return "the seat of the fixture";
-  const bool inside = datum.holes[layer - 1].side == record::Side::kInside;
-  return fmt::format("{} {} of the fixture", inside ? "hole" : "dowel or bolt head", layer);
-}
-
-core::Result<std::vector<TouchStep>> hole_steps(const Plan& plan) {
-  const DatumPlan& datum = *plan.fixture->datum;
-  const auto clamped = std::find_if(plan.features.begin(), plan.features.end(), needs_machine);
-  const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
-  std::vector<TouchStep> out;
-  for (std::size_t layer = 0; layer <= datum.holes.size(); ++layer) {
-    auto steps = layer == 0 ? seat_steps(plan) : steps_of_hole(plan, layer - 1);
-    const auto& place = layer == 0 ? datum.seat.front().point_mm : datum.holes[layer - 1].center_mm;
-    TRY_DO(check_sphere_steps(plan, *clamped, X_WB, place, datum.uncertainty_mm, steps,
-                              name_of_layer(datum, layer)));
-    std::move(steps.begin(), steps.end(), std::back_inserter(out));
-  }
-  return out;
+std::vector<TouchStep> layer_steps(const Plan& plan, std::size_t layer) {
+  return layer == 0 ? seat_steps(plan) : steps_of_hole(plan, layer - 1);
 }
 
 core::Result<fit::Registration> base_from_holes(const Plan& plan,
@@ -170,7 +153,7 @@ core::Result<fit::Registration> base_from_holes(const Plan& plan,
       Code::kCalibration,
       "{} is {:.3f} um off the place that all of them give it, the limit is {:g} um "
       "(residual_limit_um); check the certified centres, and their order",
-      name_of_layer(datum, worst + 1), base.largest_residual_mm / kMicrometre,
+      datum_name(datum, worst + 1), base.largest_residual_mm / kMicrometre,
       datum.residual_limit_um);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,14 +11,9 @@
 
 namespace rondure::plans {
 
-/// What a layer of hole_steps() touches: "the seat of the fixture", "hole 2 of the fixture".
-[[nodiscard]] std::string name_of_layer(const DatumPlan& datum, std::size_t layer);
-
-/// Steps that touch the seat of the fixture and then its holes, dowels and bolt heads
-/// (`fixture.datum.seat`, `.holes`). Layer 0 is the seat, layer i + 1 is hole i. A hole is touched
-/// from its axis, the highest height first.
-/// @return kUnreachable where a known obstacle is in the way.
-[[nodiscard]] core::Result<std::vector<TouchStep>> hole_steps(const Plan& plan);
+/// Steps that touch the seat of the fixture (layer 0) or one of its holes, dowels and bolt heads
+/// (layer i + 1: hole i). A hole is touched from its axis, the highest height first.
+[[nodiscard]] std::vector<TouchStep> layer_steps(const Plan& plan, std::size_t layer);
 
 /// The base frame of the fixture from these touches. The least-squares plane through the contact
 /// points of the seat gives the normal and the height; the centre of a hole is that of the

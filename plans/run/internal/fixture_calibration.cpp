@@ -1,8 +1,9 @@
 #include "plans/run/internal/fixture_calibration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -24,20 +25,38 @@ constexpr const char* kDatumPointer = "/fixture/datum";
 core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
                                            const std::vector<Vector3d>& tips) {
   const DatumPlan& datum = *plan.fixture->datum;
-  const auto center =
-      sphere_center(plan, tips, fmt::format("sphere {} of the fixture", sphere + 1));
+  const auto center = sphere_center(plan, tips, datum_name(datum, sphere));
   if (!center) return core::fail(center.error().at(kDatumPointer));
   const double off_mm = (*center - vector3(datum.spheres[sphere].center_mm)).norm();
   if (off_mm <= datum.uncertainty_mm) return *center;
   return core::fail(core::Code::kLocation,
-                    fmt::format("sphere {} of the fixture stands {:.3f} mm from its nominal "
-                                "place, the plan allows {:g} mm (uncertainty_mm); check where the "
-                                "fixture is bolted",
-                                sphere + 1, off_mm, datum.uncertainty_mm),
+                    fmt::format("{} stands {:.3f} mm from its nominal place, the plan allows "
+                                "{:g} mm (uncertainty_mm); check where the fixture is bolted",
+                                datum_name(datum, sphere), off_mm, datum.uncertainty_mm),
                     kDatumPointer);
 }
 
+core::Result<std::vector<TouchStep>> reference_sphere_steps(const Plan& plan, std::size_t index) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  return sphere_steps(
+      plan, {vector3(datum.spheres[index].center_mm), 0.5 * datum.sphere_diameter_mm, datum.points,
+             datum.uncertainty_mm, record::Touch::Purpose::kLocate, static_cast<int>(index)});
+}
+
+/// Where the plan has what a layer touches.
+const std::array<double, 3>& place_of(const DatumPlan& datum, std::size_t layer) {
+  if (!datum.on_holes()) return datum.spheres[layer].center_mm;
+  return layer == 0 ? datum.seat.front().point_mm : datum.holes[layer - 1].center_mm;
+}
+
 }  // namespace
+
+std::string datum_name(const DatumPlan& datum, std::size_t layer) {
+  if (!datum.on_holes()) return fmt::format("sphere {} of the fixture", layer + 1);
+  if (layer == 0) return "the seat of the fixture";
+  const bool inside = datum.holes[layer - 1].side == record::Side::kInside;
+  return fmt::format("{} {} of the fixture", inside ? "hole" : "dowel or bolt head", layer);
+}
 
 core::Message base_message(const fit::Registration& base) {
   const Vector3d shift = base.motion.translation();
@@ -52,29 +71,18 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
   std::vector<TouchStep> out;
   if (!plan.fixture->datum) return out;
   const DatumPlan& datum = *plan.fixture->datum;
-  if (datum.on_holes()) {
-    auto steps = hole_steps(plan);
-    if (!steps) return core::fail(steps.error().at(kDatumPointer));
-    return steps;
-  }
   const auto clamped = std::find_if(plan.features.begin(), plan.features.end(), needs_machine);
   const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
-  for (std::size_t i = 0; i < datum.spheres.size(); ++i) {
-    const SphereToTouch sphere = {vector3(datum.spheres[i].center_mm),
-                                  0.5 * datum.sphere_diameter_mm,
-                                  datum.points,
-                                  datum.uncertainty_mm,
-                                  record::Touch::Purpose::kLocate,
-                                  static_cast<int>(i)};
-    const auto steps = sphere_steps(plan, sphere);
+  for (std::size_t layer = 0; layer < datum.layers(); ++layer) {
+    auto steps = datum.on_holes() ? core::Result<std::vector<TouchStep>>(layer_steps(plan, layer))
+                                  : reference_sphere_steps(plan, layer);
     if (!steps) return core::fail(steps.error().at(kDatumPointer));
-    if (auto clear = check_sphere_steps(plan, *clamped, X_WB, datum.spheres[i].center_mm,
-                                        datum.uncertainty_mm, *steps,
-                                        fmt::format("sphere {} of the fixture", i + 1));
+    if (auto clear = check_sphere_steps(plan, *clamped, X_WB, place_of(datum, layer),
+                                        datum.uncertainty_mm, *steps, datum_name(datum, layer));
         !clear) {
       return core::fail(clear.error().at(kDatumPointer));
     }
-    out.insert(out.end(), steps->begin(), steps->end());
+    std::move(steps->begin(), steps->end(), std::back_inserter(out));
   }
   return out;
 }
@@ -114,10 +122,8 @@ core::Result<void> find_fixture_base(RunContext& context, double tip_radius_mm) 
   TRY(auto steps, datum_steps(context.plan));
   if (steps.empty()) return {};
   const DatumPlan& datum = *context.plan.fixture->datum;
-  TRY(const auto tips, touch_spheres(context, steps, [&](std::size_t i) {
-        return datum.on_holes() ? name_of_layer(datum, i)
-                                : fmt::format("sphere of the fixture {}", i + 1);
-      }));
+  TRY(const auto tips,
+      touch_spheres(context, steps, [&](std::size_t i) { return datum_name(datum, i); }));
   TRY(const auto base, fixture_base(context.plan, tips, tip_radius_mm));
   context.cell->set_base(base.motion);
   const core::Message found = base_message(base);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,10 +13,14 @@
 
 namespace rondure::plans {
 
+/// What a layer of datum_steps() touches, for messages: "sphere 2 of the fixture".
+[[nodiscard]] std::string datum_name(const DatumPlan& datum, std::size_t layer);
+
 /// Steps that touch the reference spheres on the base of the fixture, one after the other: from
 /// park height down to the pole, around, up again. Approach and search are longer by the largest
-/// offset of the base. `row.layer` is the sphere. With holes: hole_steps(). Empty without
-/// `fixture.datum`.
+/// offset of the base. `row.layer` is the sphere. With holes: layer_steps() of all layers. Empty
+/// without `fixture.datum`.
+/// @return kUnreachable where a known obstacle is in the way.
 [[nodiscard]] core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan);
 
 /// The base frame of the fixture, from the touches of its spheres: fits each sphere, then registers
@@ -27,7 +32,7 @@ namespace rondure::plans {
 ///          kLocation when a sphere is farther off than uncertainty_mm.
 [[nodiscard]] core::Result<fit::Registration> fixture_base(
     const Plan& plan, std::span<const std::vector<Eigen::Vector3d>> tips_W_mm,
-    double tip_radius_mm = 0.0);
+    double tip_radius_mm);
 
 /// A base that was found, for the journal: shift [mm], turn as a rotation vector [deg], residual.
 [[nodiscard]] core::Message base_message(const fit::Registration& base);

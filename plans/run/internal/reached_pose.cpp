@@ -145,7 +145,7 @@ core::Result<core::Pose> measure_reached_pose(RunContext& context,
                                               const std::vector<TouchStep>& steps,
                                               const core::Pose& asked) {
   TRY(const auto tips, touch_spheres(context, steps, [](std::size_t i) {
-        return fmt::format("sphere on the ring {}", i + 1);
+        return fmt::format("sphere {} on the ring", i + 1);
       }));
   return reached_pose(context.plan, context.cell->kinematics(), tips, asked);
 }
