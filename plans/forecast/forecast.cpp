@@ -13,6 +13,7 @@
 #include "plans/path/internal/cloud_path.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/rotary_poses.h"
+#include "plans/run/internal/fixture_base.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/pose_search.h"
 #include "plans/run/internal/qualification.h"

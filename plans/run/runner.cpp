@@ -15,6 +15,7 @@
 #include "plans/checks/laboratory.h"
 #include "plans/checks/points_file.h"
 #include "plans/resume/internal/recorded_run.h"
+#include "plans/run/internal/fixture_base.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/inspection.h"
 #include "plans/run/internal/part_place.h"

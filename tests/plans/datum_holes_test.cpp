@@ -1,4 +1,4 @@
-#include "plans/run/internal/datum_holes.h"
+#include "plans/run/internal/fixture_base.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/forecast/forecast.h"
-#include "plans/run/internal/fixture_calibration.h"
 #include "tests/plans/fixture_base.h"
 
 namespace rondure::plans {
@@ -94,7 +93,7 @@ TEST(DatumHoles, ScatterOfTheTurnIsThatOfTheSpecification) {
       const Vector3d off(1e-3 * random.normal(), 1e-3 * random.normal(), 0.0);
       for (Vector3d& tip : tips[i]) tip += off;
     }
-    const auto found = base_from_holes(plan, tips, kTip_mm);
+    const auto found = fixture_base(plan, tips, kTip_mm);
     ASSERT_TRUE(found) << found.error().what;
     const double turn_rad = found->motion.linear()(1, 0);
     squares += turn_rad * turn_rad;
@@ -107,7 +106,7 @@ TEST(DatumHoles, RefuseWhatDoesNotFit) {
   const Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
   const DatumPlan& datum = *plan.fixture->datum;
   const auto exact = exact_tips(datum, testing::base_at({0.3, -0.2, 0.1}, {0.02, -0.03, 0.05}));
-  ASSERT_TRUE(base_from_holes(plan, exact, kTip_mm));
+  ASSERT_TRUE(fixture_base(plan, exact, kTip_mm));
   const auto refused = [&](const auto& change) {
     auto tips = exact;
     Plan other = plan;

@@ -1,4 +1,4 @@
-#include "plans/run/internal/fixture_calibration.h"
+#include "plans/run/internal/fixture_base.h"
 
 #include <algorithm>
 

@@ -10,7 +10,7 @@
 #include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/run/internal/fixture_calibration.h"
+#include "plans/run/internal/fixture_base.h"
 #include "plans/run/internal/inspection.h"
 #include "plans/run/internal/qualification.h"
 
