@@ -86,23 +86,23 @@ test_rooms() {  # ROOM...
   ctest --preset release -R "^($*)\\."
 }
 
-# Chromium comes while the compiler works, where nobody has to be asked for a password. Everything but the browser tests
-# runs also without it.
-fetch_browser() {
-  browser="" log=$(new_log browser)
+# What the tests start comes while the compiler works, where nobody has to be asked for a password. Everything but the
+# browser tests runs also without Chromium.
+fetch_programs() {
+  fetching="" browser="" log=$(new_log programs)
   if [ "$(id -u)" -eq 0 ]; then
-    (ensure_packages $rondure_browser_packages) >"$log" 2>&1 &
-    browser=$!
+    (ensure_packages $rondure_test_programs; ensure_packages $rondure_browser_packages) >"$log" 2>&1 &
+    fetching=$!
   else
+    ensure_packages $rondure_test_programs
     (ensure_packages $rondure_browser_packages) || browser=none
   fi
 }
-await_browser() {
-  if [ "$browser" = none ] || { [ -n "$browser" ] && ! wait "$browser"; }; then
-    cat "$log" >&2
-    echo "Without these packages the browser tests are skipped." >&2
-  fi
+await_programs() {
+  [ -z "$fetching" ] || wait "$fetching" || { cat "$log" >&2; browser=none; }
   rm -f "$log"
+  ensure_packages $rondure_test_programs
+  [ "$browser" != none ] || echo "Without these packages the browser tests are skipped." >&2
 }
 
 # The commit that last passed ./test.sh here, with nothing uncommitted.
@@ -126,7 +126,7 @@ case "${1:-}" in
   -h | --help) usage; exit ;;
   -*) wrong ;;
 esac
-ensure_packages $rondure_build_packages $rondure_test_packages
+ensure_packages $rondure_build_packages $rondure_test_libraries
 [ $# -eq 0 ] && mode=all || mode=$1
 if [ "$mode" = --changed ]; then
   changed=$(changed_rooms "${2:-}")
@@ -137,17 +137,18 @@ if [ "$mode" = --changed ]; then
 fi
 case "$mode" in
   --sanitizers)
+    ensure_packages $rondure_test_programs
     build asan ON all
     echo "Not run under the sanitizers: tests/unsanitized.txt"
     exec ctest --preset asan -E "$unsanitized"
     ;;
   all | --full)
-    fetch_browser
+    fetch_programs
     ;;&
   all)
     clean && commit=$(git rev-parse HEAD) || commit=""
     build release ON all
-    await_browser
+    await_programs
     # The tests wait for much and leave room on two cores: `doors` is built meanwhile, at the lowest priority, in a
     # process group of its own.
     set -m
@@ -164,10 +165,13 @@ case "$mode" in
   --full)
     export RONDURE_FULL=1
     build release ON all
-    await_browser
+    await_programs
     ctest --preset release
     build tsan ON threads_tests
     env -u RONDURE_FULL ctest --preset tsan -R "^threads\.(GrowingRecord|Live|Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"
     ;;
-  *) test_rooms "$@" ;;
+  *)
+    ensure_packages $rondure_test_programs
+    test_rooms "$@"
+    ;;
 esac

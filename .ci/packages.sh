@@ -6,8 +6,9 @@
 rondure_build_packages="g++ cmake ninja-build git gettext libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
   libasio-dev libsoci-dev libpq-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
   pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev"
-rondure_test_packages="libgtest-dev libgmock-dev python3-jsonschema postgresql openssl libumockdev-dev umockdev
-  libxml2-utils dpkg-dev lintian"
+# The tests are compiled with the libraries and start the programs.
+rondure_test_libraries="libgtest-dev libgmock-dev libumockdev-dev"
+rondure_test_programs="python3-jsonschema postgresql openssl umockdev libxml2-utils dpkg-dev lintian"
 rondure_browser_packages="chromium nodejs npm fonts-dejavu-core fonts-noto-cjk poppler-utils"
 rondure_benchmark_packages="libbenchmark-dev libnlopt-cxx-dev libalglib-dev python3"
 rondure_fuzz_packages="clang-14 libclang-rt-14-dev"

@@ -96,7 +96,7 @@ std::vector<std::string> archived_results(const fs::path& archive) {
 
 /// The run that nothing interrupts, and how long it takes.
 struct Whole {
-  Scratch folder;
+  Scratch folder{Scratch::Where::kDisk};
   record::RunRecord record;
   std::string bits;
   std::string csv;
@@ -134,7 +134,7 @@ void expect_equal(const fs::path& run, const Whole& whole) {
 }
 
 TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
-  const Scratch plans;
+  const Scratch plans(Scratch::Where::kDisk);
   const fs::path plan = plan_in(plans);
   const Whole whole(plan);
   std::uint64_t state = 20261121;
@@ -144,7 +144,7 @@ TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
   std::size_t equal = 0;  // until the first that is not
   for (std::size_t i = 0; i < runs(); ++i) {
     SCOPED_TRACE(i);
-    const Scratch folder;
+    const Scratch folder(Scratch::Where::kDisk);
     const fs::path run = folder / "run";
     const std::vector<std::string> words = {"run", plan, "--out", run, "--resume", "--quiet"};
     // A stratum of the run each, its end among them; every third run dies twice, some oftener.
@@ -174,7 +174,7 @@ TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
 void expect_survives_kill_when(const Whole& whole, const fs::path& plan, const std::string& name,
                                bool appears, std::chrono::microseconds later) {
   SCOPED_TRACE(name + (appears ? " appears, " : " is gone, ") + std::to_string(later.count()));
-  const Scratch folder;
+  const Scratch folder(Scratch::Where::kDisk);
   const fs::path run = folder / "run";
   const std::vector<std::string> words = {"run", plan, "--out", run, "--resume", "--quiet"};
   {
@@ -197,7 +197,7 @@ void expect_survives_kill_when(const Whole& whole, const fs::path& plan, const s
 }
 
 TEST(KilledWhile, ItBeginsSealsWritesReportsOrArchives) {
-  const Scratch plans;
+  const Scratch plans(Scratch::Where::kDisk);
   const fs::path plan = plan_in(plans);
   const Whole whole(plan);
   const int rounds = test::cases(1, 2, 20);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdlib.h>
+#include <sys/statvfs.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,15 +18,16 @@ namespace rondure::test {
 class Scratch {
  public:
   enum class Where {
-    kDisk,
-    kMemory,  ///< where there is such a folder: for what writes much and looks at no disk
+    kMemory,  ///< where memory_folder() is one: journals wait for a disk at every touch
+    kDisk,    ///< for what is about the disk: what a killed program leaves, what a flush costs
   };
 
-  explicit Scratch(Where where = Where::kDisk) {
-    const std::filesystem::path memory = "/dev/shm";
-    const bool there = where == Where::kMemory && std::filesystem::is_directory(memory);
+  explicit Scratch(Where where = Where::kMemory) {
+    const std::filesystem::path memory = memory_folder();
     std::string name =
-        ((there ? memory : std::filesystem::temp_directory_path()) / "rondure test XXXXXX")
+        ((where == Where::kMemory && !memory.empty() ? memory
+                                                     : std::filesystem::temp_directory_path()) /
+         "rondure test XXXXXX")
             .string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
     path_ = name;
@@ -49,6 +51,19 @@ class Scratch {
     }
     std::sort(names.begin(), names.end());
     return names;
+  }
+
+  /// A file system in memory that has room and lets programs start; empty where there is none, or
+  /// where TMPDIR names the place.
+  [[nodiscard]] static std::filesystem::path memory_folder() {
+    constexpr double kRoom = 1e9;  // bytes; a container may give 64 MB
+    const char* const folder = "/dev/shm";
+    struct statvfs found = {};
+    const bool good =
+        ::getenv("TMPDIR") == nullptr && ::statvfs(folder, &found) == 0 &&
+        (found.f_flag & (ST_RDONLY | ST_NOEXEC)) == 0 &&
+        static_cast<double>(found.f_bavail) * static_cast<double>(found.f_frsize) >= kRoom;
+    return good ? folder : "";
   }
 
  private:

@@ -152,7 +152,7 @@ void try_cases(const Counts& counts, const std::function<std::string(unsigned se
 }
 
 const std::filesystem::path& work_folder() {
-  static const test::Scratch folder(test::Scratch::Where::kMemory);
+  static const test::Scratch folder;
   static const int set = ::setenv("TMPDIR", folder.path().c_str(), 1);
   (void)set;
   return folder.path();

@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 target=${1:?which target: ipp_server or ipp_grammar}
 runs=${2:-1000000}
 . .ci/packages.sh
-ensure_packages $rondure_build_packages $rondure_test_packages $rondure_fuzz_packages
+ensure_packages $rondure_build_packages $rondure_test_libraries $rondure_fuzz_packages
 flags="-fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=all"
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=/usr/bin/clang++-14 \
   -DCMAKE_CXX_FLAGS="$flags" -DRONDURE_FUZZERS=ON >/dev/null

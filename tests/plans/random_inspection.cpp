@@ -92,7 +92,7 @@ plans::Plan random_plan(std::uint64_t seed, const std::string& strategy, double 
 }
 
 Inspection inspect(const plans::Plan& plan) {
-  const Scratch directory(Scratch::Where::kMemory);
+  const Scratch directory;
   plans::RunOptions options;
   options.directory = directory / "run";
   options.run_id = "test";

@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(Files, GiveBackTheBytesThatWereWritten) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   std::string bytes(300'000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
   for (const std::string& content : {std::string(), std::string("x"), bytes}) {
@@ -33,7 +33,7 @@ TEST(Files, GiveBackTheBytesThatWereWritten) {
 }
 
 TEST(Files, AreReadableForOthersAsTheUserWants) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const mode_t before = ::umask(027);
   ASSERT_TRUE(write_file(scratch / "file", "x"));
   ::umask(before);
@@ -43,7 +43,7 @@ TEST(Files, AreReadableForOthersAsTheUserWants) {
 }
 
 TEST(Files, ThatCannotBeReadAreNamedWithTheReason) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const auto missing = read_file(scratch / "missing.csv");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, core::Code::kFile);
@@ -55,7 +55,7 @@ TEST(Files, ThatCannotBeReadAreNamedWithTheReason) {
 }
 
 TEST(Files, ThatAreNoneAreRefusedAndNotWaitedFor) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   ASSERT_EQ(::mkfifo((scratch / "pipe").c_str(), 0600), 0);
   for (const std::string& name : {(scratch / "pipe").string(), std::string("/dev/zero")}) {
     const auto read = read_file(name);
@@ -65,7 +65,7 @@ TEST(Files, ThatAreNoneAreRefusedAndNotWaitedFor) {
 }
 
 TEST(Files, AreWrittenThoughAProcessOfTheSameNumberLeftItsOwnBehind) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   // As a killed program of this number leaves them, in a container for one: each is number 1 there.
   for (int i = 0; i < 200; ++i) {
     const std::string name = ".rondure-" + std::to_string(::getpid()) + "-" + std::to_string(i);
@@ -77,8 +77,8 @@ TEST(Files, AreWrittenThoughAProcessOfTheSameNumberLeftItsOwnBehind) {
 }
 
 TEST(Files, BelowADirectoryAreReachedThroughNoLink) {
-  const Scratch scratch;
-  const Scratch elsewhere;
+  const Scratch scratch(Scratch::Where::kDisk);
+  const Scratch elsewhere(Scratch::Where::kDisk);
   ASSERT_TRUE(write_inside(scratch.path(), "tables/a.csv", "x"));
   EXPECT_EQ(*read_inside(scratch.path(), "tables/a.csv"), "x");
   EXPECT_EQ(*sha256_inside(scratch.path(), "tables/a.csv"), sha256_hex("x"));
@@ -105,7 +105,7 @@ TEST(Files, BelowADirectoryAreReachedThroughNoLink) {
 }
 
 TEST(Files, LongerThanTheirLimitAreRefusedUnread) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   ASSERT_TRUE(write_file(scratch / "long", ""));
   std::filesystem::resize_file(scratch / "long", kMostDocumentBytes + 1);  // takes no disk
   const auto refused = read_file(scratch / "long");
@@ -118,7 +118,7 @@ TEST(Files, LongerThanTheirLimitAreRefusedUnread) {
 }
 
 TEST(Files, ThatCannotBeWrittenAreNamedWithTheReason) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const auto missing = write_file(scratch / "no/report.html", "x");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, core::Code::kFile);
@@ -130,7 +130,7 @@ TEST(Files, ThatCannotBeWrittenAreNamedWithTheReason) {
 }
 
 TEST(Files, OfAForeignUserAreNamedWithTheReason) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   ASSERT_TRUE(write_file(scratch / "secret", "x"));
   ASSERT_EQ(::chmod((scratch / "secret").c_str(), 0), 0);
   ASSERT_EQ(::chmod(scratch.path().c_str(), 0555), 0);
@@ -155,7 +155,7 @@ TEST(Files, OfAForeignUserAreNamedWithTheReason) {
 }
 
 TEST(Files, KeepTheOldContentWhenTheNewOneDoesNotFit) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   ASSERT_TRUE(write_file(scratch / "report.html", "old"));
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);

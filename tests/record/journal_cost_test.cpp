@@ -45,7 +45,7 @@ std::vector<double> bare_flushes(const std::filesystem::path& file) {
 }
 
 TEST(JournalCost, OfATouchIsMostlyTheFlushOfTheDisk) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   auto journal = Journal::create(scratch / "run", {}, {}, {});
   ASSERT_TRUE(journal);
   std::vector<double> single;

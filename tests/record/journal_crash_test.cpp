@@ -43,7 +43,7 @@ TEST(JournalCrash, KeepsEveryTouchThatWasConfirmedBeforeAKill) {
   std::uint64_t state = 11;
   for (int round = 0; round < 20; ++round) {
     SCOPED_TRACE(round);
-    const Scratch scratch;
+    const Scratch scratch(Scratch::Where::kDisk);
     std::array<int, 2> pipe{};
     ASSERT_EQ(::pipe(pipe.data()), 0);
     const pid_t child = ::fork();
@@ -106,7 +106,7 @@ int fill_the_disk(const fs::path& directory) {
 
 TEST(JournalCrash, SaysThatAnotherProgramCutTheLog) {
   for (const bool removed : {false, true}) {
-    const Scratch scratch;
+    const Scratch scratch(Scratch::Where::kDisk);
     {
       auto journal = Journal::create(scratch / "run", {}, {}, {});
       ASSERT_TRUE(journal) << journal.error().what;
@@ -130,7 +130,7 @@ TEST(JournalCrash, SaysThatAnotherProgramCutTheLog) {
 }
 
 TEST(JournalCrash, SaysThatTheDiskIsFullAndGoesOnWhenItIsNot) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) ::_exit(fill_the_disk(scratch / "run"));
@@ -157,7 +157,7 @@ int create_without_room(const fs::path& directory) {
 }
 
 TEST(JournalCrash, LeavesNothingBehindWhenThereIsNoRoomForAJournal) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) ::_exit(create_without_room(scratch / "a/b"));

@@ -58,7 +58,7 @@ class Holder {
 };
 
 TEST(RunLock, RefusesASecondProcessAndNamesTheFirst) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const Holder holder(scratch.path());
   const auto second = RunLock::take(scratch.path());
   ASSERT_FALSE(second);
@@ -73,7 +73,7 @@ TEST(RunLock, RefusesASecondProcessAndNamesTheFirst) {
 }
 
 TEST(RunLock, DiesWithItsProcessAndLeavesAFileThatLocksNothing) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   Holder holder(scratch.path());
   holder.kill();
   EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run.lock"));
@@ -83,7 +83,7 @@ TEST(RunLock, DiesWithItsProcessAndLeavesAFileThatLocksNothing) {
 }
 
 TEST(RunLock, OfOneProcessIsTakenOnceAsWell) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   {
     const auto first = RunLock::take(scratch.path());
     ASSERT_TRUE(first);
@@ -99,7 +99,7 @@ TEST(RunLock, SaysWhenItCannotBeMade) {
 }
 
 TEST(RunLock, NeitherFollowsALinkNorEmptiesWhatIsNoLock) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   const fs::path lock = scratch / "run/run.lock";
   fs::create_directory(scratch / "run");
   ASSERT_TRUE(write_file(scratch / "thesis.txt", "years of work"));
@@ -126,14 +126,14 @@ TEST(RunLock, NeitherFollowsALinkNorEmptiesWhatIsNoLock) {
 
 TEST(RunLock, WhoseBytesAPowerCutLostLocksNothing) {
   for (const std::string& bytes : {std::string(), std::string(30, '\0')}) {
-    const Scratch scratch;
+    const Scratch scratch(Scratch::Where::kDisk);
     ASSERT_TRUE(write_file(scratch / "run.lock", bytes));
     EXPECT_TRUE(RunLock::take(scratch.path()));
   }
 }
 
 TEST(UnbornRun, IsAnAbsentOrEmptyDirectory) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
   fs::create_directory(scratch / "run");
   EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
@@ -142,7 +142,7 @@ TEST(UnbornRun, IsAnAbsentOrEmptyDirectory) {
 }
 
 TEST(UnbornRun, IsAJournalWhoseHeadNeverReachedTheDisk) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   fs::create_directory(scratch / "run");
   ASSERT_TRUE(write_file(scratch / "run/journal.db", ""));
   EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
@@ -150,7 +150,7 @@ TEST(UnbornRun, IsAJournalWhoseHeadNeverReachedTheDisk) {
 }
 
 TEST(UnbornRun, IsNothingThatHoldsAnything) {
-  const Scratch scratch;
+  const Scratch scratch(Scratch::Where::kDisk);
   ASSERT_TRUE(Journal::create(scratch / "run", {}, {}, {}));
   EXPECT_FALSE(clear_unstarted_run(scratch / "run").value());
   EXPECT_TRUE(read_journal(scratch / "run"));
