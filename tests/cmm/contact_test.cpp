@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cmm/simulated/internal/surface_shape.h"
+#include "core/shortest_turn.h"
 #include "random_parts.h"
 
 namespace rondure::cmm {
@@ -491,8 +492,7 @@ TEST(FirstContactWithABall, TouchesItAndOverlapsItNowhere) {
           {order, between(random, 0.0, 0.01), between(random, 0.0, core::kTwoPi), 0.0});
     }
     const Vector3d out = random_tilted(random, Vector3d::UnitX(), 1.2);
-    const Eigen::Matrix3d turn =
-        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), out).toRotationMatrix();
+    const Eigen::Matrix3d turn = core::shortest_turn(Vector3d::UnitZ(), out);
     const auto point = [&](const Eigen::Vector2d& at) {
       const Vector3d u =
           turn * Vector3d(at.x() / ball.radius_mm, at.y() / ball.radius_mm, 1.0).normalized();

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
+#include "core/decompositions.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/evaluate.h"
@@ -205,7 +205,7 @@ double axle_peak_to_valley_mm(const std::vector<Vector3d>& points_mm) {
     design.row(i) << 1.0, p.x() / r, p.y() / r, p.z() * p.x() / r, p.z() * p.y() / r;
     radius[i] = r;
   }
-  const VectorXd left = radius - design * design.colPivHouseholderQr().solve(radius);
+  const VectorXd left = radius - design * core::solve_pivoted_qr(design, radius);
   return left.maxCoeff() - left.minCoeff();
 }
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 
+#include "core/decompositions.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "record/tasks/rotary_axes.h"
@@ -184,24 +183,26 @@ double true_roundness_rms_um(const SimulatedSpindle& world) {
 }
 
 double true_synchronous_um(const SimulatedSpindle& world) {
-  using Complex = std::complex<double>;
   constexpr int kSamples = 1024;
-  Eigen::VectorXcd motion(kSamples);  // RY - j RX
-  Eigen::MatrixXcd removed(kSamples, 2);
+  // RY - j RX, and the complex numbers that are fitted to it, as real and imaginary parts.
+  Eigen::VectorXd motion(2 * kSamples);
+  Eigen::MatrixXd removed(2 * kSamples, 4);
   Eigen::MatrixXd center(kSamples, 3);
   for (int m = 0; m < kSamples; ++m) {
     const double alpha = kTwoPi * m / kSamples;
-    motion(m) = Complex(sum_um(world.motion_y, alpha), -sum_um(world.motion_x, alpha));
-    removed(m, 0) = std::polar(1.0, alpha);                   // eccentricity
-    removed(m, 1) = std::polar(1.0, -world.beta_rad(alpha));  // zeros of the probes
+    const double beta = world.beta_rad(alpha);
+    motion(m) = sum_um(world.motion_y, alpha);
+    motion(m + kSamples) = -sum_um(world.motion_x, alpha);
+    // e^{j alpha}: eccentricity; e^{-j beta}: zeros of the probes.
+    removed.row(m) << std::cos(alpha), -std::sin(alpha), std::cos(beta), std::sin(beta);
+    removed.row(m + kSamples) << std::sin(alpha), std::cos(alpha), -std::sin(beta), std::cos(beta);
     center.row(m) << 1.0, std::cos(alpha), std::sin(alpha);
   }
-  const Eigen::VectorXcd fitted = removed.colPivHouseholderQr().solve(motion);
-  motion -= removed * fitted;
+  motion -= removed * core::solve_pivoted_qr(removed, motion);
   double out = 0.0;
   for (const Eigen::VectorXd& direction :
-       {Eigen::VectorXd(motion.real()), Eigen::VectorXd(motion.imag())}) {
-    const Eigen::VectorXd circle = center.colPivHouseholderQr().solve(direction);
+       {Eigen::VectorXd(motion.head(kSamples)), Eigen::VectorXd(motion.tail(kSamples))}) {
+    const Eigen::VectorXd circle = core::solve_pivoted_qr(center, direction);
     const Eigen::VectorXd left = direction - center * circle;
     out = std::max(out, left.maxCoeff() - left.minCoeff());
   }

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <Eigen/QR>
 
+#include "core/decompositions.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/zone/fit.h"
@@ -285,7 +285,7 @@ class JointOracle {
         down(i) -= h;
         J.col(i) = (residuals(up, start, radius) - residuals(down, start, radius)) / (2.0 * h);
       }
-      x -= J.colPivHouseholderQr().solve(r);
+      x -= core::solve_pivoted_qr(J, r);
     }
     std::vector<Vector3d> points;
     std::size_t row = 0;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/shortest_turn.h"
 #include "core/units.h"
 #include "evaluation/evaluate.h"
 #include "plans/forecast/forecast.h"
@@ -155,9 +156,8 @@ TEST(FixedPart, HasTheSameResultsHoweverItLeans) {
     const evaluation::Evaluation leans = evaluated(plan);
     ASSERT_EQ(leans.features.size(), upright.features.size());
     const auto axis = plan["part"]["axis"].get<std::array<double, 3>>();
-    const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(
-                                     Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Map(axis.data()))
-                                     .toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        core::shortest_turn(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Map(axis.data()));
     for (std::size_t f = 0; f < leans.features.size(); ++f) {
       const evaluation::FeatureResult& here = leans.features[f];
       const evaluation::FeatureResult& there = upright.features[f];
