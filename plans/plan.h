@@ -154,7 +154,7 @@ struct DatumPlan {
   std::vector<DatumSeatPlan> seat;
   int points = 7;               ///< Touches of each sphere, or of each height of a hole.
   int heights = 2;              ///< Of the touches of a hole.
-  double uncertainty_mm = 1.0;  ///< Largest distance of one of them from its nominal place.
+  double uncertainty_mm = 1.0;  ///< Largest distance of the base from its nominal place.
   double residual_limit_um = 20.0;
 
   [[nodiscard]] bool on_holes() const { return !holes.empty() || !seat.empty(); }

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "cmm/simulated/part.h"
 #include "plans/checks/internal/plan_checks.h"
+#include "plans/path/internal/nominal_geometry.h"
+#include "plans/path/scene.h"
 
 namespace rondure::plans {
 namespace {
@@ -11,22 +14,46 @@ namespace {
 using core::Code;
 
 constexpr double kLeastRoom_mm = 0.5;
+/// Of the distance from the seat to the axes, which seat and holes have to span at least.
+constexpr double kLeastSpan = 0.2;
 
-void check_hole(const Plan& plan, std::size_t index, Findings& findings) {
+/// @param lean_rad  Most by which the base may lean.
+void check_hole(const Plan& plan, std::size_t index, double lean_rad, Findings& findings) {
   const DatumPlan& datum = *plan.fixture->datum;
   const DatumHolePlan& hole = datum.holes[index];
   const std::string where = fmt::format("/fixture/datum/holes/{}", index);
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
   const bool inside = hole.side == record::Side::kInside;
-  const double beside_mm = 0.5 * hole.diameter_mm - tip_mm - datum.uncertainty_mm;
+  const double lean_mm = lean_rad * hole.depth_mm;
+  const double beside_mm = 0.5 * hole.diameter_mm - tip_mm - datum.uncertainty_mm - lean_mm;
   if (inside && beside_mm < kLeastRoom_mm) {
     findings.meaning(
         Code::kMeaning, where + "/diameter_mm",
         fmt::format(
-            "a hole of {:g} mm that may stand {:g} mm off (uncertainty_mm) leaves {:.3g} mm "
-            "beside a ball of {:g} mm, at least {:g} mm are needed; take a smaller ball or "
-            "a wider hole",
-            hole.diameter_mm, datum.uncertainty_mm, beside_mm, 2.0 * tip_mm, kLeastRoom_mm));
+            "a hole of {:g} mm that may stand {:g} mm off (uncertainty_mm) and lean {:.3g} mm over "
+            "its depth leaves {:.3g} mm beside a ball of {:g} mm, at least {:g} mm are needed; "
+            "take a smaller ball, a wider hole, or a smaller uncertainty_mm",
+            hole.diameter_mm, datum.uncertainty_mm, lean_mm, beside_mm, 2.0 * tip_mm,
+            kLeastRoom_mm));
+  }
+  if (!inside && plan.machine->approach_mm - lean_mm < kLeastRoom_mm) {
+    findings.meaning(
+        Code::kMeaning, where + "/depth_mm",
+        fmt::format("it may lean {:.3g} mm over its height (uncertainty_mm, width of the seat), of "
+                    "{:g} mm before the touch (machine.approach_mm) at least {:g} mm must remain; "
+                    "take a wider seat or a greater approach_mm",
+                    lean_mm, plan.machine->approach_mm, kLeastRoom_mm));
+  }
+  const double shaft_mm = tip_mm - 0.5 * plan.probe->stylus_diameter_mm - lean_mm;
+  if (plan.probe->stylus_length_mm > 0.0 && shaft_mm < kTouchGap_mm) {
+    findings.meaning(
+        Code::kMeaning, where + "/depth_mm",
+        fmt::format(
+            "beside what may lean {:.3g} mm over {:g} mm a shaft of {:g} mm above a ball of "
+            "{:g} mm keeps {:.3g} mm, at least {:g} mm are needed; take a thinner shaft, a "
+            "wider seat, or a smaller depth",
+            lean_mm, hole.depth_mm, plan.probe->stylus_diameter_mm, 2.0 * tip_mm, shaft_mm,
+            kTouchGap_mm));
   }
   const double end_mm = 0.5 * hole.depth_mm / datum.heights;
   const double needed_mm = datum.uncertainty_mm + kLeastRoom_mm + (inside ? 0.0 : tip_mm);
@@ -52,29 +79,85 @@ void check_hole(const Plan& plan, std::size_t index, Findings& findings) {
     const DatumHolePlan& of = datum.holes[other];
     const double apart_mm =
         std::hypot(hole.center_mm[0] - of.center_mm[0], hole.center_mm[1] - of.center_mm[1]);
-    if (apart_mm > 0.5 * (hole.diameter_mm + of.diameter_mm)) continue;
-    findings.meaning(Code::kMeaning, where + "/center_mm",
-                     fmt::format("holes {} and {} overlap: their centres are {:g} mm apart",
-                                 other + 1, index + 1, apart_mm));
+    const double between_mm = apart_mm - 0.5 * (hole.diameter_mm + of.diameter_mm);
+    if (between_mm <= 0.0) {
+      findings.meaning(Code::kMeaning, where + "/center_mm",
+                       fmt::format("holes {} and {} overlap: their centres are {:g} mm apart",
+                                   other + 1, index + 1, apart_mm));
+    } else if (plan.simulation && between_mm < cmm::kBlockWall_mm &&
+               (inside || of.side == record::Side::kInside)) {
+      findings.meaning(Code::kMeaning, where + "/center_mm",
+                       fmt::format("a simulated hole has a wall of {:g} mm, and between holes {} "
+                                   "and {} there are {:.3g} mm; set them farther apart, or leave "
+                                   "simulation out",
+                                   cmm::kBlockWall_mm, other + 1, index + 1, between_mm));
+    }
   }
 }
 
-void check_seat(const DatumPlan& datum, Findings& findings) {
+/// A place of the seat lies on metal.
+void check_place(const Plan& plan, std::size_t place, Findings& findings) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  const auto& at = datum.seat[place].point_mm;
+  for (std::size_t i = 0; i < datum.holes.size(); ++i) {
+    const DatumHolePlan& hole = datum.holes[i];
+    if (hole.side == record::Side::kOutside) continue;  // an obstacle of the path
+    const double apart_mm = std::hypot(at[0] - hole.center_mm[0], at[1] - hole.center_mm[1]);
+    const double needed_mm =
+        0.5 * (hole.diameter_mm + plan.probe->tip_diameter_mm) + datum.uncertainty_mm;
+    if (apart_mm >= needed_mm) continue;
+    findings.meaning(
+        Code::kMeaning, fmt::format("/fixture/datum/seat/{}/point_mm", place),
+        fmt::format("it is {:.3g} mm from the centre of hole {}, at least {:.3g} mm are needed for "
+                    "the ball to meet the seat beside it (uncertainty_mm); move it away",
+                    apart_mm, i + 1, needed_mm));
+  }
+}
+
+/// Seat and holes tell where the axes are only as well as they are wide.
+void check_spans(const Plan& plan, Findings& findings) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const DatumSeatPlan& at : datum.seat)
+    middle += vector3(at.point_mm) / static_cast<double>(datum.seat.size());
+  const double lever_mm = (vector3(plan.fixture->axis_point_mm) - middle).norm();
+  double apart_mm = 0.0;
+  for (const DatumHolePlan& a : datum.holes) {
+    for (const DatumHolePlan& b : datum.holes)
+      apart_mm = std::max(
+          apart_mm, std::hypot(a.center_mm[0] - b.center_mm[0], a.center_mm[1] - b.center_mm[1]));
+  }
+  const auto require = [&](const char* key, const char* what, double span_mm) {
+    if (span_mm >= kLeastSpan * lever_mm) return;
+    findings.meaning(
+        Code::kCollinear, key,
+        fmt::format("{} {:.3g} mm, and the axes are {:.3g} mm away, where an error of a touch is "
+                    "{:.3g} times as large; at least {:.3g} mm are needed; spread them",
+                    what, span_mm, lever_mm, lever_mm / span_mm, kLeastSpan * lever_mm));
+  };
+  require("/fixture/datum/seat", "its places are as narrow as", seat_width_mm(datum));
+  if (datum.holes.size() > 1) require("/fixture/datum/holes", "they span only", apart_mm);
+}
+
+/// Whether the places of the seat tell how it lies.
+bool check_seat(const DatumPlan& datum, Findings& findings) {
   const std::string where = "/fixture/datum/seat";
   if (datum.seat.size() < 3) {
-    return findings.meaning(
+    findings.meaning(
         Code::kTooFewPoints, where,
         fmt::format("at least 3 places are needed to tell how the seat lies, there are {}",
                     datum.seat.size()));
+    return false;
   }
   const auto n = static_cast<double>(datum.seat.size());
   double x = 0.0, y = 0.0;
   for (const DatumSeatPlan& at : datum.seat) {
     if (at.point_mm[2] != datum.seat.front().point_mm[2]) {
-      return findings.meaning(Code::kMeaning, where,
-                              fmt::format("the seat is one plane of the base: its places have z "
-                                          "{:g} and {:g} mm; give them one",
-                                          datum.seat.front().point_mm[2], at.point_mm[2]));
+      findings.meaning(Code::kMeaning, where,
+                       fmt::format("the seat is one plane of the base: its places have z "
+                                   "{:.10g} and {:.10g} mm; give them one",
+                                   datum.seat.front().point_mm[2], at.point_mm[2]));
+      return false;
     }
     x += at.point_mm[0] / n;
     y += at.point_mm[1] / n;
@@ -86,9 +169,10 @@ void check_seat(const DatumPlan& datum, Findings& findings) {
     yy += (at.point_mm[1] - y) * (at.point_mm[1] - y);
   }
   // Standard deviation across a tenth of that along, or less.
-  if (4.0 * (xx * yy - xy * xy) > 0.0396 * (xx + yy) * (xx + yy)) return;
+  if (4.0 * (xx * yy - xy * xy) > 0.0396 * (xx + yy) * (xx + yy)) return true;
   findings.meaning(Code::kCollinear, where,
                    "its places are close to one line; spread them over the seat");
+  return false;
 }
 
 }  // namespace
@@ -105,9 +189,12 @@ void check_datum_holes(const Plan& plan, Findings& findings) {
         fmt::format("at least 2 holes are needed to tell how the base is turned, there are {}",
                     datum.holes.size()));
   }
-  check_seat(datum, findings);
+  const bool lies = check_seat(datum, findings);
+  if (lies) check_spans(plan, findings);
   if (!plan.probe || !plan.machine) return;
-  for (std::size_t i = 0; i < datum.holes.size(); ++i) check_hole(plan, i, findings);
+  const double lean_rad = lies ? most_lean_rad(datum) : 0.0;
+  for (std::size_t i = 0; i < datum.holes.size(); ++i) check_hole(plan, i, lean_rad, findings);
+  for (std::size_t i = 0; lies && i < datum.seat.size(); ++i) check_place(plan, i, findings);
 }
 
 }  // namespace rondure::plans

@@ -221,6 +221,7 @@ void Scene::add_cell(const Plan& plan, const FeaturePlan& feature) {
   add(Body::kRim, Frame::kMachine, {axis.x(), axis.y(), 0.0},
       {0.0, rim_mm, std::min(fixture.table_height_mm, fixture.rim_height_mm) - kDeep_mm,
        fixture.rim_height_mm});
+  if (fixture.datum) solids_.back().more_mm = fixture.datum->uncertainty_mm;
   add(Body::kTable, Frame::kMachine, {axis.x(), axis.y(), 0.0},
       {0.0, kWide_mm, fixture.table_height_mm - kDeep_mm, fixture.table_height_mm});
 }
@@ -255,9 +256,9 @@ void Scene::add_spheres(const Plan& plan, const FeaturePlan& feature,
     add_all(Body::kSphere, datum->spheres, 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
     for (const DatumHolePlan& of : datum->holes) {
       if (of.side == record::Side::kInside || &of.center_mm == touched) continue;
+      const double off_mm = datum->uncertainty_mm + most_lean_rad(*datum) * of.depth_mm;
       add(Body::kDowel, Frame::kMachine, vector3(of.center_mm),
-          {0.0, 0.5 * of.diameter_mm + datum->uncertainty_mm, -kDeep_mm,
-           of.depth_mm + datum->uncertainty_mm});
+          {0.0, 0.5 * of.diameter_mm + off_mm, -kDeep_mm, of.depth_mm + datum->uncertainty_mm});
     }
   }
   if (const auto& on_ring = fixture.reached_pose) {

@@ -209,5 +209,98 @@ TEST(DatumHoles, KeepWhatHoldsTheStylusAndTheParkedTipAboveThem) {
   EXPECT_THAT(testing::lines_of(read()), HasSubstr("park height 500 mm is below 503.000 mm"));
 }
 
+/// What validate says of example 21 with these changes, a JSON merge patch; empty when nothing.
+std::string told_of(const char* patch) {
+  using nlohmann::json;
+  json plan = json::parse(testing::bytes_of(testing::example("21_fixture_on_holes.json")));
+  plan.merge_patch(json::parse(patch));
+  // Keys of items: "holes/3": {...} changes the fourth hole.
+  json& datum = plan["fixture"]["datum"];
+  for (const char* list : {"holes", "seat"}) {
+    for (std::size_t i = 0; i < datum[list].size(); ++i) {
+      const std::string key = std::string(list) + "/" + std::to_string(i);
+      if (!datum.contains(key)) continue;
+      datum[list][i].merge_patch(datum[key]);
+      datum.erase(key);
+    }
+  }
+  const auto read = parse_plan(plan.dump(), "", "plan.json");
+  if (!read) return testing::lines_of(read);
+  const auto told = forecast(*read);
+  return told ? std::string() : told.error().where + ": " + told.error().what;
+}
+
+TEST(DatumHoles, WhatAPathWouldMeetIsRefusedBeforeAnythingMoves) {
+  ASSERT_EQ(told_of("{}"), "");
+  EXPECT_THAT(told_of(R"({"fixture": {"rim_height_mm": 0, "rim_diameter_mm": 100, "datum":
+      {"heights": 1, "holes/3": {"center_mm": [0, 36.5, 60], "depth_mm": 30}}}})"),
+              HasSubstr("/fixture/datum/holes/3: it stands 70.230 mm"));
+  // The tip rises from the last touch of the dowel, and a run that goes on comes down beside it.
+  EXPECT_THAT(told_of(R"({"fixture": {"datum": {"heights": 1, "holes/3":
+      {"center_mm": [0, 170, 60]}}, "bodies": [{"id": "shelf", "shape": "box", "frame": "base",
+      "size_mm": [8, 30, 10], "position_mm": [-20, 170, 150]}]}})"),
+              AllOf(HasSubstr("dowel or bolt head 4 of the fixture, point "),
+                    HasSubstr("to the body \"shelf\"")));
+  // Dowels stand beside the reference sphere.
+  EXPECT_THAT(told_of(R"({"fixture": {"datum": {"heights": 1, "holes/3":
+      {"center_mm": [300, 26, 60], "diameter_mm": 20, "depth_mm": 200}}}})"),
+              AllOf(HasSubstr("reference sphere, point "),
+                    HasSubstr("to a dowel or bolt head of the fixture")));
+  // The base may lean by 2 mm over 30 mm of seat.
+  EXPECT_THAT(
+      told_of(R"({"fixture": {"datum": {"seat": [{"point_mm": [-15, -115, 60]},
+          {"point_mm": [15, -115, 60]}, {"point_mm": [0, -85, 60]}],
+          "holes/0": {"depth_mm": 100}}}})"),
+      AllOf(HasSubstr("/fixture/datum/holes/0/diameter_mm: a hole of 16 mm"), HasSubstr(" lean ")));
+  EXPECT_THAT(told_of(R"({"probe": {"stylus_length_mm": 60, "stylus_diameter_mm": 3.6}})"),
+              HasSubstr("/fixture/datum/holes/0/depth_mm: beside what may lean "));
+}
+
+TEST(DatumHoles, WhatWouldMisleadIsRefused) {
+  EXPECT_THAT(told_of(R"({"fixture": {"datum": {"holes/0": {"diameter_mm": 60},
+                          "seat/0": {"point_mm": [-226, -136, 60]}}}})"),
+              AllOf(HasSubstr("/fixture/datum/seat/0/point_mm: it is 19.8 mm from the centre of "
+                              "hole 1, at least 33 mm are needed")));
+  EXPECT_THAT(told_of(R"({"fixture": {"datum": {"seat": [{"point_mm": [-300, 0, 60]},
+                          {"point_mm": [-299, 0, 60]}, {"point_mm": [-300, 1, 60]}]}}})"),
+              HasSubstr("/fixture/datum/seat: its places are as narrow as 0.70"));
+  EXPECT_THAT(told_of(R"({"fixture": {"datum": {"holes": [
+          {"center_mm": [-240, -150, 60], "diameter_mm": 8, "depth_mm": 24, "side": "outside"},
+          {"center_mm": [-240, -135, 60], "diameter_mm": 8, "depth_mm": 24, "side": "outside"}
+          ]}}})"),
+              HasSubstr("/fixture/datum/holes: they span only 15 mm, and the axes are 90 mm away"));
+  EXPECT_THAT(told_of(R"({"fixture": {"datum": {"holes/1": {"center_mm": [-205, -150, 60]}}}})"),
+              HasSubstr("between holes 1 and 2 there are 19 mm"));
+}
+
+TEST(DatumHoles, ABaseThatTurnsABodyOutOfItsPlaceEndsTheRun) {
+  Plan plan = plan_on_holes(Vector3d::Zero(), Vector3d::Zero());
+  DatumPlan& datum = *plan.fixture->datum;
+  datum.uncertainty_mm = 1.0;
+  const auto leaning = testing::base_at({0.0, 0.0, 0.0}, {0.0, 0.0, 0.15});
+  ASSERT_TRUE(fixture_base(plan, exact_tips(datum, leaning), kTip_mm));
+  BodyPlan post;
+  post.id = "post";
+  post.position_mm = {600.0, 0.0, 0.0};
+  post.diameter_mm = 20.0;
+  post.to_mm = 300.0;
+  plan.fixture->bodies = {post};
+  const auto found = fixture_base(plan, exact_tips(datum, leaning), kTip_mm);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, core::Code::kLocation);
+  EXPECT_THAT(found.error().what,
+              AllOf(HasSubstr("its body \"post\" is 1.5"), HasSubstr("the plan allows 1 mm")));
+}
+
+TEST(DatumHoles, AFixtureFarOffIsSaidToBeOne) {
+  for (const double z_mm : {8.0, -8.0}) {
+    Plan plan = plan_on_holes({0.0, 0.0, z_mm}, Vector3d::Zero());
+    const auto failure = testing::ran(plan).failure;
+    ASSERT_TRUE(failure);
+    EXPECT_THAT(failure->what, AllOf(HasSubstr("the seat of the fixture, point 1"),
+                                     HasSubstr("the fixture may stand farther off than 2 mm")));
+  }
+}
+
 }  // namespace
 }  // namespace rondure::plans

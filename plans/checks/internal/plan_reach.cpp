@@ -210,6 +210,24 @@ core::Result<void> check_room(const Plan& plan) {
                     q.name(), apart_mm, needed_mm),
         pointer_of_artefact(q));
   }
+  const auto& datum = fixture.datum;
+  for (std::size_t i = 0; datum && i < datum->spheres.size() + datum->holes.size(); ++i) {
+    const bool ball = i < datum->spheres.size();
+    const DatumHolePlan* hole = ball ? nullptr : &datum->holes[i - datum->spheres.size()];
+    if (hole != nullptr && hole->side == record::Side::kInside) continue;
+    Eigen::Vector3d place = vector3(ball ? datum->spheres[i].center_mm : hole->center_mm);
+    if (!ball) place.z() = std::min(axis.z(), place.z() + hole->depth_mm);  // its nearest point
+    const double mine_mm = 0.5 * (ball ? datum->sphere_diameter_mm : hole->diameter_mm);
+    const double swept_mm = reach_mm + mine_mm + datum->uncertainty_mm;
+    if ((place - axis).norm() >= swept_mm) continue;
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format("it stands {:.3f} mm from the fixture's axis, the part can sweep it below "
+                    "{:.3f} mm; move it away",
+                    (place - axis).norm(), swept_mm),
+        ball ? fmt::format("/fixture/datum/spheres/{}", i)
+             : fmt::format("/fixture/datum/holes/{}", i - datum->spheres.size()));
+  }
   return {};
 }
 

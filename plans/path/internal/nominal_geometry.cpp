@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,24 @@ constexpr double kDisc_mm = 1.0;  // thickness of the disc behind a plane
 
 fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
   return {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)};
+}
+
+double seat_width_mm(const DatumPlan& datum) {
+  constexpr int kDirections = 180;
+  double least_mm = datum.seat.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle_rad = 0.5 * core::kTwoPi * k / kDirections;
+    const auto along = [&](const DatumSeatPlan& at) {
+      return std::cos(angle_rad) * at.point_mm[0] + std::sin(angle_rad) * at.point_mm[1];
+    };
+    const auto [low, high] = std::ranges::minmax(datum.seat | std::views::transform(along));
+    least_mm = std::min(least_mm, high - low);
+  }
+  return least_mm;
+}
+
+double most_lean_rad(const DatumPlan& datum) {
+  return datum.on_holes() ? 2.0 * datum.uncertainty_mm / seat_width_mm(datum) : 0.0;
 }
 
 Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {

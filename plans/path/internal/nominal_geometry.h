@@ -27,6 +27,12 @@ namespace rondure::plans {
 /// The axes of the fixture as stated in the plan.
 [[nodiscard]] fixture::Kinematics nominal_kinematics(const FixturePlan& fixture);
 
+/// Least distance of two parallel lines that enclose the seat of the base [mm].
+[[nodiscard]] double seat_width_mm(const DatumPlan& datum);
+
+/// How far the base may lean while its seat is within uncertainty_mm of its place; 0 for spheres.
+[[nodiscard]] double most_lean_rad(const DatumPlan& datum);
+
 /// The position of the part in the clamping ring as stated in the plan: X_BP.
 [[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
 

@@ -242,12 +242,41 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
   return out;
 }
 
+/// What every path keeps clear of stands where the plan has it, to uncertainty_mm.
+core::Result<void> near_nominal(const Plan& plan, const Eigen::Isometry3d& X_WF) {
+  const FixturePlan& fixture = *plan.fixture;
+  const double allowed_mm = fixture.datum->uncertainty_mm;
+  const auto check = [&](const std::string& name, const Vector3d& at) -> core::Result<void> {
+    const double off_mm = (X_WF * at - at).norm();
+    if (off_mm <= allowed_mm) return {};
+    return core::fail_with(Code::kLocation,
+                           "the fixture stands so that {} is {:.3f} mm from its nominal place, the "
+                           "plan allows {:g} mm (uncertainty_mm), which every path keeps; check "
+                           "where the fixture is bolted",
+                           name, off_mm, allowed_mm);
+  };
+  const Vector3d axis = vector3(fixture.axis_point_mm);
+  TRY_DO(check("the point of its axes", axis));
+  const double rim_mm = 0.5 * fixture.rim_diameter_mm;
+  for (const Vector3d& out : {Vector3d(rim_mm, 0, 0), Vector3d(-rim_mm, 0, 0),
+                              Vector3d(0, rim_mm, 0), Vector3d(0, -rim_mm, 0)})
+    TRY_DO(check("its rim", Vector3d(axis.x(), axis.y(), fixture.rim_height_mm) + out));
+  for (const BodyPlan& body : fixture.bodies) {
+    if (body.frame != BodyPlan::Frame::kBase) continue;
+    for (const Vector3d& corner : corners_of(body))
+      TRY_DO(check(fmt::format("its body \"{}\"", body.id), corner));
+  }
+  return {};
+}
+
 core::Result<fit::Registration> fixture_base(const Plan& plan,
                                              std::span<const std::vector<Vector3d>> tips_W_mm,
                                              double tip_radius_mm) {
   auto base = plan.fixture->datum->on_holes() ? base_from_holes(plan, tips_W_mm, tip_radius_mm)
                                               : base_from_spheres(plan, tips_W_mm);
   if (!base) return core::fail(base.error().at(kDatumPointer));
+  if (auto near = near_nominal(plan, base->motion); !near)
+    return core::fail(near.error().at(kDatumPointer));
   return base;
 }
 
@@ -255,9 +284,19 @@ core::Result<void> find_fixture_base(RunContext& context, double tip_radius_mm) 
   TRY(auto steps, datum_steps(context.plan));
   if (steps.empty()) return {};
   const DatumPlan& datum = *context.plan.fixture->datum;
-  TRY(const auto tips,
-      touch_spheres(context, steps, [&](std::size_t i) { return datum_name(datum, i); }));
-  TRY(const auto base, fixture_base(context.plan, tips, tip_radius_mm));
+  const auto tips =
+      touch_spheres(context, steps, [&](std::size_t i) { return datum_name(datum, i); });
+  if (!tips) {
+    core::Error error = tips.error();
+    if (error.code == Code::kCollision || error.code == Code::kNoTouch) {
+      error.what += fmt::format(
+          "; the fixture may stand farther off than {:g} mm (fixture.datum.uncertainty_mm): check "
+          "where it is bolted",
+          datum.uncertainty_mm);
+    }
+    return core::fail(std::move(error));
+  }
+  TRY(const auto base, fixture_base(context.plan, *tips, tip_radius_mm));
   context.cell->set_base(base.motion);
   const core::Message found = base_message(base);
   if (context.recorded.has_decision(found)) return {};

@@ -1,5 +1,6 @@
 #include "plans/run/internal/qualification.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -65,7 +66,8 @@ core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& contex
     context.doing = fmt::format("{}, point {}", name, step.row.point + 1);
     if (auto moved = context.follow(step.way_W); !moved) {
       if (context.retreating) (void)context.rise();
-      return core::fail(moved.error());
+      if (moved.error().code != core::Code::kCollision) return core::fail(moved.error());
+      return core::fail_with(core::Code::kCollision, "{}: {}", context.doing, moved.error().what);
     }
     auto tip = touch_sphere(context, step, name);
     if (!tip) {
@@ -75,7 +77,6 @@ core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& contex
     }
     tips.push_back(*tip);
   }
-  // The last touch is at or above the equator, outside the sphere: the path up is free.
   context.doing = "back to park height";
   if (auto moved = context.rise(); !moved) {
     if (context.retreating) (void)context.rise();
@@ -156,17 +157,22 @@ core::Result<void> check_sphere_steps(const Plan& plan, const FeaturePlan& featu
   const Scene scene(plan, feature, &center_mm);
   const Eigen::Isometry3d X_WN = X_WB * nominal_seat(*plan.fixture);
   PathGeometry geometry;
-  geometry.location_mm =
-      off_mm + (is_touched(feature) ? plan.part.location_uncertainty_mm : 0.0);
+  geometry.location_mm = off_mm + (is_touched(feature) ? plan.part.location_uncertainty_mm : 0.0);
   geometry.clearance_mm = plan.machine->clearance_mm + geometry.location_mm;
   for (const TouchStep& step : steps) {
-    Way way = {step.way_W, {}};
-    way.corners.push_back(step.command.expected_tip_W_mm);
-    way.phases.assign(way.corners.size() - 1, Phase::kTravel);
-    const auto hit = scene.first_hit(way, {X_WN, X_WN}, geometry);
-    if (!hit) continue;
-    return core::fail_with(core::Code::kUnreachable, "{}, point {}: {}", name, step.row.point + 1,
-                           in_words(*hit));
+    // A run that goes on comes in by entry_W; one that ends rises from where it stands.
+    Polyline there = step.way_W;
+    there.push_back(step.command.expected_tip_W_mm);
+    there.push_back(step.way_W.back());
+    there.push_back(step.way_W.back());
+    there.back().z() = std::max(there.back().z(), plan.machine->park_mm[2]);
+    for (const Polyline& corners : {there, step.entry_W}) {
+      const Way way = {corners, std::vector<Phase>(corners.size() - 1, Phase::kTravel)};
+      const auto hit = scene.first_hit(way, {X_WN, X_WN}, geometry);
+      if (!hit) continue;
+      return core::fail_with(core::Code::kUnreachable, "{}, point {}: {}", name, step.row.point + 1,
+                             in_words(*hit));
+    }
   }
   return {};
 }
@@ -236,12 +242,8 @@ core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
   TRY(auto steps, q.on_column() ? core::Result<std::vector<TouchStep>>(column_steps(plan))
                                 : sphere_steps(plan, {vector3(q.sphere_center_mm),
                                                       0.5 * q.sphere_diameter_mm, q.points, 0.0}));
-  // check_room() keeps everything else away from it.
-  if (!plan.fixture->bodies.empty()) {
-    const auto X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
-    TRY_DO(
-        check_sphere_steps(plan, plan.features.front(), X_WB, q.place_mm(), 0.0, steps, q.name()));
-  }
+  const auto X_WB = fixture::body_to_machine(nominal_kinematics(*plan.fixture), {});
+  TRY_DO(check_sphere_steps(plan, plan.features.front(), X_WB, q.place_mm(), 0.0, steps, q.name()));
   return steps;
 }
 

@@ -184,8 +184,9 @@ void describe(Visitor& v, DatumHolePlan& p) {
             within(kMaxCoordinate_mm, "Of its mouth or foot, base frame."));
   v.number("diameter_mm", p.diameter_mm, required(range(1.0, 500.0, "Nominal diameter.")));
   v.text("side", p.side, {.meaning = "outside: a dowel or bolt head."});
-  v.number("depth_mm", p.depth_mm,
-           required(above(0.0, 500.0, "Touched depth, or height above the foot.")));
+  v.number(
+      "depth_mm", p.depth_mm,
+      required(above(0.0, 500.0, "Touched depth, free by a ball more, or height above the foot.")));
 }
 
 template <class Visitor>
@@ -209,8 +210,8 @@ void describe(Visitor& v, DatumPlan& p) {
   v.whole("heights", p.heights, range(1, 10, "Of the touches of a hole."));
   v.number("uncertainty_mm", p.uncertainty_mm,
            range(0.0, 50.0,
-                 "Largest distance of a sphere or hole from its nominal place, as the fixture is "
-                 "bolted down."));
+                 "Largest distance of the base, its rim and its bodies from their nominal "
+                 "places."));
   v.number("residual_limit_um", p.residual_limit_um,
            above(0.0, 1000.0,
                  "Largest distance of a sphere or hole from its place in the base that was found, "
