@@ -149,11 +149,13 @@ core::Result<Contact> contact_with(const ReferenceBody& body, const Vector3d& st
     return first_contact(surface, X_CW * start_W_mm, X_CW.linear() * direction_W, tip_radius_mm,
                          max_travel_mm);
   };
-  auto contact =
-      body.shape == Shape::kSpot
-          ? meet(FaceSurface{.outer_mm = body.radius_mm})
-          : meet(PartSurface{
-                body.radius_mm, body.half_length_mm, body.shape == Shape::kHole, {}, {}});
+  auto contact = body.shape == Shape::kSpot
+                     ? meet(FaceSurface{.outer_mm = body.radius_mm})
+                     : meet(PartSurface{.radius_mm = body.radius_mm,
+                                        .half_length_mm = body.half_length_mm,
+                                        .inside = body.shape == Shape::kHole,
+                                        .form = {},
+                                        .wall_mm = body.wall_mm});
   if (contact) contact->point_P_mm = X_WC * contact->point_P_mm;
   return contact;
 }

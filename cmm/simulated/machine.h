@@ -25,6 +25,7 @@ struct ReferenceBody {
   Shape shape = Shape::kSphere;
   double half_length_mm = 0.0;                      ///< Of a column or hole.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Of what is no sphere; unit vector.
+  double wall_mm = kBlockWall_mm;                   ///< Of the block around a hole.
 };
 
 /// Settings of a simulated machine.

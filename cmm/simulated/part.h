@@ -42,12 +42,12 @@ struct SurfaceMark {
   double flank_mm = 0.1;   ///< Width of each flank; > 0, at most half of width and length.
 };
 
-/// Thickness of the block around a simulated bore [mm].
+/// Thickness of the block around a simulated bore of a part [mm].
 inline constexpr double kBlockWall_mm = 20.0;
 
 /// The real surface of a simulated cylinder in its own frame P: axis z, mid-length at z = 0.
 /// It bounds a solid with flat ends at z = -half_length and z = +half_length: a shaft, or a
-/// round block of outer radius  radius + kBlockWall_mm  with a bore.
+/// round block of outer radius  radius + wall  with a bore.
 struct PartSurface {
   double radius_mm = 0.0;
   double half_length_mm = 0.0;
@@ -56,6 +56,7 @@ struct PartSurface {
   std::vector<SurfaceMark> marks = {};
   bool lower_end = true;  ///< false: no flat there; another surface of the part takes its place.
   bool upper_end = true;
+  double wall_mm = kBlockWall_mm;  ///< Of the block around a bore.
 
   /// Radius at an angle and height.
   [[nodiscard]] double radius_at(double theta_rad, double z_mm) const;

@@ -1,5 +1,6 @@
 #include "plans/cell/simulated_cell.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -147,9 +148,14 @@ void SimulatedCell::add_holes(const DatumPlan& datum, double tip_mm) {
     // A hole goes on below its lowest touch.
     const double half_mm =
         0.5 * (hole.depth_mm + (inside ? 2.0 * tip_mm + datum.uncertainty_mm : 0.0));
+    // The block around it does not fill its neighbours.
+    double wall_mm = cmm::kBlockWall_mm;
+    for (const DatumHolePlan& other : datum.holes) {
+      if (&other != &hole) wall_mm = std::min(wall_mm, between_mm(hole, other));
+    }
     references_.push_back(
         {true_X_WF_ * vector3(hole.center_mm) + (inside ? -half_mm : half_mm) * up,
-         0.5 * hole.diameter_mm, inside ? Shape::kHole : Shape::kColumn, half_mm, up});
+         0.5 * hole.diameter_mm, inside ? Shape::kHole : Shape::kColumn, half_mm, up, wall_mm});
   }
 }
 

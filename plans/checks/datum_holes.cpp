@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "cmm/simulated/part.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/scene.h"
@@ -77,40 +76,28 @@ void check_hole(const Plan& plan, std::size_t index, double lean_rad, Findings& 
   }
   for (std::size_t other = 0; other < index; ++other) {
     const DatumHolePlan& of = datum.holes[other];
-    const double apart_mm =
-        std::hypot(hole.center_mm[0] - of.center_mm[0], hole.center_mm[1] - of.center_mm[1]);
-    const double between_mm = apart_mm - 0.5 * (hole.diameter_mm + of.diameter_mm);
-    if (between_mm <= 0.0) {
-      findings.meaning(Code::kMeaning, where + "/center_mm",
-                       fmt::format("holes {} and {} overlap: their centres are {:g} mm apart",
-                                   other + 1, index + 1, apart_mm));
-    } else if (plan.simulation && between_mm < cmm::kBlockWall_mm &&
-               (inside || of.side == record::Side::kInside)) {
-      findings.meaning(Code::kMeaning, where + "/center_mm",
-                       fmt::format("a simulated hole has a wall of {:g} mm, and between holes {} "
-                                   "and {} there are {:.3g} mm; set them farther apart, or leave "
-                                   "simulation out",
-                                   cmm::kBlockWall_mm, other + 1, index + 1, between_mm));
-    }
+    if (between_mm(hole, of) > 0.0) continue;
+    findings.meaning(Code::kMeaning, where + "/center_mm",
+                     fmt::format("holes {} and {} overlap: their centres are {:g} mm apart",
+                                 other + 1, index + 1, apart_mm(hole.center_mm, of.center_mm)));
   }
 }
 
 /// A place of the seat lies on metal.
 void check_place(const Plan& plan, std::size_t place, Findings& findings) {
   const DatumPlan& datum = *plan.fixture->datum;
-  const auto& at = datum.seat[place].point_mm;
   for (std::size_t i = 0; i < datum.holes.size(); ++i) {
     const DatumHolePlan& hole = datum.holes[i];
     if (hole.side == record::Side::kOutside) continue;  // an obstacle of the path
-    const double apart_mm = std::hypot(at[0] - hole.center_mm[0], at[1] - hole.center_mm[1]);
+    const double off_mm = apart_mm(datum.seat[place].point_mm, hole.center_mm);
     const double needed_mm =
         0.5 * (hole.diameter_mm + plan.probe->tip_diameter_mm) + datum.uncertainty_mm;
-    if (apart_mm >= needed_mm) continue;
+    if (off_mm >= needed_mm) continue;
     findings.meaning(
         Code::kMeaning, fmt::format("/fixture/datum/seat/{}/point_mm", place),
         fmt::format("it is {:.3g} mm from the centre of hole {}, at least {:.3g} mm are needed for "
                     "the ball to meet the seat beside it (uncertainty_mm); move it away",
-                    apart_mm, i + 1, needed_mm));
+                    off_mm, i + 1, needed_mm));
   }
 }
 
@@ -121,22 +108,21 @@ void check_spans(const Plan& plan, Findings& findings) {
   for (const DatumSeatPlan& at : datum.seat)
     middle += vector3(at.point_mm) / static_cast<double>(datum.seat.size());
   const double lever_mm = (vector3(plan.fixture->axis_point_mm) - middle).norm();
-  double apart_mm = 0.0;
+  double span_mm = 0.0;
   for (const DatumHolePlan& a : datum.holes) {
     for (const DatumHolePlan& b : datum.holes)
-      apart_mm = std::max(
-          apart_mm, std::hypot(a.center_mm[0] - b.center_mm[0], a.center_mm[1] - b.center_mm[1]));
+      span_mm = std::max(span_mm, apart_mm(a.center_mm, b.center_mm));
   }
-  const auto require = [&](const char* key, const char* what, double span_mm) {
-    if (span_mm >= kLeastSpan * lever_mm) return;
+  const auto require = [&](const char* key, const char* what, double wide_mm) {
+    if (wide_mm >= kLeastSpan * lever_mm) return;
     findings.meaning(
         Code::kCollinear, key,
         fmt::format("{} {:.3g} mm, and the axes are {:.3g} mm away, where an error of a touch is "
                     "{:.3g} times as large; at least {:.3g} mm are needed; spread them",
-                    what, span_mm, lever_mm, lever_mm / span_mm, kLeastSpan * lever_mm));
+                    what, wide_mm, lever_mm, lever_mm / wide_mm, kLeastSpan * lever_mm));
   };
   require("/fixture/datum/seat", "its places are as narrow as", seat_width_mm(datum));
-  if (datum.holes.size() > 1) require("/fixture/datum/holes", "they span only", apart_mm);
+  if (datum.holes.size() > 1) require("/fixture/datum/holes", "they span only", span_mm);
 }
 
 /// Whether the places of the seat tell how it lies.

@@ -54,7 +54,7 @@ bool surely_clear(const PartSurface& surface, double deviation_mm, const Vector3
   if (!surface.inside) return nearest > surface.radius_mm + keep_off;
   const double farthest = std::max(beside->a.head<2>().norm(), beside->b.head<2>().norm());
   return farthest < surface.radius_mm - keep_off ||
-         nearest > surface.radius_mm + kBlockWall_mm + sphere_radius_mm;
+         nearest > surface.radius_mm + surface.wall_mm + sphere_radius_mm;
 }
 
 constexpr double kOverlap_mm = 1e-9;
@@ -64,7 +64,7 @@ bool on_end(const PartSurface& surface, const Vector3d& p) {
   const double from_axis = std::hypot(p.x(), p.y());
   const double rim = surface.radius_at(std::atan2(p.y(), p.x()), p.z());
   if (!surface.inside) return from_axis <= rim;
-  return from_axis >= rim && from_axis <= surface.radius_mm + kBlockWall_mm;
+  return from_axis >= rim && from_axis <= surface.radius_mm + surface.wall_mm;
 }
 
 /// Whether a point is within the material.
@@ -94,7 +94,7 @@ std::optional<SideContact> end_contact(const PartSurface& surface, const SphereS
 
 /// The outer wall of the block around a bore, as a shaft of ideal form.
 PartSurface block_wall(const PartSurface& bore) {
-  return {bore.radius_mm + kBlockWall_mm, bore.half_length_mm, false, {}, {}};
+  return {bore.radius_mm + bore.wall_mm, bore.half_length_mm, false, {}, {}};
 }
 
 core::Error in_contact_already() {

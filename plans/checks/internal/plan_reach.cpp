@@ -165,16 +165,32 @@ core::Result<void> check_room(const Plan& plan) {
     }
   }
   double highest_mm = q.place_mm()[2] + q.top_mm();
+  // A sphere, dowel or bolt head of the base, at its place that is nearest to the axis.
+  struct Standing {
+    std::string pointer;
+    Eigen::Vector3d place_mm;
+    double reach_mm;
+  };
+  std::vector<Standing> standing;
+  const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
   if (const auto& datum = fixture.datum) {
-    for (const DatumSpherePlan& of : datum->spheres) {
-      highest_mm = std::max(
-          highest_mm, of.center_mm[2] + 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm);
+    for (std::size_t i = 0; i < datum->spheres.size(); ++i) {
+      const Eigen::Vector3d center = vector3(datum->spheres[i].center_mm);
+      const double mine_mm = 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm;
+      highest_mm = std::max(highest_mm, center.z() + mine_mm);
+      standing.push_back({fmt::format("/fixture/datum/spheres/{}", i), center, mine_mm});
     }
     for (const DatumSeatPlan& of : datum->seat)
       highest_mm = std::max(highest_mm, of.point_mm[2] + datum->uncertainty_mm);
-    for (const DatumHolePlan& of : datum->holes) {
-      const double out_mm = of.side == record::Side::kOutside ? of.depth_mm : 0.0;
-      highest_mm = std::max(highest_mm, of.center_mm[2] + out_mm + datum->uncertainty_mm);
+    for (std::size_t i = 0; i < datum->holes.size(); ++i) {
+      const DatumHolePlan& of = datum->holes[i];
+      const bool out = of.side == record::Side::kOutside;
+      Eigen::Vector3d top = vector3(of.center_mm);
+      if (out) top.z() += of.depth_mm;
+      highest_mm = std::max(highest_mm, top.z() + datum->uncertainty_mm);
+      top.z() = std::min(top.z(), axis.z());
+      const double mine_mm = 0.5 * of.diameter_mm + datum->uncertainty_mm;
+      if (out) standing.push_back({fmt::format("/fixture/datum/holes/{}", i), top, mine_mm});
     }
   }
   if (const auto& on_ring = fixture.reached_pose) {
@@ -195,7 +211,6 @@ core::Result<void> check_room(const Plan& plan) {
   reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
               plan.part.location_uncertainty_mm;
   const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
-  const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
   TRY_DO(check_park(plan, std::max(axis.z() + reach_mm, highest_mm)));
   double apart_mm = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& place : places_of_artefact(plan))
@@ -210,23 +225,15 @@ core::Result<void> check_room(const Plan& plan) {
                     q.name(), apart_mm, needed_mm),
         pointer_of_artefact(q));
   }
-  const auto& datum = fixture.datum;
-  for (std::size_t i = 0; datum && i < datum->spheres.size() + datum->holes.size(); ++i) {
-    const bool ball = i < datum->spheres.size();
-    const DatumHolePlan* hole = ball ? nullptr : &datum->holes[i - datum->spheres.size()];
-    if (hole != nullptr && hole->side == record::Side::kInside) continue;
-    Eigen::Vector3d place = vector3(ball ? datum->spheres[i].center_mm : hole->center_mm);
-    if (!ball) place.z() = std::min(axis.z(), place.z() + hole->depth_mm);  // its nearest point
-    const double mine_mm = 0.5 * (ball ? datum->sphere_diameter_mm : hole->diameter_mm);
-    const double swept_mm = reach_mm + mine_mm + datum->uncertainty_mm;
-    if ((place - axis).norm() >= swept_mm) continue;
+  for (const Standing& of : standing) {
+    const double off_mm = (of.place_mm - axis).norm();
+    if (off_mm >= reach_mm + of.reach_mm) continue;
     return core::fail(
         core::Code::kUnreachable,
         fmt::format("it stands {:.3f} mm from the fixture's axis, the part can sweep it below "
                     "{:.3f} mm; move it away",
-                    (place - axis).norm(), swept_mm),
-        ball ? fmt::format("/fixture/datum/spheres/{}", i)
-             : fmt::format("/fixture/datum/holes/{}", i - datum->spheres.size()));
+                    off_mm, reach_mm + of.reach_mm),
+        of.pointer);
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -26,6 +27,16 @@ namespace rondure::plans {
 
 /// The axes of the fixture as stated in the plan.
 [[nodiscard]] fixture::Kinematics nominal_kinematics(const FixturePlan& fixture);
+
+/// Distance of two places of the base, seen from above [mm].
+[[nodiscard]] inline double apart_mm(const std::array<double, 3>& a,
+                                     const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
+/// Between the edges of two holes or dowels; negative where they overlap [mm].
+[[nodiscard]] inline double between_mm(const DatumHolePlan& a, const DatumHolePlan& b) {
+  return apart_mm(a.center_mm, b.center_mm) - 0.5 * (a.diameter_mm + b.diameter_mm);
+}
 
 /// Least distance of two parallel lines that enclose the seat of the base [mm].
 [[nodiscard]] double seat_width_mm(const DatumPlan& datum);

@@ -20,14 +20,9 @@ struct Neighbour {
   double reach_mm = 0.0;
 };
 
-/// The spheres on base and ring in a pose.
+/// The spheres on the ring in a pose. None stand on the base: such a plan has no datum.
 std::vector<Neighbour> spheres_W(const FixturePlan& fixture, const core::Pose& pose) {
   std::vector<Neighbour> out;
-  if (const auto& datum = fixture.datum) {
-    for (const DatumSpherePlan& sphere : datum->spheres)
-      out.push_back(
-          {vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm + datum->uncertainty_mm});
-  }
   if (const auto& on_ring = fixture.reached_pose) {
     const Eigen::Isometry3d X_WB = fixture::body_to_machine(nominal_kinematics(fixture), pose);
     for (const CarriedSpherePlan& sphere : on_ring->spheres)

@@ -43,16 +43,14 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
   return {};
 }
 
-core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step,
-                                           const std::string& name) {
-  const int point = step.row.point;
-  const auto touched = context.touch(std::move(step));
+core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const TouchStep& step,
+                                           const std::string& point) {
+  const auto touched = context.touch(step);
   if (touched) return touched->tip_mm;
   if (touched.error().code == core::Code::kStopped || context.lost_place) {
     return core::fail(touched.error());
   }
-  return core::fail_with(touched.error().code, "{}, point {}: {}", name, point + 1,
-                         touched.error().what);
+  return core::fail_with(touched.error().code, "{}: {}", point, touched.error().what);
 }
 
 }  // namespace
@@ -63,13 +61,14 @@ core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& contex
   context.last_steps.clear();
   std::vector<Eigen::Vector3d> tips;
   for (const TouchStep& step : steps) {
-    context.doing = fmt::format("{}, point {}", name, step.row.point + 1);
+    const std::string point = fmt::format("{}, point {}", name, step.row.point + 1);
+    context.doing = point;
     if (auto moved = context.follow(step.way_W); !moved) {
       if (context.retreating) (void)context.rise();
       if (moved.error().code != core::Code::kCollision) return core::fail(moved.error());
-      return core::fail_with(core::Code::kCollision, "{}: {}", context.doing, moved.error().what);
+      return core::fail_with(core::Code::kCollision, "{}: {}", point, moved.error().what);
     }
-    auto tip = touch_sphere(context, step, name);
+    auto tip = touch_sphere(context, step, point);
     if (!tip) {
       const bool movable = tip.error().code != core::Code::kCollision && !context.lost_place;
       if (movable) (void)context.rise();
