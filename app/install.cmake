@@ -63,6 +63,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME rondure)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# Loaded where an archive is a server: nothing that is linked tells of it.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libsoci-postgresql4.0")
 # Chromium prints report.pdf; everything else works without it.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "chromium, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "fonts-noto-cjk")

@@ -45,8 +45,8 @@ core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::
   }
   // Otherwise a file of that name would be created, and its name shown in messages and in the
   // queue.
-  if (is_connection_text(text) || text.starts_with("postgresql:") ||
-      text.starts_with("postgres:")) {
+  TRY(const bool settings, is_connection_text(text));
+  if (settings || text.starts_with("postgresql:") || text.starts_with("postgres:")) {
     return core::fail(core::Code::kBadOption,
                       "the archive is a server, but not given as a URL; write "
                       "postgresql://user@host:port/database");

@@ -32,7 +32,7 @@ struct ArchivePlace {
 /// Parses "none", a path, or "postgresql://user@host:port/database?..." (also "postgres://") in the
 /// syntax of libpq. kBadOption for another scheme, an empty text, settings that are not a URL, a
 /// URL that libpq cannot read, or one in which the password cannot be separated from the rest (a
-/// second "@").
+/// second "@"). kFile where the library of PostgreSQL is not installed.
 ///
 /// @param folder  A relative path is relative to it; empty: to the working directory.
 [[nodiscard]] core::Result<ArchivePlace> parse_archive_place(

@@ -15,6 +15,7 @@ for package in "$folder"/*.deb; do
 done
 dpkg-deb --info "$folder"/rondure_*.deb
 dpkg-deb -f "$folder"/rondure_*.deb Recommends | grep -qw chromium || { echo "chromium, which prints PDFs, is not recommended"; exit 1; }
+dpkg-deb -f "$folder"/rondure_*.deb Depends | grep -qw libsoci-postgresql4.0 || { echo "what archives on a server load is not required"; exit 1; }
 for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
 for file in bin/rondure lib/udev/rules.d/60-rondure.rules lib/cmake/rondure/rondureConfig.cmake lib/librondure_fit.a \
   include/rondure/fit/references/min_zone.h share/man/man1/rondure.1.gz share/bash-completion/completions/rondure \
@@ -27,6 +28,7 @@ readelf -dlsW root/usr/bin/rondure >elf
 for sign in __stack_chk_fail _chk@ BIND_NOW GNU_RELRO; do
   grep -q "$sign" elf || { echo "the program is not hardened: no $sign"; exit 1; }
 done
+! grep "NEEDED.*libpq" elf || { echo "a start of the program loads what only an archive on a server needs"; exit 1; }
 for plan in root/usr/share/rondure/plans/examples/*.json; do root/usr/bin/rondure validate "$plan"; done
 root/usr/bin/rondure run root/usr/share/rondure/plans/examples/09_axle_points_file.json --out run --archive none --quiet
 root/usr/bin/rondure verify run

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/archive/internal/postgresql.h"
 #include "record/archive/internal/server_url.h"
 
 namespace rondure::record {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -80,6 +82,16 @@ TEST(ServerUrl, AndItsPasswordAreTakenOutOfWhatTheLibrarySays) {
   const std::string url = "postgresql://u:s%3Fcret@h/d";
   EXPECT_EQ(without_secrets("no \"" + url + "\", no s?cret, no s%3Fcret", url),
             "no \"...\", no ..., no ...");
+}
+
+TEST(ServerUrl, NeedsALibraryThatMayBeMissing) {
+  const auto missing = load_postgresql("libsoci_of_nobody.so.1");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, core::Code::kFile);
+  EXPECT_THAT(missing.error().what,
+              AllOf(HasSubstr("libsoci_of_nobody.so.1"), HasSubstr("install libsoci-postgresql")));
+  // Another library of SOCI has not what is looked for.
+  EXPECT_FALSE(load_postgresql("libsoci_core.so.4.0"));
 }
 
 TEST(FolderBeside, IsTheParentOfTheRun) {

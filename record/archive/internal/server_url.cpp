@@ -4,24 +4,20 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <libpq-fe.h>
+
+#include "record/archive/internal/postgresql.h"
 
 namespace rondure::record {
 namespace {
 
-struct FreeSettings {
-  void operator()(PQconninfoOption* settings) const { PQconninfoFree(settings); }
-};
-struct FreeWords {
-  void operator()(char* words) const { PQfreemem(words); }
-};
-using Settings = std::unique_ptr<PQconninfoOption, FreeSettings>;
+using Settings = std::unique_ptr<PQconninfoOption, decltype(&PQconninfoFree)>;
 
-/// The settings as parsed by libpq; null with the reason in `words`.
-Settings parsed_by_libpq(std::string_view text, std::string& words) {
+/// The settings as parsed by libpq; null with the reason in `words`. kFile without libpq.
+core::Result<Settings> parsed_by_libpq(std::string_view text, std::string& words) {
+  TRY(const auto library, postgresql());
   char* reason = nullptr;
-  Settings out(PQconninfoParse(std::string(text).c_str(), &reason));
-  const std::unique_ptr<char, FreeWords> owned(reason);
+  Settings out(library.parse(std::string(text).c_str(), &reason), library.free_settings);
+  const std::unique_ptr<char, decltype(&PQfreemem)> owned(reason, library.free_words);
   if (!out) words = reason == nullptr ? "the memory of this computer is not enough" : reason;
   return out;
 }
@@ -49,7 +45,7 @@ void replace_all(std::string& text, std::string_view part) {
 
 core::Result<std::vector<ServerSetting>> parse_server_url(std::string_view url) {
   std::string words;
-  const Settings settings = parsed_by_libpq(url, words);
+  TRY(const Settings settings, parsed_by_libpq(url, words));
   if (!settings) {
     // The reason continues with a quoted part of the URL, which may be a password.
     words = words.substr(0, std::min(words.find(": \""), words.find('\n')));
@@ -66,9 +62,10 @@ core::Result<std::vector<ServerSetting>> parse_server_url(std::string_view url) 
   return out;
 }
 
-bool is_connection_text(std::string_view text) {
+core::Result<bool> is_connection_text(std::string_view text) {
+  if (text.find('=') == std::string_view::npos) return false;  // each setting has one
   std::string ignored;
-  const Settings settings = parsed_by_libpq(text, ignored);
+  TRY(const Settings settings, parsed_by_libpq(text, ignored));
   const PQconninfoOption* s = settings.get();
   while (s != nullptr && s->keyword != nullptr && s->val == nullptr) ++s;
   return s != nullptr && s->keyword != nullptr;

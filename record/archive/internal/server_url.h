@@ -19,11 +19,12 @@ struct ServerSetting {
 };
 
 /// The settings that a URL gives, in the order of libpq. kBadOption when libpq cannot read it, with
-/// the reason of libpq but without the part of the URL that the reason quotes.
+/// the reason of libpq but without the part of the URL that the reason quotes. kFile without libpq.
 [[nodiscard]] core::Result<std::vector<ServerSetting>> parse_server_url(std::string_view url);
 
-/// Whether a text gives connection settings without being a URL ("host=h password=p").
-[[nodiscard]] bool is_connection_text(std::string_view text);
+/// Whether a text gives connection settings without being a URL ("host=h password=p"). kFile
+/// without libpq.
+[[nodiscard]] core::Result<bool> is_connection_text(std::string_view text);
 
 /// "postgresql://?host=h&...": everything but letters, digits and -._~ percent-encoded.
 [[nodiscard]] std::string server_url(const std::vector<ServerSetting>& settings);

@@ -9,13 +9,11 @@
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
+#include "record/archive/internal/postgresql.h"
 #include "record/archive/internal/rows.h"
 #include "record/archive/internal/server_url.h"
 #include "record/files.h"
 #include "record/internal/database.h"
-
-// SOCI's own header for PostgreSQL includes the headers of libpq, which are not needed here.
-extern "C" soci::backend_factory const* factory_postgresql();
 
 namespace rondure::record {
 namespace {
@@ -110,7 +108,7 @@ std::string with_limits(const std::string& url) {
 
 void open_server(ArchiveSession& session) {
   session.dialect = &postgresql_dialect();
-  session.sql.open(*factory_postgresql(), with_limits(session.place.address));
+  session.sql.open(*postgresql()->factory(), with_limits(session.place.address));
   session.sql << "set client_min_messages = warning";
   session.sql << "set client_encoding = 'UTF8'";
   session.sql << "set lock_timeout = '10s'";
@@ -185,6 +183,7 @@ core::Result<std::unique_ptr<ArchiveSession>> open_archive_session(const Archive
   session->place = place;
   try {
     if (place.kind == ArchivePlace::Kind::kServer) {
+      TRY_DO(postgresql());
       open_server(*session);
     } else {
       TRY_DO(check_file(place, access));
