@@ -312,7 +312,14 @@ Json thermal_json(const std::optional<evaluation::ThermalCorrection>& c) {
           {"factor_standard_uncertainty", c->factor_uncertainty}};
 }
 
-Json feature_json(const evaluation::FeatureResult& feature) {
+Json cloud_json(const evaluation::FeatureResult& feature) {
+  Json json = list_json(feature.cloud, point_json);
+  for (std::size_t i = 0; feature.merged && i < feature.cloud.size(); ++i)
+    json[i]["pose"] = feature.cloud[i].pose;
+  return json;
+}
+
+Json feature_json(const evaluation::FeatureResult& feature, Rows rows) {
   if (record::is_analysis(feature.feature.shape)) return analysis_json(feature);
   const record::Feature& asked = feature.feature;
   Json json;
@@ -348,9 +355,7 @@ Json feature_json(const evaluation::FeatureResult& feature) {
   });
   json["poses"] = list_json(feature.poses, pose_json);
   if (feature.merged) json["merged"] = merged_json(*feature.merged);
-  json["cloud"] = list_json(feature.cloud, point_json);
-  for (std::size_t i = 0; feature.merged && i < feature.cloud.size(); ++i)
-    json["cloud"][i]["pose"] = feature.cloud[i].pose;
+  if (rows == Rows::kAll) json["cloud"] = cloud_json(feature);
   json["warnings"] = list_json(feature.warnings, error_json);
   json["failure"] = optional_json(feature.failure);
   return json;
@@ -391,6 +396,14 @@ std::string write_json(const record::RunRecord& record, const evaluation::Evalua
          "\n";
 }
 
+Json results_json(const evaluation::Evaluation& evaluation, Rows rows) {
+  return {
+      {"probe", probe_json(evaluation.probe)},
+      {"features", list_json(evaluation.features, [&](const evaluation::FeatureResult& feature) {
+         return feature_json(feature, rows);
+       })}};
+}
+
 nlohmann::ordered_json report_document(const record::RunRecord& record,
                                        const evaluation::Evaluation& evaluation) {
   Json json;
@@ -400,9 +413,10 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
   json["measurement_uncertainty"] =
       any_interval(evaluation) ? Json("stated with each characteristic") : Json(nullptr);
   json["rule"] = rule_json(evaluation);
-  json["probe"] = probe_json(evaluation.probe);
+  Json results = results_json(evaluation, Rows::kAll);
+  json["probe"] = std::move(results["probe"]);
   json["fixture_calibration"] = fixture_json(evaluation.fixture);
-  json["features"] = list_json(evaluation.features, feature_json);
+  json["features"] = std::move(results["features"]);
   json["decisions"] = list_json(record.decisions, event_json);
   json["simulation"] = Json::array();
   for (const record::TruthValue& truth : record.truth_values) {
