@@ -92,6 +92,13 @@ std::vector<core::Error> doubts_of(const Plan& plan) {
       add(doubt(plan, asked.indication.datum, where + "/datum"));
     }
   }
+  constexpr std::size_t kPlacesOfAPlane = 3;
+  if (plan.fixture && plan.fixture->datum && plan.fixture->datum->seat.size() == kPlacesOfAPlane) {
+    add(core::Error{core::Code::kMeaning,
+                    "three places always lie in a plane: dirt under one of them tilts the base, "
+                    "and nothing shows it; was a fourth place meant?",
+                    "/fixture/datum/seat"});
+  }
   const std::size_t bodies = plan.fixture ? plan.fixture->bodies.size() : 0;
   for (std::size_t i = 0; i < bodies; ++i) {
     const BodyPlan& body = plan.fixture->bodies[i];

@@ -118,7 +118,7 @@ std::string in_words(const Hit& hit) {
   const std::string name = hit.name.empty() ? hit.name : fmt::format(" \"{}\"", hit.name);
   std::string key = hit.key;
   if (!key.empty() && hit.location_mm > 0.0)
-    key += fmt::format(" with {:.4g} mm by which the part may be off", hit.location_mm);
+    key += fmt::format(" with {:.4g} mm by which the place may be off", hit.location_mm);
   if (hit.body_mm > 0.0)
     key += fmt::format("{}{:.4g} mm of the body", key.empty() ? "" : " and ", hit.body_mm);
   if (!key.empty()) key = " (" + key + ")";

@@ -73,7 +73,7 @@ struct Hit {
   Limb limb = Limb::kBall;
   double gap_mm = 0.0;                                 ///< To keep between tool and obstacle.
   const char* key = "";                                ///< Of the plan, that asks for the gap;
-  double location_mm = 0.0;                            ///< and in it what the part may be off,
+  double location_mm = 0.0;                            ///< and in it what the place may be off,
   double body_mm = 0.0;                                ///< and what the body asks for itself.
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which the hit occurs.
   std::string name = {};                               ///< Of a body of the plan.

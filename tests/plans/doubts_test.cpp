@@ -73,5 +73,14 @@ TEST(Doubts, AProgramThatNoFormatWritesIsNamed) {
   EXPECT_EQ(doubts_of(plan).front().where, "/features/0/wheel/program");
 }
 
+TEST(Doubts, ASeatThatCannotShowItsFormIsNamed) {
+  Plan plan = testing::plan_of("21_fixture_on_holes.json");
+  ASSERT_EQ(plan.fixture->datum->seat.size(), 4U);
+  EXPECT_TRUE(doubts_of(plan).empty());
+  plan.fixture->datum->seat.pop_back();
+  ASSERT_EQ(doubts_of(plan).size(), 1U);
+  EXPECT_EQ(doubts_of(plan).front().where, "/fixture/datum/seat");
+}
+
 }  // namespace
 }  // namespace rondure::plans
