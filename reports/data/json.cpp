@@ -236,7 +236,8 @@ Json pose_json(const evaluation::PoseValue& pose) {
           {"final", pose.final_pose}};
 }
 
-Json point_json(const evaluation::CloudPoint& point) {
+/// @param merged  The cloud holds several poses.
+Json point_json(const evaluation::CloudPoint& point, bool merged) {
   Json json = {{"layer", point.layer},
                {"point", point.point},
                {"repeats", point.repeats},
@@ -248,6 +249,7 @@ Json point_json(const evaluation::CloudPoint& point) {
                            : point.inner_contact ? Json("inner")
                                                  : Json(nullptr)}};
   if (point.pass) json["pass"] = *point.pass;
+  if (merged) json["pose"] = point.pose;
   return json;
 }
 
@@ -312,14 +314,8 @@ Json thermal_json(const std::optional<evaluation::ThermalCorrection>& c) {
           {"factor_standard_uncertainty", c->factor_uncertainty}};
 }
 
-Json cloud_json(const evaluation::FeatureResult& feature) {
-  Json json = list_json(feature.cloud, point_json);
-  for (std::size_t i = 0; feature.merged && i < feature.cloud.size(); ++i)
-    json[i]["pose"] = feature.cloud[i].pose;
-  return json;
-}
-
-Json feature_json(const evaluation::FeatureResult& feature, Rows rows) {
+/// All but the rows of the cloud.
+Json feature_json(const evaluation::FeatureResult& feature) {
   if (record::is_analysis(feature.feature.shape)) return analysis_json(feature);
   const record::Feature& asked = feature.feature;
   Json json;
@@ -355,7 +351,7 @@ Json feature_json(const evaluation::FeatureResult& feature, Rows rows) {
   });
   json["poses"] = list_json(feature.poses, pose_json);
   if (feature.merged) json["merged"] = merged_json(*feature.merged);
-  if (rows == Rows::kAll) json["cloud"] = cloud_json(feature);
+  json["cloud"] = Json::array();
   json["warnings"] = list_json(feature.warnings, error_json);
   json["failure"] = optional_json(feature.failure);
   return json;
@@ -386,26 +382,31 @@ bool any_interval(const evaluation::Evaluation& evaluation) {
   return false;
 }
 
-}  // namespace
+constexpr int kIndent = 1;
+constexpr int kDepthOfRow = 4;  // root, features, feature, cloud
 
-std::string write_json(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
-  // Names come from plans and command lines: bytes that are not UTF-8 are replaced instead of
-  // refused.
-  return report_document(record, evaluation)
-             .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-         "\n";
+/// Names come from plans and command lines: bytes that are not UTF-8 are replaced, not refused.
+std::string text_of(const Json& json) {
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace);
 }
 
-Json results_json(const evaluation::Evaluation& evaluation, Rows rows) {
-  return {
-      {"probe", probe_json(evaluation.probe)},
-      {"features", list_json(evaluation.features, [&](const evaluation::FeatureResult& feature) {
-         return feature_json(feature, rows);
-       })}};
+/// Adds the rows of a cloud between the brackets of its list.
+void add_rows(const evaluation::FeatureResult& feature, std::string& out) {
+  const std::string line = "\n" + std::string(kIndent * kDepthOfRow, ' ');
+  for (std::size_t i = 0; i < feature.cloud.size(); ++i) {
+    out += i == 0 ? line : "," + line;
+    for (const char c : text_of(point_json(feature.cloud[i], feature.merged != nullptr))) {
+      if (c == '\n') {
+        out += line;
+      } else {
+        out += c;
+      }
+    }
+  }
+  if (!feature.cloud.empty()) out += "\n" + std::string(kIndent * (kDepthOfRow - 1), ' ');
 }
 
-nlohmann::ordered_json report_document(const record::RunRecord& record,
-                                       const evaluation::Evaluation& evaluation) {
+Json document_of(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
   Json json;
   json["schema_version"] = 1;
   json["header"] = header_json(record);
@@ -413,7 +414,7 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
   json["measurement_uncertainty"] =
       any_interval(evaluation) ? Json("stated with each characteristic") : Json(nullptr);
   json["rule"] = rule_json(evaluation);
-  Json results = results_json(evaluation, Rows::kAll);
+  Json results = results_json(evaluation);
   json["probe"] = std::move(results["probe"]);
   json["fixture_calibration"] = fixture_json(evaluation.fixture);
   json["features"] = std::move(results["features"]);
@@ -423,6 +424,29 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
     json["simulation"].push_back({{"feature", truth.feature}, {truth.name, truth.value}});
   }
   return json;
+}
+
+}  // namespace
+
+Json results_json(const evaluation::Evaluation& evaluation) {
+  return {{"probe", probe_json(evaluation.probe)},
+          {"features", list_json(evaluation.features, feature_json)}};
+}
+
+std::string write_json(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
+  // The rows are text one by one: as a document, those of a million points take a gigabyte.
+  const std::string rest = text_of(document_of(record, evaluation)) + "\n";
+  const std::string empty = "\n" + std::string(kIndent * (kDepthOfRow - 1), ' ') + "\"cloud\": []";
+  std::string out;
+  std::size_t done = 0;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    if (record::is_analysis(feature.feature.shape)) continue;  // it has none
+    const std::size_t at = rest.find(empty, done) + empty.size() - 1;
+    out.append(rest, done, at - done);
+    add_rows(feature, out);
+    done = at;
+  }
+  return out.append(rest, done);
 }
 
 }  // namespace rondure::reports

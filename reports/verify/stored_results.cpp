@@ -31,7 +31,7 @@ void collect(const Json& node, const std::string& pointer, std::vector<record::S
 std::vector<record::StoredResult> stored_results(const evaluation::Evaluation& evaluation) {
   // The cloud repeats the touches, which the journal's digests cover.
   std::vector<record::StoredResult> out;
-  collect(results_json(evaluation, Rows::kNone), "", out);
+  collect(results_json(evaluation), "", out);
   return out;
 }
 

@@ -43,10 +43,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline Json optional_json(const std::optional<core::Error>& error) {
   return error ? error_json(*error) : Json(nullptr);
 }
-/// Whether the rows of a cloud are written, of which there may be millions.
-enum class Rows { kNone, kAll };
-/// What depends on the evaluation alone: "probe" and "features".
-[[nodiscard]] Json results_json(const evaluation::Evaluation& evaluation, Rows rows);
+/// What depends on the evaluation alone: "probe" and "features", without the rows of clouds, of
+/// which there may be millions.
+[[nodiscard]] Json results_json(const evaluation::Evaluation& evaluation);
 /// The characteristics of a feature.
 [[nodiscard]] Json characteristics_json(const evaluation::FeatureResult& feature);
 /// The conditions that were checked, passed or not.
