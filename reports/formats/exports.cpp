@@ -158,11 +158,13 @@ std::string render(const Export& what, const record::RunRecord& record,
 std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
                                  const evaluation::Evaluation& evaluation, Edition edition,
                                  const EarlierResults& earlier) {
+  std::vector<Rendered> out;
   if (what.format != Format::kCorrections) {
-    return {{what, render(what, record, evaluation, edition, earlier)}};
+    out.push_back({what, render(what, record, evaluation, edition, earlier)});
+    return out;
   }
   Corrections made = write_corrections(record, evaluation);
-  std::vector<Rendered> out = {{what, std::move(made.summary)}};
+  out.push_back({what, std::move(made.summary)});
   for (CorrectionTable& table : made.tables) {
     out.push_back({{what.format, std::move(table.file)}, std::move(table.text)});
   }
