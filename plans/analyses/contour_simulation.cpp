@@ -310,7 +310,12 @@ core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
     if (pins.traced()) add(out, axes_of(part.read, asked), fmt::format("axes {}", number), feature);
     add(out, gauge_of(part.read.pin_um, asked.phase_offset_deg, gauge_sense),
         fmt::format("pin {}", number), feature);
-    add(out, gauge_of(part.read.main_um, asked.main_phase_offset_deg, gauge_sense),
+    // Of f by the main journal the truth is that of the axes: t less a journal that shows exactly
+    // what the pin has beside it. What the two do not share is an error of the measurement.
+    const bool alike = !errors && !pins.traced();
+    add(out,
+        gauge_of(alike ? part.rest_um : part.read.main_um, asked.main_phase_offset_deg,
+                 gauge_sense),
         fmt::format("main {}", number), feature);
     add(out, std::move(truth), fmt::format("truth {}", number), feature);
     out.truths.push_back(

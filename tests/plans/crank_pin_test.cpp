@@ -19,6 +19,7 @@
 #include "evaluation/contour/result.h"
 #include "evaluation/evaluate.h"
 #include "fit/contour/crank_motion.h"
+#include "fit/contour/error.h"
 #include "fit/contour/study.h"
 #include "plans/analyses/analysis.h"
 #include "plans/run/runner.h"
@@ -91,6 +92,24 @@ TEST(CrankTwin, OfAnIndirectSeparationRecordsNoTraces) {
   ASSERT_FALSE(data.series.empty());
   for (const record::Series& series : data.series) {
     EXPECT_FALSE(series.name.starts_with("axes")) << series.name;
+  }
+}
+
+TEST(CrankTwin, HasAMainLikeItsPinInTheTruthOfAnIndirectSeparationOnly) {
+  Plan plan = pins_with(0.3, 3);
+  for (const bool indirect : {false, true}) {
+    plan.features.front().contour->separation = indirect
+                                                    ? record::ContourTask::Separation::kIndirect
+                                                    : record::ContourTask::Separation::kDirect;
+    const auto data = analysis_data(plan, 0, 3).value();
+    const auto main = column_of(data, "main 1", "deviation_um");
+    EXPECT_EQ(main, column_of(data, "truth 1", "main_um"));
+    const auto truth = std::ranges::find_if(data.series, [](const record::Series& series) {
+      return series.name == "main 1" && series.role == record::Series::Role::kTruth;
+    });
+    ASSERT_NE(truth, data.series.end());
+    EXPECT_EQ(truth->column("deviation_um").value(),
+              indirect ? column_of(data, "truth 1", "rest_um") : main);
   }
 }
 
@@ -280,6 +299,44 @@ TEST_F(NextPins, WithoutTracesAreAsGoodAsPinAndMainJournalAreAlike) {
   EXPECT_LT(fit::peak_to_valley(fit::mean_following(next.study)), 0.8e-3);
   EXPECT_EQ(found.features[1].characteristics[1].verdict, evaluation::Verdict::kConforms)
       << found.features[1].characteristics[1].reason;
+}
+
+/// f of the contours that the simulated axes ground, mean of all parts: peak to valley [mm].
+double planted_following_mm(const record::RunRecord& record, int feature, std::size_t parts,
+                            const fit::ContourStudyOptions& options) {
+  std::vector<double> mean;
+  for (std::size_t part = 1; part <= parts; ++part) {
+    const auto* const truth = record.truth_series_of(feature, fmt::format("truth {}", part));
+    if (truth == nullptr) return -1.0;
+    auto ground = truth->column("ground_um").value_or(std::vector<double>());
+    for (double& v : ground) v *= core::kMicrometre;
+    const auto f = fit::contour_error(ground, options.geometry.pin_radius_mm, options.error);
+    if (!f) return -1.0;
+    mean.resize(f->error_mm.size(), 0.0);
+    for (std::size_t m = 0; m < mean.size(); ++m) {
+      mean[m] += f->error_mm[m] / static_cast<double>(parts);
+    }
+  }
+  return fit::peak_to_valley(mean);
+}
+
+// What pin and main journal do not share is an error of f, not a part of its truth.
+TEST_F(NextPins, WithoutTracesAreHeldAgainstWhatFollowsTheAxes) {
+  for (const std::uint64_t seed : {20U, 21U}) {
+    const Plan plan = corrected(false, seed);
+    const auto found = run(plan);
+    const record::RunRecord record = testing::journal_of(directory_);
+    const auto parts = static_cast<std::size_t>(plan.simulation->contour->parts);
+    for (const std::size_t feature : {0U, 1U}) {
+      SCOPED_TRACE(fmt::format("seed {}, feature {}", seed, feature));
+      const auto& truths = found.features[feature].characteristics[1].truths_mm;
+      ASSERT_EQ(truths.size(), 1U);
+      const evaluation::ContourResult& pins = pins_of_feature(found, feature);
+      const double planted_mm =
+          planted_following_mm(record, static_cast<int>(feature), parts, pins.options);
+      EXPECT_NEAR(truths.front(), planted_mm, 0.01e-3);
+    }
+  }
 }
 
 // Added to the traces with the other sign, the correction doubles f.

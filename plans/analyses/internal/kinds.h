@@ -29,7 +29,8 @@ void check_ball_id(const std::string& id, std::set<std::string>& seen, const std
                    Findings& findings);
 
 /// Simulated pins of a contour feature: traces of the controller, pins as the envelope of all wheel
-/// positions with their non-following part, and main journals with that part alone.
+/// positions with their non-following part, and main journals with that part alone. Without
+/// `errors` and traces the main journals show exactly the non-following part of their pins.
 /// @return The data, or the errors of wheel_path().
 [[nodiscard]] core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
                                                           std::uint64_t seed, bool errors);
