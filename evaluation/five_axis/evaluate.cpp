@@ -130,6 +130,13 @@ fixture::AxisStation station_of(double angle_rad, const fit::Vector6& errors,
   return out;
 }
 
+/// An angle of a table as the control counts it: a full circle runs from 0 to 360 deg in its sense.
+double counted_rad(double angle_rad, double sense, bool full_circle) {
+  if (sense > 0.0) return angle_rad;
+  if (full_circle) return (360.0 - core::stated_degrees(angle_rad)) * kDegree;
+  return 0.0 - angle_rad;  // 0, not -0
+}
+
 /// The table of an axis in steps, and the curve through its stations.
 core::Result<void> fill_axis(const FiveAxisResult& facts, const fit::RotaryStudy& study,
                              double step_deg, double sense,
@@ -140,19 +147,22 @@ core::Result<void> fill_axis(const FiveAxisResult& facts, const fit::RotaryStudy
   fit::round_table(asked.resolution_um * kMicrometre, asked.resolution_urad * core::kMicroradian,
                    rows);
   for (const fit::HeadTableRow& row : rows) {
-    table.push_back(station_of(sense * row.angle_rad, row.errors, row.u));
+    table.push_back(
+        station_of(counted_rad(row.angle_rad, sense, study.table.full_circle), row.errors, row.u));
   }
   std::ranges::sort(table, {}, &fixture::AxisStation::angle_rad);
   std::vector<double> angles_rad;
   for (const fit::RotaryTableRow& row : study.table.rows) angles_rad.push_back(row.angle_rad);
   if (study.table.full_circle) {
-    const double closed_rad = angles_rad.front() + core::kTwoPi;
+    // After the last station as the control counts.
+    const double closed_rad =
+        sense > 0.0 ? angles_rad.front() + core::kTwoPi : angles_rad.back() - core::kTwoPi;
     if (std::abs(closed_rad) <= core::kTwoPi) angles_rad.push_back(closed_rad);
   }
   std::vector<fixture::AxisStation> stations;
   TRY(const auto at_stations, fit::head_errors(facts.study, study, angles_rad));
   for (const fit::HeadTableRow& row : at_stations) {
-    stations.push_back(station_of(sense * row.angle_rad, row.errors, row.u));
+    stations.push_back(station_of(counted_rad(row.angle_rad, sense, false), row.errors, row.u));
   }
   std::ranges::sort(stations, {}, &fixture::AxisStation::angle_rad);
   TRY(motion, fixture::StationMotion::through(std::move(stations)));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/rotary/errors.h"
 
@@ -273,13 +274,25 @@ core::Result<std::vector<HeadTableRow>> head_errors(const HeadStudy& study, cons
 
 core::Result<std::vector<HeadTableRow>> head_table(const HeadStudy& study, const RotaryStudy& axis,
                                                    double step_rad) {
+  constexpr double kPerDegree = 1e9;  // whole steps of degrees stay what they are
   const auto& rows = axis.table.rows;
-  const double first = rows.front().angle_rad;
-  const double last = axis.table.full_circle ? first + core::kTwoPi : rows.back().angle_rad;
+  const bool round = axis.table.full_circle;
+  const double first = round ? 0.0 : rows.front().angle_rad;
+  const double last = round ? core::kTwoPi : rows.back().angle_rad;
   const auto steps = static_cast<int>(std::ceil((last - first) / step_rad - 1e-6));
-  std::vector<double> angles_rad;
-  for (int i = 0; i <= steps; ++i) angles_rad.push_back(std::min(last, first + i * step_rad));
-  return head_errors(study, axis, angles_rad);
+  const double first_deg = core::stated_degrees(first);
+  const double step_deg = core::stated_degrees(step_rad);
+  std::vector<double> angles_rad = {first};
+  for (int i = 1; i < steps; ++i) {
+    angles_rad.push_back(core::on_grid(first_deg + i * step_deg, kPerDegree) * core::kDegree);
+  }
+  angles_rad.push_back(last);
+  TRY(auto out, head_errors(study, axis, angles_rad));
+  if (round) {
+    out.back() = out.front();
+    out.back().angle_rad = last;
+  }
+  return out;
 }
 
 void round_table(double shift_mm, double tilt_rad, std::vector<HeadTableRow>& rows) {

@@ -104,8 +104,8 @@ struct HeadTableRow {
 [[nodiscard]] core::Result<std::vector<HeadTableRow>> head_errors(
     const HeadStudy& study, const RotaryStudy& axis, const std::vector<double>& angles_rad);
 
-/// The errors of one axis in steps between its outermost stations, a full circle from its first
-/// station round to it. The last step may be shorter.
+/// The errors of one axis in steps between its outermost stations, a full circle from 0 to 360 deg,
+/// which has the errors of 0. The last step may be shorter. Steps of whole degrees give whole ones.
 [[nodiscard]] core::Result<std::vector<HeadTableRow>> head_table(const HeadStudy& study,
                                                                  const RotaryStudy& axis,
                                                                  double step_rad);
