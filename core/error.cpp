@@ -71,6 +71,7 @@ constexpr std::array kCodes = {
     NamedCode{Code::kHarmonicLoss, "harmonic-loss"},
     NamedCode{Code::kInconsistent, "inconsistent"},
     NamedCode{Code::kUnfiltered, "unfiltered"},
+    NamedCode{Code::kRepeatedRows, "repeated-rows"},
 };
 
 constexpr bool codes_stand_in_order() {

@@ -74,9 +74,10 @@ enum class Code {
   kHarmonicLoss,     ///< harmonic-loss: a separation or a filter loses or amplifies harmonics
   kInconsistent,     ///< inconsistent: the data contradict the geometry they were taken with
   kUnfiltered,       ///< unfiltered: dense points, evaluated as measured
+  kRepeatedRows,     ///< repeated-rows: rows of a points file that are there twice take no part
 };
 /// The last code of the list.
-inline constexpr Code kLastCode = Code::kUnfiltered;
+inline constexpr Code kLastCode = Code::kRepeatedRows;
 
 /// Returns the name of a code as JSON and messages spell it, e.g. "too-few-points".
 [[nodiscard]] std::string_view code_name(Code code);

@@ -24,6 +24,7 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "evaluation/part/outliers.h"
+#include "evaluation/results/measured_cloud.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
 #include "fit/geometry/points.h"
@@ -523,7 +524,7 @@ void warn_of_gross_points(const FitArguments& arguments, const record::PointTabl
     std::string said = fmt::format(
         "point {} lies {:+.3f} um off the least-squares feature, more than five robust "
         "scales",
-        rows[i], core::micrometres(off_mm[rows[i]] - middle_mm));
+        table.row(rows[i]), core::micrometres(off_mm[rows[i]] - middle_mm));
     if (const std::string share = share_of({&rows[i], 1}); !share.empty())
       said += "; it carries" + share;
     outcome.warnings.push_back({core::Code::kOutliers, std::move(said), {}});
@@ -532,6 +533,13 @@ void warn_of_gross_points(const FitArguments& arguments, const record::PointTabl
   std::string said = fmt::format("together {} points lie that far off", rows.size());
   if (const std::string share = share_of(rows); !share.empty()) said += " and carry" + share;
   outcome.warnings.push_back({core::Code::kOutliers, std::move(said), {}});
+}
+
+/// Gives the contacts the rows of the file in place of those of the points that take part.
+void name_rows(const record::PointTable& table, FitReference& found) {
+  for (auto* const contacts : {&found.outer, &found.inner}) {
+    for (fit::Contact& contact : *contacts) contact.index = table.row(contact.index);
+  }
 }
 
 /// All of standard input.
@@ -603,8 +611,10 @@ int fit(const FitArguments& arguments) {
     return refuse(doubt->at(arguments.file));
   }
   outcome->read = table->read;
+  if (table->repeated) outcome->warnings.push_back(evaluation::repeated_rows(*table->repeated));
   warn_of_gross_points(arguments, *table, *outcome);
   for (FitOutcome::Entry& entry : outcome->references) {
+    if (entry.found) name_rows(*table, *entry.found);
     if (!plane || !entry.found) continue;
     entry.found->place.center_mm = *plane * entry.found->place.center_mm;
     entry.found->place.coordinates = 3;

@@ -8,6 +8,9 @@
 
 #include "core/units.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
+#include "record/tasks/run.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -72,6 +75,12 @@ void warn_sampling(FeatureResult& result) {
             "and its axis is weakly determined",
             gap / core::kDegree));
   }
+}
+
+/// Settings that cannot be read are a gate of their own.
+void warn_repeated(FeatureResult& result) {
+  const auto source = record::task_of<record::SourceSettings>(result.feature.settings, "source/");
+  if (source && source->repeated) result.warnings.push_back(repeated_rows(*source->repeated));
 }
 
 /// The value of a circle that leans, in its plane and about z.
@@ -210,6 +219,7 @@ void warn_level(FeatureResult& result) {
 }  // namespace
 
 void warn(FeatureResult& result) {
+  warn_repeated(result);
   warn_sampling(result);
   warn_lean(result);
   warn_exact_fit(result);

@@ -165,6 +165,16 @@ RepeatNoise repeat_noise(const std::vector<const record::Touch*>& touches,
   return out;
 }
 
+core::Error repeated_rows(const record::RepeatedRows& rows) {
+  return core::error_of(
+      core::Code::kRepeatedRows,
+      rows.count == 1
+          ? core::phrase("row {} repeats row {} and takes no part (rows from 0)", rows.first,
+                         rows.original)
+          : core::phrase("row {} repeats row {} and takes no part; {} rows do (rows from 0)",
+                         rows.first, rows.original, rows.count));
+}
+
 std::vector<Eigen::Vector3d> tips_of(const std::vector<CloudPoint>& cloud) {
   std::vector<Eigen::Vector3d> out;
   out.reserve(cloud.size());

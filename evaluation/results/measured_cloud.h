@@ -5,8 +5,10 @@
 
 #include <Eigen/Core>
 
+#include "core/error.h"
 #include "core/pose.h"
 #include "evaluation/results/evaluation.h"
+#include "record/points/points.h"
 #include "record/run_record.h"
 
 // The touches of a pose as a cloud, and f of that cloud.
@@ -50,6 +52,9 @@ struct RepeatNoise {
 /// seen against part z.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> frame_of_angles(const FeatureResult& feature,
                                                           const Eigen::Vector3d& direction);
+
+/// The warning about rows of a points file that take no part.
+[[nodiscard]] core::Error repeated_rows(const record::RepeatedRows& rows);
 
 /// Whether the plan of a run says that the part stands still, without a fixture.
 [[nodiscard]] bool stands_still(const record::Feature& feature);

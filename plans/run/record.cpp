@@ -176,6 +176,7 @@ core::Result<void> add_found(const RunRecord& found, const Plan& plan, RunRecord
         record::task_of<record::SourceSettings>(found.features[i].settings, "source/"));
     record::SourceSettings read;
     read.read = std::move(source.read);
+    read.repeated = source.repeated;
     add(record::settings_of_task(std::move(read), "source/"), planned.features[i].settings);
   }
   return {};

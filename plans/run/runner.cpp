@@ -353,7 +353,7 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& given) {
     head.features[i].points_sha256 = known.data[i].sha256;
     const record::PointTable& points = known.data[i].points;
     if (!points.read.empty()) {
-      const record::SourceSettings how{{}, {}, {}, points.read};
+      const record::SourceSettings how{{}, {}, {}, points.read, points.repeated};
       for (auto& setting : record::settings_of_task(how, "source/")) {
         head.features[i].settings.push_back(std::move(setting));
       }

@@ -365,17 +365,7 @@ class Vertices {
   [[nodiscard]] bool whole() const { return corners_ == 0; }
 
  private:
-  struct Hash {
-    std::size_t operator()(const std::array<double, 3>& key) const {
-      std::uint64_t out = 0;
-      for (const double value : key) {
-        out = (out ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15U;
-        out ^= out >> 29U;
-      }
-      return out;
-    }
-  };
-  std::unordered_map<std::array<double, 3>, std::size_t, Hash> seen_;
+  std::unordered_map<std::array<double, 3>, std::size_t, PlaceHash> seen_;
   std::array<std::size_t, 3> triangle_ = {};
   std::size_t corners_ = 0;  ///< Of the triangle so far.
 };

@@ -48,16 +48,29 @@ struct OtherRows {
   std::size_t first_line = 0;  ///< In the file, from 1.
 };
 
+/// Rows with the coordinates, and the layer, of an earlier row. They take no part.
+struct RepeatedRows {
+  std::size_t count = 0;
+  std::size_t first = 0;     ///< The first of them: a row of the feature in the file, from 0.
+  std::size_t original = 0;  ///< The row that it repeats.
+};
+
 /// Points of a file. z is 0 for a file that has none.
 struct PointTable {
   int dimensions = 3;  ///< 2 for x and y.
   std::vector<Eigen::Vector3d> points_mm;
   std::vector<int> layers = {};        ///< Layer of each point, from 0; empty: the file says none.
+  std::vector<std::size_t> rows = {};  ///< In the file, of each point; empty: none is left out.
+  std::optional<RepeatedRows> repeated = {};
   std::vector<OtherRows> others = {};  ///< In the order of their first rows.
   bool unit_stated = false;            ///< By the file or beforehand; otherwise mm is assumed.
   bool mesh = false;                   ///< Vertices of triangles, computed from points.
   std::string read = {};               ///< What was taken for what, in one line.
 
+  /// Row of a point among those of the feature in the file, from 0.
+  [[nodiscard]] std::size_t row(std::size_t point) const {
+    return rows.empty() ? point : rows[point];
+  }
   /// Number of layers; 0 where the file says none.
   [[nodiscard]] int layer_count() const;
   /// Number of points of the layer that has the fewest; 0 where the file says none.
@@ -71,7 +84,8 @@ struct PointTable {
 /// or comma. A head line names the columns (`x`, `X [mm]`, `X-Ist`, ..., beside them `layer`, whole
 /// numbers from 0 or 1 on without a gap, and `feature`); others are passed over. Without one there
 /// are exactly two or three columns of numbers. What can be read in two ways is refused. One pass,
-/// about as fast as std::from_chars, which gives every number.
+/// about as fast as std::from_chars, which gives every number. A row that repeats the coordinates
+/// and the layer of an earlier one exactly is no second measurement: it is left out and counted.
 ///
 /// @param name  The file's name for `where`; its ending tells XYZ files.
 /// @return  Or an error with `where` "name:line", the text found and the text expected: kSyntax for

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <tuple>
@@ -65,6 +67,40 @@ core::Result<void> count_from_zero(std::vector<int>& layers) {
                          "there are points of layer {} and none of layer {}; layers count from 0 "
                          "or 1 without a gap",
                          points.size() - 1, gap - points.begin());
+}
+
+/// Leaves out the rows that have the coordinates and the layer of an earlier one.
+void leave_out_repeated(PointTable& table) {
+  const std::size_t count = table.points_mm.size();
+  std::vector<std::uint32_t> seen(std::bit_ceil(2 * count + 1), 0);  // points from 1, by their hash
+  const auto layer_of = [&](std::size_t k) { return table.layers.empty() ? 0 : table.layers[k]; };
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < count; ++row) {
+    const Eigen::Vector3d point = table.points_mm[row];
+    const int layer = layer_of(row);
+    std::size_t at = PlaceHash()({point[0] + 0.0, point[1] + 0.0, point[2] + 0.0}) +
+                     static_cast<std::size_t>(layer);
+    const auto other = [&]() -> std::uint32_t& { return seen[at & (seen.size() - 1)]; };
+    while (other() != 0 &&
+           (table.points_mm[other() - 1] != point || layer_of(other() - 1) != layer)) {
+      ++at;
+    }
+    if (other() != 0) {
+      if (!table.repeated) {
+        table.repeated = {0, row, other() - 1};
+        table.rows.resize(row);
+        std::iota(table.rows.begin(), table.rows.end(), std::size_t{0});
+      }
+      ++table.repeated->count;
+      continue;
+    }
+    if (table.repeated) table.rows.push_back(row);
+    table.points_mm[kept] = point;
+    if (!table.layers.empty()) table.layers[kept] = layer;
+    other() = static_cast<std::uint32_t>(++kept);
+  }
+  table.points_mm.resize(kept);
+  if (!table.layers.empty()) table.layers.resize(kept);
 }
 
 /// Layers of points by their height, from the lowest: the steps between layers are longer than all
@@ -212,6 +248,7 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
     if (!unit) unit = text.unit;
   }
   out.unit_stated = unit.has_value();
+  leave_out_repeated(out);
   const auto done = [&]() -> core::Result<void> {
     TRY_DO(scale(unit, out.points_mm));
     if (options.layers == LayersFrom::kHeights) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "record/key_spec.h"
+#include "record/points/points.h"
 
 namespace rondure::record {
 
@@ -30,6 +31,7 @@ struct SourceSettings {
   std::optional<double> valid_for_days;     ///< How long they stand for the part.
   std::optional<SectionPlane> plane;        ///< Of a circle; none: not stated.
   std::optional<std::string> read;          ///< What the reader of points took for what.
+  std::optional<RepeatedRows> repeated;     ///< Rows that it left out; none: each is there once.
 };
 
 /// Who measured for whom, at "head/": the laboratory of the plan, --order and --customer.
@@ -86,11 +88,20 @@ void describe(Visitor& v, QualificationSettings& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, RepeatedRows& p) {
+  constexpr double kMost = 1e12;
+  v.whole("count", p.count, range(0.0, kMost, "Rows that repeat an earlier one."));
+  v.whole("first", p.first, range(0.0, kMost, "The first of them, from 0."));
+  v.whole("original", p.original, range(0.0, kMost, "The row that it repeats."));
+}
+
+template <class Visitor>
 void describe(Visitor& v, SourceSettings& p) {
   v.text("measured_utc", p.measured_utc, {.meaning = "When the data were measured."});
   v.number("valid_for_days", p.valid_for_days, range(0.0, 36'500.0, "How long they stand."));
   v.text("plane", p.plane, {.meaning = "In which a circle is evaluated."});
   v.text("read", p.read, {.meaning = "What the reader of points took for what."});
+  v.object("repeated", p.repeated, {.meaning = "Rows that it left out."});
 }
 
 template <class Visitor>

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -215,6 +219,112 @@ TEST(FitData, APlanReadsTheSameFile) {
       said->text,
       "semicolon, decimal comma, X-Ist Y-Ist Z-Ist in inch; 360 points, 50.0 x 50.0 x 24.0 mm, "
       "5 heights taken as layers 1 to 5");
+}
+
+/// Rows of a shaft of 40 mm: 3 layers of 16 points, with lobes and some noise.
+std::vector<std::string> rows_of_shaft() {
+  std::mt19937 bits(7);
+  std::vector<std::string> out;
+  for (int i = 0; i < 3 * 16; ++i) {
+    const double t = 2.0 * kPi * i / 16.0;
+    const double noise = 0.0005 * (static_cast<double>(bits() % 1000) / 500.0 - 1.0);
+    const double r = 20.0 + 0.003 * std::cos(2.0 * t) + noise;
+    out.push_back(fmt::format("{},{:.6f},{:.6f},{}\n", i / 16, r * std::cos(t), r * std::sin(t),
+                              20 * (i / 16)));
+  }
+  return out;
+}
+
+std::string shaft_file(std::span<const std::string> rows) {
+  std::string out = "layer,x,y,z\n";
+  for (const std::string& row : rows) out += row;
+  return out;
+}
+
+TEST(FitData, RowsThatAreThereTwiceTakeNoPart) {
+  std::vector<std::string> rows = rows_of_shaft();
+  const Scratch folder;
+  const auto fitted = [&](const char* name) {
+    write(folder / name, shaft_file(rows));
+    const Outcome outcome = rondure({"fit", "cylinder", folder / name, "--size", "LP", "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  };
+  auto once = fitted("once.csv");
+  EXPECT_EQ(once["sizes"]["LP"]["pairs"], 24);
+  EXPECT_THAT(once["warnings"], IsEmpty());
+  rows.insert(rows.end(), rows.begin(), rows.begin() + 5);
+  auto again = fitted("again.csv");
+  ASSERT_EQ(again["warnings"].size(), 1U) << again["warnings"];
+  EXPECT_EQ(again["warnings"][0]["code"], "repeated-rows");
+  EXPECT_EQ(again["warnings"][0]["what"],
+            "row 48 repeats row 0 and takes no part; 5 rows do (rows from 0)");
+  again.erase("warnings");
+  once.erase("warnings");
+  EXPECT_EQ(again, once);
+  // The first row three times: numbers of contacts are those of the file.
+  rows = rows_of_shaft();
+  rows.insert(rows.begin(), 2, rows.front());
+  const auto shifted = fitted("shifted.csv");
+  EXPECT_EQ(shifted["sizes"], once["sizes"]);
+  for (const char* side : {"outer", "inner"}) {
+    const auto& contacts = once["mz"]["contacts"][side];
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const int row = contacts[k];
+      EXPECT_EQ(shifted["mz"]["contacts"][side][k], row == 0 ? 0 : row + 2);
+    }
+  }
+}
+
+TEST(FitData, AFileWithEveryRowTwiceHasTheIntervalOfTheSingleFile) {
+  const std::vector<std::string> rows = rows_of_shaft();
+  const auto judged = [](const std::vector<std::string>& of) {
+    const Scratch folder;
+    write(folder / "shaft.csv", shaft_file(of));
+    const nlohmann::json plan = {
+        {"plan", {{"name", "Shaft"}, {"revision", "A"}}},
+        {"part", {{"id", "S-1"}}},
+        {"uncertainty", {{"probe", {{"repeatability_um", 0.2}}}, {"budget_trials", 0}}},
+        {"features",
+         {{{"id", "shaft"},
+           {"type", "cylinder"},
+           {"nominal", {{"diameter_mm", 40}}},
+           {"source", {{"file", "shaft.csv"}, {"points", "surface"}}},
+           {"characteristics",
+            {{{"id", "CYLt"}, {"form", "cylindricity"}, {"tolerance_um", 20}},
+             {{"id", "GG"},
+              {"form", "diameter"},
+              {"size", "GG"},
+              {"lower_um", -20},
+              {"upper_um", 20}}}}}}}};
+    write(folder / "plan.json", plan.dump());
+    const Outcome outcome = rondure(
+        {"run", folder / "plan.json", "--out", folder / "run", "--quiet", "--format", "json"});
+    EXPECT_LE(outcome.status, 1) << outcome.err;
+    EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
+    return nlohmann::json::parse(read(folder / "run" / "report.json"))["features"][0];
+  };
+  const auto once = judged(rows);
+  std::vector<std::string> twice = rows;
+  twice.insert(twice.end(), rows.begin(), rows.end());
+  const auto doubled = judged(twice);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& expected = once["characteristics"][k];
+    const auto& found = doubled["characteristics"][k];
+    EXPECT_EQ(found["value_um"], expected["value_um"]);
+    ASSERT_FALSE(expected["uncertainty"].is_null());
+    EXPECT_EQ(found["uncertainty"], expected["uncertainty"]);
+  }
+  const auto repeated = [](const nlohmann::json& feature) {
+    std::vector<std::string> out;
+    for (const auto& warning : feature["warnings"]) {
+      if (warning["code"] == "repeated-rows") out.push_back(warning["what"]);
+    }
+    return out;
+  };
+  EXPECT_THAT(repeated(once), IsEmpty());
+  EXPECT_THAT(repeated(doubled),
+              ElementsAre("row 48 repeats row 0 and takes no part; 48 rows do (rows from 0)"));
 }
 
 TEST(FitData, WhatIsNoFileIsRefused) {

@@ -5,7 +5,9 @@
 #include <clocale>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -485,11 +487,66 @@ TEST(PointsText, CountsLayersFromNoughtOrOne) {
 
 TEST(PointsText, LeavesOutFewRowsWithoutValuesAndSaysSo) {
   std::string text = "x;y;z\n1,5;---;3\n";
-  for (int i = 0; i < 99; ++i) text += "1,5;2,5;3,5\n";
+  for (int i = 0; i < 99; ++i) text += fmt::format("1,5;2,5;{},5\n", i);
   const PointTable table = points(text);
   EXPECT_EQ(table.points_mm.size(), 99U);
   EXPECT_THAT(table.read, HasSubstr("1 row without values left out"));
   EXPECT_EQ(point_refusal(text + "1,5;*****;3\n").where, "pin.csv:2");
+}
+
+TEST(PointsRepeated, TakeNoPartAndAreCounted) {
+  const PointTable once = points("x,y,z\n1,2,3\n4,5,6\n7,8,9\n");
+  EXPECT_FALSE(once.repeated);
+  EXPECT_EQ(once.row(2), 2U);
+  const PointTable table =
+      points("x,y,z\n1,2,3\n0,5,6\n1.0,2,3\n7,8,9\n-0,5,6\n1,2,3.0001\n1,2,3\n");
+  ASSERT_TRUE(table.repeated);
+  EXPECT_EQ(table.repeated->count, 3U);
+  EXPECT_EQ(table.repeated->first, 2U);
+  EXPECT_EQ(table.repeated->original, 0U);
+  EXPECT_EQ(table.points_mm,
+            (std::vector<Eigen::Vector3d>{{1, 2, 3}, {0, 5, 6}, {7, 8, 9}, {1, 2, 3.0001}}));
+  EXPECT_EQ(table.rows, (std::vector<std::size_t>{0, 1, 3, 5}));
+  EXPECT_EQ(table.row(2), 3U);
+  EXPECT_THAT(table.read, HasSubstr("; 4 points,"));
+}
+
+TEST(PointsRepeated, AreThoseOfOneLayerAndOfOneFeature) {
+  const PointTable table = points("x,y,z,layer\n1,2,3,0\n1,2,3,1\n4,5,6,1\n1,2,3,1\n7,8,9,0\n");
+  ASSERT_TRUE(table.repeated);
+  EXPECT_EQ(table.repeated->count, 1U);
+  EXPECT_EQ(table.repeated->first, 3U);
+  EXPECT_EQ(table.repeated->original, 1U);
+  EXPECT_EQ(table.layers, (std::vector<int>{0, 1, 1, 0}));
+  const auto of_b =
+      read_points("x,y,feature\n1,2,A\n1,2,B\n3,4,B\n5,6,A\n3,4,B\n", "ab.csv", {"B"});
+  ASSERT_TRUE(of_b) << of_b.error().what;
+  ASSERT_TRUE(of_b->repeated);
+  EXPECT_EQ(of_b->repeated->first, 2U) << "of the rows of B";
+  EXPECT_EQ(of_b->points_mm.size(), 2U);
+}
+
+TEST(PointsRepeated, AreFoundInAnyOrder) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise noise(seed, {});
+    std::string text = "x,y,layer\n";
+    std::set<std::tuple<int, int, int>> rows;
+    const int count = 1 + static_cast<int>(400.0 * noise.uniform());
+    for (int i = 0; i < count; ++i) {
+      const auto few = [&](int most) { return static_cast<int>(most * noise.uniform()); };
+      const std::tuple row(few(11), few(11), i < 3 ? i : few(3));
+      rows.insert(row);
+      text += fmt::format("{},{},{}\n", std::get<0>(row) - 5, std::get<1>(row), std::get<2>(row));
+    }
+    const PointTable table = points(text);
+    EXPECT_EQ(table.points_mm.size(), rows.size());
+    EXPECT_EQ(table.layers.size(), rows.size());
+    EXPECT_EQ(table.repeated ? table.repeated->count : 0U, count - rows.size());
+    for (std::size_t k = 1; k < table.rows.size(); ++k) {
+      EXPECT_LT(table.rows[k - 1], table.rows[k]);
+    }
+  }
 }
 
 TEST(FeatureCsv, GivesTheRowsOfOneFeatureWithTheirLayers) {

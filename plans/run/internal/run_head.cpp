@@ -98,7 +98,8 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
     std::erase_if(out, [](const record::Setting& s) { return !s.number && s.text.empty(); });
   }
   if (feature.source) {
-    record::SourceSettings source{{}, feature.source->valid_for_days, feature.source->plane, {}};
+    record::SourceSettings source{
+        {}, feature.source->valid_for_days, feature.source->plane, {}, {}};
     if (!feature.source->measured_utc.empty()) source.measured_utc = feature.source->measured_utc;
     append(record::settings_of_task(source, "source/"), out);
   }

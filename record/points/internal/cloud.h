@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +24,18 @@ struct Cloud {
   bool mesh = false;                                       ///< They are the vertices of triangles.
   bool single = false;                                     ///< Stored with 32 bits.
   std::optional<LengthUnit> unit;                          ///< As the file states it.
+};
+
+/// Hash of a place; a coordinate of -0.0 must have become 0.0.
+struct PlaceHash {
+  std::size_t operator()(const std::array<double, 3>& place) const {
+    std::uint64_t out = 0;
+    for (const double value : place) {
+      out = (out ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15U;
+      out ^= out >> 29U;
+    }
+    return out;
+  }
 };
 
 /// The vertices of a PLY or STL file, or the points of a PCD file; nothing for another format. A
