@@ -386,7 +386,7 @@ constexpr int kIndent = 1;
 constexpr int kDepthOfRow = 4;  // root, features, feature, cloud
 
 /// Names come from plans and command lines: bytes that are not UTF-8 are replaced, not refused.
-std::string text_of(const Json& json) {
+std::string dumped(const Json& json) {
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -395,7 +395,7 @@ void add_rows(const evaluation::FeatureResult& feature, std::string& out) {
   const std::string line = "\n" + std::string(kIndent * kDepthOfRow, ' ');
   for (std::size_t i = 0; i < feature.cloud.size(); ++i) {
     out += i == 0 ? line : "," + line;
-    for (const char c : text_of(point_json(feature.cloud[i], feature.merged != nullptr))) {
+    for (const char c : dumped(point_json(feature.cloud[i], feature.merged != nullptr))) {
       if (c == '\n') {
         out += line;
       } else {
@@ -435,7 +435,7 @@ Json results_json(const evaluation::Evaluation& evaluation) {
 
 std::string write_json(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
   // The rows are text one by one: as a document, those of a million points take a gigabyte.
-  const std::string rest = text_of(document_of(record, evaluation)) + "\n";
+  const std::string rest = dumped(document_of(record, evaluation)) + "\n";
   const std::string empty = "\n" + std::string(kIndent * (kDepthOfRow - 1), ' ') + "\"cloud\": []";
   std::string out;
   std::size_t done = 0;
