@@ -29,6 +29,8 @@ constexpr int kStartRounds = 80;
 constexpr double kSpotCandidate = 3.3;  // standard deviations
 constexpr double kNoUnresolved = 0.35;  // probability that all form is resolved
 constexpr int kVariances = 48;          // steps of the unresolved variance
+constexpr double kFlat = 100.0;         // variance of a flat form: 1 % of its value is shrunk away
+constexpr Index kFewestFree = 2;        // points beyond place and size that show how large form is
 constexpr int kNoiseSteps = 15;         // for noise that is not known exactly
 constexpr double kNegligible = -40.0;  // logarithm of the odds of a variance, against the likeliest
 constexpr double kOverlap = 0.3;       // overlap of two columns above which they are drawn together
@@ -93,6 +95,12 @@ VarianceOdds variance_odds(const VarianceTerms& terms, double squares_mm2, doubl
   for (std::size_t k = 1; k < prior.size(); ++k) {
     prior[k] = std::log((1.0 - kNoUnresolved) * prior[k] / norm);
   }
+  std::size_t first = 0;
+  if (terms.flat) {
+    first = kVariances;
+    variances[first] = kFlat * (terms.power_mm2 + stated);
+    prior[first] = 0.0;
+  }
   const double freedom = terms.degrees_of_freedom;
   const int noises = freedom > 0.0 ? kNoiseSteps : 1;
   const double span = std::min(1.2, 1.95 * std::sqrt(2.0 / std::max(freedom, 1e-3)));
@@ -102,7 +110,7 @@ VarianceOdds variance_odds(const VarianceTerms& terms, double squares_mm2, doubl
     const double g = noises == 1 ? 0.0 : span * (4.0 * s / (noises - 1) - 2.0);
     const double noise = stated * std::exp(g);
     const double of_noise = noises == 1 ? 0.0 : -0.5 * freedom * (g + std::exp(-g));
-    for (std::size_t k = 0; k < variances.size(); ++k) {
+    for (std::size_t k = first; k < variances.size(); ++k) {
       const double w = noise + terms.floor_mm2 + variances[k];
       const double density = prior[k] + of_noise - 0.5 * (count * std::log(w) + squares_mm2 / w);
       out.push_back({noise, variances[k], density, step});
@@ -130,6 +138,8 @@ FormModel::FormModel(const FormCloud& cloud, const ErrorModel& errors, const For
                                    : FormColumns(cloud, root_weight_)),
       declared_(spectrum != nullptr),
       absolute_(spectrum != nullptr && spectrum->absolute) {
+  flat_ =
+      !declared_ && static_cast<Index>(cloud.points.size()) - columns_.rigid().cols() < kFewestFree;
   weigh(cloud, errors);
   start();
   screen();
@@ -522,8 +532,9 @@ void FormChain::draw_variances() {
     count += 1.0;
   }
   const double floor = floor_mm2();
-  VarianceOdds odds = variance_odds(
-      {model_.residual_mm2_, model_.freedom_, model_.power_mm2_, floor}, squares, count);
+  VarianceOdds odds =
+      variance_odds({model_.residual_mm2_, model_.freedom_, model_.power_mm2_, floor, model_.flat_},
+                    squares, count);
   double left = noise_.uniform();
   std::size_t chosen = 0;
   while (chosen + 1 < odds.size() && (left -= odds[chosen].probability_1) > 0.0) ++chosen;
@@ -560,10 +571,11 @@ void FormChain::draw_spots() {
 
 /// Draws position, size and tilt with a flat prior; systematic errors with their declared size.
 void FormChain::draw_rigid() {
+  const double w = model_.flat_ ? noise_mm2_ : variance_mm2_;  // a flat form is free of them
   for (Index j = 0; j < model_.base_; ++j) {
     const double known = j < model_.columns_.rigid().cols() ? 0.0 : 1.0;
-    const double precision = model_.square_[j] / variance_mm2_ + known;
-    const double mean = pull(j) / variance_mm2_ / precision;
+    const double precision = model_.square_[j] / w + known;
+    const double mean = pull(j) / w / precision;
     move(j, mean + noise_.normal() / std::sqrt(precision) - coefficients_[j]);
   }
 }

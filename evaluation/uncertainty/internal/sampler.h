@@ -30,6 +30,8 @@ struct VarianceTerms {
   double degrees_of_freedom = 0.0;  ///< Degrees of freedom of the declared noise; 0: known exactly.
   double power_mm2 = 0.0;           ///< Mean square of the deviations.
   double floor_mm2 = 0.0;           ///< Least variance of unresolved form.
+  /// Too few points are left to show how large form is: any size of it is as likely.
+  bool flat = false;
 };
 
 /// One pair of variances; the unresolved one is uniform over a step of its logarithm.
@@ -130,6 +132,7 @@ class FormModel {
   Eigen::MatrixXd gram_;        ///< Empty where the columns are orthogonal.
   bool joint_all_ = false;
   std::vector<bool> joint_;           ///< Columns that are drawn together.
+  bool flat_ = false;                 ///< See VarianceTerms.
   double spectrum_power_ = 0.0;       ///< Mean square of a declared spectrum of size 1.
   std::optional<SeenSpectrum> seen_;  ///< Of a declared spectrum with more columns than points.
   // First state.
