@@ -7,6 +7,7 @@
 #include "core/decompositions.h"
 #include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/uncertainty/angular_curve.h"
 #include "evaluation/uncertainty/curve_trials.h"
 #include "evaluation/wheel/internal/unseen.h"
 #include "evaluation/wheel/result.h"
@@ -22,7 +23,6 @@ using record::DeclaredInfluence;
 using record::Influence;
 using record::WheelInfluencesTask;
 
-constexpr Eigen::Index kMostColumns = 61;  ///< Up to order 30; what is left has no order.
 constexpr std::size_t kMostPoints = 5000;  ///< The trials of more take minutes.
 constexpr double kLeastPointError = 1e-9;  ///< mm; an error of 0 leaves no distribution
 
@@ -96,51 +96,32 @@ Influences draw_of(const WheelResult& result, std::uint64_t seed, int trial) {
 enum class Quantity { kRunOut, kEffectiveRadius, kLsRoundness, kMzRoundness };
 
 /// The edge of a wheel as a curve about the least-squares centre of all points: distance less mean
-/// radius at each point, and its coefficients in orthonormal columns over the angles of the points:
-/// mean, cosine and sine, then the higher orders, then what these leave.
+/// radius at each point.
 class Edge {
  public:
   Edge(const std::vector<Eigen::Vector2d>& points_mm, const fit::LsCircle& circle,
        const std::optional<Eigen::Vector2d>& axis_mm)
       : center_mm_(circle.center_mm), radius_mm_(circle.radius_mm), axis_mm_(axis_mm) {
     const auto n = static_cast<Eigen::Index>(points_mm.size());
-    const Eigen::Index columns = std::min(n, kMostColumns);
-    Eigen::MatrixXd basis(n, columns);
     Eigen::VectorXd curve(n);
     Eigen::VectorXd oval(n);
+    std::vector<double> angles_rad;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Eigen::Vector2d v = points_mm[static_cast<std::size_t>(i)] - center_mm_;
       curve(i) = v.norm() - radius_mm_;
       normals_.push_back(v.normalized());
       const double angle = std::atan2(v.y(), v.x());
       oval(i) = 0.5 * radius_mm_ * std::sin(2.0 * angle);
-      basis(i, 0) = 1.0;
-      for (Eigen::Index j = 1; j < columns; ++j) {
-        const auto order = static_cast<double>((j + 1) / 2);
-        basis(i, j) = j % 2 == 1 ? std::cos(order * angle) : std::sin(order * angle);
-      }
+      angles_rad.push_back(angle);
     }
-    // Householder columns stay orthonormal also where an arc hardly tells the orders apart.
-    columns_.compute(basis);
-    found_ = core::q_transposed_times(columns_, curve);
-    oval_ = core::q_transposed_times(columns_, oval);
+    angular_.emplace(angles_rad);
+    found_ = angular_->coefficients(curve);
+    oval_ = angular_->coefficients(oval);
   }
 
   [[nodiscard]] MeasuredCurve measured(double point_mm) const {
-    const auto n = static_cast<std::size_t>(found_.size());
-    MeasuredCurve out;
-    out.found_mm.assign(found_.begin(), found_.end());
-    out.u_mm.assign(n, std::max(point_mm, kLeastPointError));
-    // Of fewer than 12 points mean and eccentricity are more than a quarter of all coefficients:
-    // what stands out decides for the whole curve.
-    const bool all = n < 4 * kEccentric;
-    for (std::size_t j = 0; j < n; ++j) {
-      // Columns over scattered angles are judged alone: parts of one order are not parts of one
-      // wave there, and two lobes among six orders would make the whole octave their core.
-      out.group.push_back(group_of(j));
-      out.always_core.push_back(all || j < kEccentric);
-    }
-    return out;
+    constexpr std::size_t kEccentric = 3;  // mean, cosine and sine
+    return angular_->measured(found_, point_mm, kEccentric);
   }
 
   /// Value of a quantity for these coefficients and influences [mm].
@@ -150,7 +131,7 @@ class Edge {
         Eigen::Map<const Eigen::VectorXd>(coefficients_mm.data(), found_.size()) +
         drawn.squareness_rad * oval_;
     if (quantity == Quantity::kLsRoundness) parts.head(3).setZero();  // the fit takes them out
-    const Eigen::VectorXd curve = core::q_times(columns_, parts);
+    const Eigen::VectorXd curve = angular_->values(parts);
     if (quantity == Quantity::kLsRoundness) return curve.maxCoeff() - curve.minCoeff();
     std::vector<Eigen::Vector2d> points_mm;
     points_mm.reserve(normals_.size());
@@ -180,7 +161,7 @@ class Edge {
       const double change = per_u([&](double k) {
         Eigen::VectorXd moved = Eigen::VectorXd::Zero(found_.size());
         moved(i) = k * point_mm;
-        const Eigen::VectorXd parts = found_ + core::q_transposed_times(columns_, moved);
+        const Eigen::VectorXd parts = found_ + angular_->coefficients(moved);
         return value(quantity, {parts.data(), static_cast<std::size_t>(parts.size())}, {});
       });
       squares += change * change;
@@ -201,21 +182,12 @@ class Edge {
   }
 
  private:
-  static constexpr std::size_t kEccentric = 3;  ///< Columns of the mean, cosine and sine.
-
-  /// Octaves of the orders: 2 to 7, 8 to 15, 16 to 30; then the columns without an order.
-  [[nodiscard]] static int group_of(std::size_t column) {
-    if (static_cast<Eigen::Index>(column) >= kMostColumns) return 3;
-    const std::size_t order = (column + 1) / 2;
-    return order < 8 ? 0 : order < 16 ? 1 : 2;
-  }
-
   /// Rows whose error can move the value: of a zone its contacts; of many points those near the
   /// extremes, as the others move the least-squares circle by too little to show.
   [[nodiscard]] std::vector<Eigen::Index> deciding(Quantity quantity, double point_mm) const {
     constexpr Eigen::Index kMany = 500;
     std::vector<Eigen::Index> out;
-    const Eigen::VectorXd curve = core::q_times(columns_, found_);
+    const Eigen::VectorXd curve = angular_->values(found_);
     if (quantity == Quantity::kMzRoundness) {
       std::vector<Eigen::Vector2d> points_mm;
       for (std::size_t i = 0; i < normals_.size(); ++i) {
@@ -251,7 +223,7 @@ class Edge {
   double radius_mm_ = 0.0;
   std::optional<Eigen::Vector2d> axis_mm_;
   std::vector<Eigen::Vector2d> normals_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> columns_;
+  std::optional<AngularCurve> angular_;
   Eigen::VectorXd found_;
   Eigen::VectorXd oval_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "core/statistics.h"
 #include "evaluation/results/feature_values.h"
+#include "evaluation/uncertainty/angular_curve.h"
 #include "evaluation/uncertainty/curve_trials.h"
 
 namespace rondure::evaluation {
@@ -38,6 +40,32 @@ double least_redundancy(const fit::RotaryStudy& study, double angle_rad) {
 }
 
 namespace {
+
+/// The errors of the stations in their own uncertainties, as a curve over the angle: an axis errs
+/// smoothly, and what all stations have in common shows where it is less than the noise of one.
+class StationCurve {
+ public:
+  explicit StationCurve(const AxisCurve& curve)
+      : angular_(curve.angle_rad),
+        u_mm_(Eigen::VectorXd::Map(curve.u_mm.data(), std::ssize(curve.u_mm))),
+        found_mm_(Eigen::VectorXd::Map(curve.found_mm.data(), std::ssize(curve.found_mm))) {}
+
+  [[nodiscard]] MeasuredCurve measured() const {
+    constexpr std::size_t kSlow = 5;  // offset, once and twice a turn
+    return angular_.measured(angular_.coefficients(found_mm_.cwiseQuotient(u_mm_)), 1.0, kSlow);
+  }
+  [[nodiscard]] std::vector<double> errors_mm(const std::vector<double>& coefficients) const {
+    const Eigen::VectorXd out =
+        angular_.values(Eigen::VectorXd::Map(coefficients.data(), std::ssize(coefficients)))
+            .cwiseProduct(u_mm_);
+    return {out.begin(), out.end()};
+  }
+
+ private:
+  AngularCurve angular_;
+  Eigen::VectorXd u_mm_;
+  Eigen::VectorXd found_mm_;
+};
 
 /// The errors of one trial: those of the stations, with the common noise of the reference pose.
 std::vector<double> with_common(std::vector<double> errors_mm, const AxisCurve& curve,
@@ -115,14 +143,14 @@ UncertaintyStatus axis_error_interval(const AxisCurve& curve,
   }
   const double middle_mm = middle_of(characteristic);
   const AxisExtreme measured = axis_extreme(curve.found_mm, middle_mm);
-  const MeasuredCurve stations{curve.found_mm, curve.u_mm,
-                               std::vector<int>(curve.found_mm.size(), 0)};
+  const StationCurve stations(curve);
   const Indication& asked = characteristic.indication;
   const std::string id =
       fmt::format("rotary.{}.{}", record::name_of(asked.axis.value_or(Indication::Axis::kAlpha)),
                   record::name_of(asked.error.value_or(Indication::AxisError::kX)));
-  const CurveDraws draws(stations, options.seed, id);
-  const double core_center_mm = axis_extreme(draws.core_mm(), middle_mm).from_middle_mm;
+  const CurveDraws draws(stations.measured(), options.seed, id);
+  const double core_center_mm =
+      axis_extreme(stations.errors_mm(draws.core_mm()), middle_mm).from_middle_mm;
   const int trials = std::max(2000, options.least_trials);
   std::vector<AxisExtreme> drawn;
   std::vector<double> core_mm;
@@ -131,9 +159,11 @@ UncertaintyStatus axis_error_interval(const AxisCurve& curve,
     for (Eigen::Index i = 0; i < common.size(); ++i) {
       common(i) = normal_draw(options.seed, "rotary.zero-pose", static_cast<std::uint64_t>(i), t);
     }
-    drawn.push_back(axis_extreme(with_common(draws.draw(t), curve, common), middle_mm));
-    core_mm.push_back(
-        axis_extreme(with_common(draws.core_draw(t), curve, common), middle_mm).from_middle_mm);
+    const auto extreme_of = [&](const std::vector<double>& draw) {
+      return axis_extreme(with_common(stations.errors_mm(draw), curve, common), middle_mm);
+    };
+    drawn.push_back(extreme_of(draws.draw(t)));
+    core_mm.push_back(extreme_of(draws.core_draw(t)).from_middle_mm);
   }
   // The distance from the middle is convex: the largest of many grows with noise. It is turned
   // here, before it gets its sign.
