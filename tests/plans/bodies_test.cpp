@@ -98,7 +98,7 @@ TEST(Bodies, OfEveryShapeAndFrameStopThePathAndAreNamed) {
   EXPECT_EQ(refusal(wide), "");
   wide["clearance_mm"] = 30;
   EXPECT_THAT(refusal(wide), HasSubstr("nearer than 37 mm (machine.clearance_mm with 2 mm by which "
-                                       "the part may be off and 30 mm of the body) to the body"));
+                                       "the place may be off and 30 mm of the body) to the body"));
   Json turned = in(box, "base", {55, 0, 150});
   turned["size_mm"] = {4, 4, 90};
   EXPECT_EQ(refusal(turned), "");
