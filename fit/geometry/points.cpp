@@ -140,7 +140,11 @@ double least_width(PlanePoints points_mm) {
   const std::size_t n = hull.size();
   if (n < 3) return 0.0;
   double least = std::numeric_limits<double>::infinity();
+  // Corners that lie on the first edge but for rounding would hold up a search that begins there.
   std::size_t far = 1;
+  for (std::size_t k = 2; k < n; ++k) {
+    if (twice_area(hull[0], hull[1], hull[k]) > twice_area(hull[0], hull[1], hull[far])) far = k;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector2d& a = hull[i];
     const Eigen::Vector2d& b = hull[(i + 1) % n];

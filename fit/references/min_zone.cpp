@@ -121,6 +121,15 @@ core::Result<MinZoneCylinder> min_zone_cylinder(
   CylinderZoneFitter fitter;
   TRY(const auto zone, fitter.fit(points_mm, near_direction));
   AxisProof proof = prove_axis(points_mm, zone, kMinimumZone);
+  if (proof.certificate.kind == Certificate::Kind::kNone) {
+    // Points that tie may hold a saddle that no single direction leaves: some of a bow, touched at
+    // equal angles in every section, differ by less than rounding. Axes beside it lead out of it.
+    const double tilts[] = {
+        std::atan2(zone.outer_radius_mm - zone.inner_radius_mm, proof.half_length)};
+    AxisProof other =
+        prove_axis(points_mm, fitter.fit_around(points_mm, proof.axis, tilts, zone), kMinimumZone);
+    if (other.proven.zone.width() < proof.proven.zone.width()) proof = std::move(other);
+  }
   search_scopes(points_mm, options, kMinimumZone, {}, fitter, proof);
   MinZoneCylinder out;
   out.axis = conventional(proof.axis, mean_point(points_mm));

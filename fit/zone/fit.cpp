@@ -194,21 +194,18 @@ CylinderZone CylinderZoneFitter::fit_from(SpacePoints points_mm, const Axis& axi
   return zone_of(found, found.frame.place(axis.point_mm));
 }
 
-/// The best of several starts about the least-squares axis.
-CylinderZone CylinderZoneFitter::fit_best(SpacePoints points_mm, const LsCylinder& start,
-                                          const ZoneWeights& weights) {
-  const Axis& axis = start.axis;
-  const double limit = limit_of(weights, start.radius_mm);
-  CylinderZone best = fit_from(points_mm, axis, weights, limit);
+CylinderZone CylinderZoneFitter::fit_around(SpacePoints points_mm, const Axis& axis,
+                                            std::span<const double> tilts, CylinderZone best,
+                                            const ZoneWeights& weights, double limit_mm) {
   int pivots = best.pivots;
   const auto side = across(axis.direction);
-  for (const double tilt : other_tilts(points_mm, start, weights)) {
+  for (const double tilt : tilts) {
     for (int k = 0; k < kStarts; ++k) {
       const double angle = core::kTwoPi * k / kStarts;
       const Eigen::Vector2d lean(std::cos(angle), std::sin(angle));
       const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
       const CylinderZone zone =
-          fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
+          fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit_mm);
       pivots += zone.pivots;
       const bool found = zone.ending == ZoneEnding::kConverged;
       if (found && weights.value({zone.inner_radius_mm, zone.outer_radius_mm}) <
@@ -218,6 +215,15 @@ CylinderZone CylinderZoneFitter::fit_best(SpacePoints points_mm, const LsCylinde
   }
   best.pivots = pivots;
   return best;
+}
+
+/// The best of several starts about the least-squares axis.
+CylinderZone CylinderZoneFitter::fit_best(SpacePoints points_mm, const LsCylinder& start,
+                                          const ZoneWeights& weights) {
+  const double limit = limit_of(weights, start.radius_mm);
+  const CylinderZone first = fit_from(points_mm, start.axis, weights, limit);
+  const Tilts tilts = other_tilts(points_mm, start, weights);
+  return fit_around(points_mm, start.axis, {tilts.begin(), tilts.end()}, first, weights, limit);
 }
 
 core::Result<CylinderZone> CylinderZoneFitter::fit(

@@ -86,6 +86,10 @@ class CylinderZoneFitter {
   CylinderZone fit_from(SpacePoints points_mm, const Axis& axis,
                         const ZoneWeights& weights = kMinimumZone,
                         double limit_mm = std::numeric_limits<double>::infinity());
+  /// The best of `best` and of fits from axes about a given one, eight for each tilt [rad].
+  CylinderZone fit_around(SpacePoints points_mm, const Axis& axis, std::span<const double> tilts,
+                          CylinderZone best, const ZoneWeights& weights = kMinimumZone,
+                          double limit_mm = std::numeric_limits<double>::infinity());
   /// The least-squares cylinder from which the last fit() started; that of a sample if there are
   /// many points.
   [[nodiscard]] const LsCylinder& start() const { return start_; }

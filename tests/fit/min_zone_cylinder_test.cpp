@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
+#include "core/units.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/references/one_sided.h"
 #include "fit/zone/fit.h"
 #include "tests/fit/spec_cases.h"
 
@@ -168,6 +170,26 @@ TEST(MinZoneCylinder, GoesToTheBetterEndOfAValleyThatWeakContactsClose) {
   ASSERT_TRUE(zone.has_value());
   EXPECT_EQ(zone->ending, ZoneEnding::kConverged);
   EXPECT_NEAR(zone->width_mm(), proven->width_mm(), 1e-12);
+}
+
+// A bow touched at the same angles in every section has points that differ by less than rounding.
+// They held the descent 3.2e-9 mm above the zone about the axis of the inscribed cylinder.
+TEST(MinZoneCylinder, LeavesASaddleThatPointsWhichTieHold) {
+  std::vector<Eigen::Vector3d> points;
+  const auto digits = [](double mm) { return std::round(1e7 * mm) * 1e-7; };
+  for (int layer = 0; layer < 5; ++layer) {
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 0.04443673584939426 + core::kTwoPi * i / 12.0;
+      const double u = 0.5 * layer - 1.0;
+      const double r = 5.0 + 2e-3 * u * u * std::cos(angle + 3.9692012099842597);
+      points.emplace_back(digits(r * std::cos(angle)), digits(r * std::sin(angle)), 100.0 * u);
+    }
+  }
+  const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
+  const auto inscribed = max_inscribed_cylinder(points, Eigen::Vector3d::UnitZ());
+  ASSERT_TRUE(zone && inscribed);
+  EXPECT_LE(zone->width_mm(), inscribed->deviation_mm + 1e-12);
+  EXPECT_NE(zone->certificate.kind, Certificate::Kind::kNone);
 }
 
 TEST(MinZoneCylinder, FindsThePlantedContactsOfALargeSet) {

@@ -190,5 +190,20 @@ TEST(MinZonePlane, OfPointsAsThickAsWideIsNotSaidToBeTheLeastUnlessItIs) {
   }
 }
 
+// Points on a side of a turned grid are on one line but for rounding: "the points extend 0 mm".
+TEST(MinZonePlane, OfAGridDoesNotDependOnHowItIsTurned) {
+  for (int k = 0; k < 200; ++k) {
+    const Eigen::AngleAxisd turn(0.03 * k, kUp);
+    Space points;
+    for (int i = 0; i < 100; ++i) {
+      const double u = i / 10 - 4.5;
+      points.push_back(turn * Eigen::Vector3d(4.0 * u, 4.0 * (i % 10) - 18.0, 1e-4 * u * u));
+    }
+    const auto zone = min_zone_plane(points, kUp);
+    ASSERT_TRUE(zone) << k << ": " << zone.error().what;
+    EXPECT_NEAR(zone->width_mm, 1e-4 * (4.5 * 4.5 - 0.5 * 0.5), kDigits) << k;
+  }
+}
+
 }  // namespace
 }  // namespace rondure::fit
