@@ -286,10 +286,10 @@ core::Result<std::vector<HeadTableRow>> head_table(const HeadStudy& study, const
   for (int i = 1; i < steps; ++i) {
     angles_rad.push_back(core::on_grid(first_deg + i * step_deg, kPerDegree) * core::kDegree);
   }
-  angles_rad.push_back(last);
+  if (!round) angles_rad.push_back(last);
   TRY(auto out, head_errors(study, axis, angles_rad));
   if (round) {
-    out.back() = out.front();
+    out.push_back(out.front());
     out.back().angle_rad = last;
   }
   return out;

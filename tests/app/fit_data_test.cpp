@@ -24,6 +24,16 @@ using ::testing::Not;
 
 constexpr double kPi = 3.14159265358979323846;
 
+/// The report of a plan that is run and verified in a folder.
+nlohmann::json report_of(const test::Scratch& folder, const nlohmann::json& plan) {
+  write(folder / "plan.json", plan.dump());
+  const Outcome outcome = rondure(
+      {"run", folder / "plan.json", "--out", folder / "run", "--quiet", "--format", "json"});
+  EXPECT_LE(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
+  return nlohmann::json::parse(read(folder / "run" / "report.json"));
+}
+
 /// Text that is no points file, and what the message must hold.
 struct BadFile {
   std::string shape;
@@ -202,15 +212,10 @@ TEST(FitData, APlanReadsTheSameFile) {
             {"size", "GG"},
             {"lower_um", -20},
             {"upper_um", 20}}}}}}}};
-  write(folder / "plan.json", plan.dump());
-  const Outcome outcome = rondure(
-      {"run", folder / "plan.json", "--out", folder / "run", "--quiet", "--format", "json"});
-  ASSERT_LE(outcome.status, 1) << outcome.err;
-  const auto report = nlohmann::json::parse(read(folder / "run" / "report.json"));
+  const auto report = report_of(folder, plan);
   const auto& found = report["features"][0]["characteristics"];
   EXPECT_NEAR(found[0]["value_um"], 8.0, 0.001);
   EXPECT_NEAR(found[1]["value_um"], 50000.0, 0.001);
-  EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
   const auto journal = journal_of(folder / "run");
   const auto& settings = journal.features.at(0).settings;
   const auto said = std::ranges::find(settings, "source/read", &record::Setting::name);
@@ -297,12 +302,7 @@ TEST(FitData, AFileWithEveryRowTwiceHasTheIntervalOfTheSingleFile) {
               {"size", "GG"},
               {"lower_um", -20},
               {"upper_um", 20}}}}}}}};
-    write(folder / "plan.json", plan.dump());
-    const Outcome outcome = rondure(
-        {"run", folder / "plan.json", "--out", folder / "run", "--quiet", "--format", "json"});
-    EXPECT_LE(outcome.status, 1) << outcome.err;
-    EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
-    return nlohmann::json::parse(read(folder / "run" / "report.json"))["features"][0];
+    return report_of(folder, plan)["features"][0];
   };
   const auto once = judged(rows);
   std::vector<std::string> twice = rows;

@@ -91,7 +91,9 @@ TEST(ServerUrl, NeedsALibraryThatMayBeMissing) {
   EXPECT_THAT(missing.error().what,
               AllOf(HasSubstr("libsoci_of_nobody.so.1"), HasSubstr("install libsoci-postgresql")));
   // Another library of SOCI has not what is looked for.
-  EXPECT_FALSE(load_postgresql("libsoci_core.so.4.0"));
+  const auto other = load_postgresql("libsoci_core.so.4.0");
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().what, HasSubstr("factory_postgresql"));
 }
 
 TEST(FolderBeside, IsTheParentOfTheRun) {
