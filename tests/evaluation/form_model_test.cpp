@@ -60,6 +60,52 @@ evaluation::Influences noise_of(double sigma_mm) {
   return out;
 }
 
+// Four points of a layer see an oval at one phase, those of layers that are turned at both.
+TEST(FormModel, HasTheAlternationOfLayersOfFewPoints) {
+  for (const double turned : {0.0, 0.1}) {
+    evaluation::FormCloud cloud;
+    cloud.radius_mm = 10.0;
+    for (int l = 0; l < 3; ++l) {
+      for (int i = 0; i < 4; ++i) {
+        evaluation::FormPoint p;
+        p.angle_rad = core::kTwoPi * i / 4 + 0.3 + turned * l;
+        p.height_mm = 10.0 * l;
+        cloud.points.push_back(p);
+      }
+    }
+    const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(12));
+    std::map<int, std::size_t> ovals;
+    for (const evaluation::FormGroup& group : columns.groups()) {
+      if (group.harmonic == 2) ovals[group.degree] = group.columns.size();
+    }
+    const std::size_t phases = turned > 0.0 ? 2 : 1;
+    EXPECT_EQ(ovals, (std::map<int, std::size_t>{{0, phases}, {1, phases}, {2, phases}}));
+  }
+}
+
+// However the face is turned: its sides are found.
+TEST(FormModel, HasABowAlongASideOfAGridInOneColumn) {
+  for (const double turned : {0.0, 0.4, 2.0}) {
+    evaluation::FormCloud cloud;
+    cloud.kind = evaluation::FormKind::kFlatness;
+    cloud.radius_mm = 1.0;
+    Eigen::VectorXd bow(15);
+    for (int i = 0; i < 15; ++i) {
+      const double u = 10.0 * (i % 5 - 2);
+      const double v = 8.0 * (i / 5 - 1);
+      evaluation::FormPoint p;
+      p.angle_rad = std::atan2(v, u) + turned;
+      p.height_mm = std::hypot(u, v);
+      cloud.points.push_back(p);
+      bow[i] = u * u;
+    }
+    const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(15));
+    const Eigen::VectorXd products = columns.products(bow.array() - bow.mean()).cwiseAbs();
+    EXPECT_EQ((products.array() > 1e-9 * products.maxCoeff()).count(), 1) << turned;
+    EXPECT_EQ(columns.count(), 3) << "u u, u v, v v";
+  }
+}
+
 TEST(FormModel, HasTheWidthsAndEnergiesOfTheWorkedCloud) {
   const WorkedCloud worked;
   EXPECT_NEAR(worked.width_um(worked.form), 3.335968898, 1e-6);

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include <Eigen/Geometry>
 
 #include "core/decompositions.h"
 #include "core/units.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -19,10 +23,39 @@ constexpr int kMostHalfWaves = 300;   // along an arc
 constexpr int kMostAlong = 3;         // degree
 constexpr int kMostAlongLow = 12;     // for 0 and 1 undulations: each layer may have its own size
 constexpr int kMostScattered = 5;     // where there are no layers
+constexpr int kMostOrder = 20;        // powers of both sides of a face, together
+constexpr int kFewOfLayer = 12;       // points whose alternation is a form of its own
+constexpr double kOnePhase = 0.98;    // correlation, squared, of cosine and sine at the points
 constexpr double kLeastLeft = 1e-3;   // norm of a column after removing position, size and tilt
 constexpr double kLeastOnArc = 0.05;  // cosines of an arc are nearly motions
 
 using Rows = std::vector<std::size_t>;
+
+/// Whether rows of equal distance from the middle of a face are circles: the points of a grid have
+/// such rows as well, of four and eight, which show no undulations of the face.
+bool on_circles(const std::vector<Rows>& layers) {
+  const auto [least, most] = std::ranges::minmax_element(layers, {}, &Rows::size);
+  return layers.size() == 1 || (least->size() >= 5 && 4 * least->size() >= 3 * most->size());
+}
+
+/// Directions of the sides of the rectangle of least area that holds all points. One of its sides
+/// is a side of their hull.
+Eigen::Matrix2d sides_of(const std::vector<Eigen::Vector2d>& points) {
+  const auto hull = fit::convex_hull(points);
+  Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d side = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    Eigen::Matrix2d sides;
+    sides << side, Eigen::Vector2d(-side.y(), side.x());
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& p : hull) box.extend(Eigen::Vector2d(sides.transpose() * p));
+    if (box.volume() >= (1.0 - 1e-9) * least) continue;
+    least = box.volume();
+    best = sides;
+  }
+  return best;
+}
 
 /// Rows in layers by height; empty where the heights show no layers.
 std::vector<Rows> height_layers(const FormCloud& cloud) {
@@ -54,6 +87,7 @@ std::vector<Rows> height_layers(const FormCloud& cloud) {
     const double extent = height(layer.back()) - height(layer.front());
     if (layer.size() < 3 || extent > 0.5 * largest) return {};
   }
+  if (cloud.kind == FormKind::kFlatness && !on_circles(layers)) return {};
   return layers;
 }
 
@@ -113,6 +147,17 @@ double closed_gap(int points_per_layer) {
   return std::max(2.5 * step, std::min(5.5 * step, 10.0 * core::kDegree));
 }
 
+/// Phases at which the points see so many undulations: of high, low, high, low there is one.
+std::vector<bool> phases_seen(const VectorXd& angles_rad, int undulations) {
+  const Eigen::ArrayXd turned = static_cast<double>(undulations) * angles_rad.array();
+  const double cc = turned.cos().square().sum();
+  const double ss = turned.sin().square().sum();
+  const double cs = (turned.cos() * turned.sin()).sum();
+  const bool both =
+      cs * cs < kOnePhase * cc * ss && std::min(cc, ss) > (1.0 - kOnePhase) * (cc + ss);
+  return both ? std::vector<bool>{false, true} : std::vector<bool>{ss > cc};
+}
+
 int octave_of(double undulations) {
   return undulations < 2.0 ? 0 : static_cast<int>(std::floor(std::log2(undulations)));
 }
@@ -128,8 +173,17 @@ FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
   const bool section = cloud.kind == FormKind::kRoundness;
   const bool plane = cloud.kind == FormKind::kFlatness && !layout_.arc_rad;
   const bool open = layout_.arc_rad.has_value();
+  if (plane && !layout_.layered) {
+    make_sides();
+    return;
+  }
   const int highest = open ? std::min(kMostHalfWaves, layout_.points_per_layer - 1)
                            : std::min(kMostResolved, (layout_.points_per_layer - 1) / 2);
+  // Layers of few points tell by each other that they are alternately high and low: an oval at
+  // four.
+  const int even = layout_.points_per_layer;
+  const bool alternate = !section && !plane && !open && layout_.layered && layout_.layers > 1 &&
+                         even % 2 == 0 && even >= 4 && even <= kFewOfLayer;
   const auto degrees_of = [&](int harmonic) {
     if (section) return 0;
     if (!layout_.layered) return std::min(layout_.layers - 1, kMostScattered);
@@ -145,6 +199,11 @@ FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
       wanted.push_back({j, d, false, 1.0, {}});
       if (!open && j > 0) wanted.push_back({j, d, true, 1.0, {}});
     }
+  }
+  for (int d = 0;
+       alternate && d <= std::min(degrees_of(even / 2), static_cast<int>(along_.cols()) - 1); ++d) {
+    for (const bool sine : phases_seen(angle_, even / 2))
+      wanted.push_back({even / 2, d, sine, 1.0, {}});
   }
   project(std::move(wanted));
 }
@@ -212,10 +271,11 @@ void FormColumns::lay_out(const FormCloud& cloud) {
                                   : std::max(2, static_cast<int>(std::sqrt(count / 4.0)));
     layout_.points_per_layer = static_cast<int>(n) / layout_.layers;
   }
-  const auto angles = sorted_angles(cloud, all);
-  const auto [gap, end] = largest_gap(angles);
   angle_.resize(n);
   for (Index i = 0; i < n; ++i) angle_[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
+  if (cloud.kind == FormKind::kFlatness && !layout_.layered) return;
+  const auto angles = sorted_angles(cloud, all);
+  const auto [gap, end] = largest_gap(angles);
   if (gap < closed_gap(layout_.points_per_layer)) return;
   layout_.regular = false;
   layout_.arc_rad = core::kTwoPi - gap;
@@ -309,7 +369,39 @@ MatrixXd FormColumns::polynomials(const VectorXd& q) const {
   return out;
 }
 
+/// Of a face without circles: products of polynomials along its sides up to one order, about half
+/// as many as there are points. A bow, a twist of a machined face is one column then.
+void FormColumns::make_sides() {
+  const auto n = static_cast<Index>(angle_.size());
+  std::vector<Eigen::Vector2d> points;
+  for (Index i = 0; i < n; ++i)
+    points.emplace_back(height_mm_[i] * std::cos(angle_[i]), height_mm_[i] * std::sin(angle_[i]));
+  const Eigen::Matrix2d sides = sides_of(points);
+  const int order =
+      std::clamp(static_cast<int>(std::sqrt(static_cast<double>(n))) - 1, 2, kMostOrder);
+  for (Index k = 0; k < 2; ++k) {
+    VectorXd along(n);
+    for (Index i = 0; i < n; ++i) along[i] = sides.col(k).dot(points[static_cast<std::size_t>(i)]);
+    make_polynomials(along / height_mm_.maxCoeff(), order);
+    sides_[static_cast<std::size_t>(k)] = along_;
+  }
+  sides_[1].array().colwise() /= root_weight_.array();
+  std::vector<Column> wanted;
+  for (int a = 0; a < sides_[0].cols(); ++a) {
+    for (int b = 0; b < sides_[1].cols() && a + b <= order; ++b) {
+      if (a + b > 1) wanted.push_back({a, b, false, 1.0, {}});
+    }
+  }
+  project(std::move(wanted));
+}
+
 void FormColumns::visit(const std::function<void(std::size_t, const VectorXd&)>& work) const {
+  if (sides_[0].size() > 0) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      work(k, sides_[0].col(columns_[k].harmonic).cwiseProduct(sides_[1].col(columns_[k].degree)));
+    }
+    return;
+  }
   const VectorXd step_c = angle_.array().cos();
   const VectorXd step_s = angle_.array().sin();
   VectorXd c = VectorXd::Ones(angle_.size());
@@ -358,10 +450,12 @@ void FormColumns::project(std::vector<Column> wanted) {
       FormGroup group;
       group.harmonic = column.harmonic;
       group.degree = column.degree;
-      group.undulations = layout_.arc_rad ? column.harmonic * std::numbers::pi / *layout_.arc_rad
-                                          : static_cast<double>(column.harmonic);
+      const bool face = sides_[0].size() > 0;
+      group.undulations = face              ? column.harmonic + column.degree
+                          : layout_.arc_rad ? column.harmonic * std::numbers::pi / *layout_.arc_rad
+                                            : static_cast<double>(column.harmonic);
       group.octave = octave_of(group.undulations);
-      group.degree_class = class_of(column.degree);
+      group.degree_class = face ? 0 : class_of(column.degree);
       groups_.push_back(std::move(group));
     }
     groups_.back().columns.push_back(static_cast<Index>(good.size()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -82,7 +83,7 @@ class FormColumns {
 
  private:
   struct Column {
-    int harmonic = 0;
+    int harmonic = 0;  ///< Of a face: power along one side, and `degree` along the other.
     int degree = 0;
     bool sine = false;
     double scale = 1.0;
@@ -95,6 +96,7 @@ class FormColumns {
   void make_polynomials(const Eigen::VectorXd& q, int degrees);
   [[nodiscard]] Eigen::MatrixXd polynomials(const Eigen::VectorXd& q) const;
   [[nodiscard]] Eigen::MatrixXd radial_polynomials(int undulations) const;
+  void make_sides();
   void project(std::vector<Column> wanted);
   void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
 
@@ -102,6 +104,8 @@ class FormColumns {
   Eigen::VectorXd angle_;  ///< Angle; on an arc its fraction of the arc, times pi.
   Eigen::VectorXd height_mm_;
   Eigen::VectorXd radial_1_;  ///< Of a plane: distances from its middle; else empty.
+  /// Of a face without circles: polynomials along its sides, the first weighted; else empty.
+  std::array<Eigen::MatrixXd, 2> sides_;
   Eigen::VectorXd root_weight_;
   double middle_mm_ = 0.0;
   double reach_mm_ = 0.0;  ///< Height of q = 1 above the middle.
