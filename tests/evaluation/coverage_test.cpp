@@ -585,6 +585,42 @@ TEST(Coverage, OfRoundnessInSeveralSectionsHoldsTheTruth) {
   expect_covered(tallies[1], "LSCI", 0.85);
 }
 
+// Two numbers are left of five points. A prior for the size of form took a form of twice the noise
+// for noise: 9 of 100 circles 2 % above their limit conformed.
+TEST(Coverage, OfFivePointsAcceptsNoMoreThanTheRule) {
+  constexpr double kSigma = 0.2e-3;
+  const int count = test::cases(100, 400, 1000);
+  int above = 0;
+  for (int p = 0; p < count; ++p) {
+    core::KeyedNoise noise(kSeed, {9, static_cast<std::uint64_t>(p)});
+    const double oval = core::kTwoPi * noise.uniform();
+    const double square = core::kTwoPi * noise.uniform();
+    std::vector<Vector3d> truth;
+    std::vector<Vector3d> touched;
+    for (int i = 0; i < 5; ++i) {
+      const double angle = core::kTwoPi * i / 5.0;
+      const Vector3d out(std::cos(angle), std::sin(angle), 0.0);
+      const double form = std::cos(2.0 * angle + oval) + std::cos(4.0 * angle + square);
+      truth.push_back((kPartRadius + 0.4e-3 * form) * out);
+      touched.push_back(truth.back() + kSigma * noise.normal() * out);
+    }
+    const auto cloud = form_cloud(FormKind::kRoundness, touched, Vector3d::UnitZ());
+    Influences influences;
+    influences.probe.emplace().repeatability_mm = kSigma;
+    UncertaintyOptions options = few_trials();
+    options.least_trials = options.most_trials = 400;
+    const auto stated = measurement_uncertainty(*cloud, influences, std::nullopt, options);
+    ASSERT_TRUE(stated) << stated.error().what;
+    fit::CircleZoneFitter fitter;
+    std::vector<Eigen::Vector2d> section;
+    for (const Vector3d& point : truth) section.push_back(point.head<2>());
+    above += fitter.fit(section)->width_mm() > stated->sampled.high_mm ? 1 : 0;
+  }
+  const double share = static_cast<double>(above) / count;
+  std::printf("RONt of 5 points: truth above the interval %.1f %%\n", 100.0 * share);
+  EXPECT_LE(share, 0.025 + 2.0 * std::sqrt(0.025 * 0.975 / count));
+}
+
 /// Layers of few points on a shaft with lobes, half as many as a layer has points: every layer
 /// shows that they are alternately high and low, and no more of the lobes.
 // Taken for roughness, the oval at 8 x 4 points was stated too large in 30 of 40 sections, and bent

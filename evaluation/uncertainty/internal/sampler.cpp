@@ -30,7 +30,7 @@ constexpr double kSpotCandidate = 3.3;  // standard deviations
 constexpr double kNoUnresolved = 0.35;  // probability that all form is resolved
 constexpr int kVariances = 48;          // steps of the unresolved variance
 constexpr double kFlat = 100.0;         // variance of a flat form: 1 % of its value is shrunk away
-constexpr Index kFewestFree = 2;        // points beyond place and size that show how large form is
+constexpr Index kFewestFree = 3;        // points beyond place and size that show how large form is
 constexpr int kNoiseSteps = 15;         // for noise that is not known exactly
 constexpr double kNegligible = -40.0;  // logarithm of the odds of a variance, against the likeliest
 constexpr double kOverlap = 0.3;       // overlap of two columns above which they are drawn together
@@ -138,8 +138,9 @@ FormModel::FormModel(const FormCloud& cloud, const ErrorModel& errors, const For
                                    : FormColumns(cloud, root_weight_)),
       declared_(spectrum != nullptr),
       absolute_(spectrum != nullptr && spectrum->absolute) {
-  flat_ =
-      !declared_ && static_cast<Index>(cloud.points.size()) - columns_.rigid().cols() < kFewestFree;
+  // Several sections show by each other how large form is.
+  const Index fewest = cloud.kind == FormKind::kSections ? kFewestFree - 1 : kFewestFree;
+  flat_ = !declared_ && static_cast<Index>(cloud.points.size()) - columns_.rigid().cols() < fewest;
   weigh(cloud, errors);
   start();
   screen();
