@@ -2,14 +2,13 @@
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "evaluation/uncertainty/cloud.h"
+#include "evaluation/uncertainty/internal/point_layout.h"
 #include "evaluation/uncertainty/spectrum.h"
 
 namespace rondure::evaluation {
@@ -24,16 +23,6 @@ struct FormGroup {
   /// class share a common size.
   int octave = 0;
   int degree_class = 0;
-};
-
-/// Layout of the points of a cloud, as far as it determines which form they resolve.
-struct PointLayout {
-  int layers = 1;
-  /// Number in the layer with the fewest points, in one pass; for a helix, per turn.
-  int points_per_layer = 0;
-  bool layered = true;            ///< false: a helix, or scattered.
-  bool regular = false;           ///< Even steps, all layers alike: the columns are orthogonal.
-  std::optional<double> arc_rad;  ///< Angle covered, for points that do not close a turn.
 };
 
 /// Places of a whole surface, in even angular steps, with the factors that the columns need there.
@@ -90,7 +79,6 @@ class FormColumns {
     Eigen::VectorXd rigid;  ///< Its component in rigid_; empty where motions stay.
   };
 
-  void lay_out(const FormCloud& cloud);
   void make_rigid(const FormCloud& cloud, const Eigen::VectorXd& root_weights);
   [[nodiscard]] Eigen::VectorXd heights_1(const Eigen::VectorXd& heights_mm) const;
   void make_polynomials(const Eigen::VectorXd& q, int degrees);
@@ -101,7 +89,7 @@ class FormColumns {
   void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
 
   PointLayout layout_;
-  Eigen::VectorXd angle_;  ///< Angle; on an arc its fraction of the arc, times pi.
+  Eigen::VectorXd angle_;  ///< See LaidOut.
   Eigen::VectorXd height_mm_;
   Eigen::VectorXd radial_1_;  ///< Of a plane: distances from its middle; else empty.
   /// Of a face without circles: polynomials along its sides, the first weighted; else empty.
