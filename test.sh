@@ -71,6 +71,19 @@ rooms_of() {
   tr ' ' '\n' <<<"$found house" | sort -u | tr '\n' ' '
 }
 
+# Runs tests, and says of every one that was skipped why.
+run_tests() {  # PRESET [ARGUMENT OF CTEST]...
+  local status=0 log=build/$1/Testing/Temporary/LastTest.log
+  rm -f "$log"
+  ctest --preset "$@" || status=$?
+  [ ! -f "$log" ] || awk '
+    /^[0-9]+\/[0-9]+ Testing: / { sub(/^[^:]*: /, ""); name = $0 }
+    skipped { print "skipped: " name ": " $0; skipped = 0 }
+    /: Skipped$/ { skipped = 1 }
+    /^(SKIPPED|skipped): / { sub(/^[^:]*: /, ""); print "skipped: " name ": " $0 }' "$log"
+  return $status
+}
+
 # Builds and runs the tests of rooms.
 test_rooms() {  # ROOM...
   local room targets=()
@@ -83,7 +96,7 @@ test_rooms() {  # ROOM...
   done
   build release ON "${targets[@]}"
   local IFS="|"
-  ctest --preset release -R "^($*)\\."
+  run_tests release -R "^($*)\\."
 }
 
 # What the tests start comes while the compiler works, where nobody has to be asked for a password. Everything but the
@@ -140,7 +153,7 @@ case "$mode" in
     ensure_packages $rondure_test_programs
     build asan ON all
     echo "Not run under the sanitizers: tests/unsanitized.txt"
-    exec ctest --preset asan -E "$unsanitized"
+    run_tests asan -E "$unsanitized"
     ;;
   all | --full)
     fetch_programs
@@ -156,19 +169,20 @@ case "$mode" in
     doors=$!
     set +m
     trap 'kill -- "-$doors" 2>/dev/null || true' EXIT
-    ctest --preset release
+    run_tests release
     wait "$doors" || true
     build doors ON doors_tests  # nothing is left to do, or it says what went wrong
-    ctest --preset doors
+    run_tests doors
     [ -z "$commit" ] || echo "$commit" >$passed
     ;;
   --full)
     export RONDURE_FULL=1
     build release ON all
     await_programs
-    ctest --preset release
+    run_tests release
     build tsan ON threads_tests
-    env -u RONDURE_FULL ctest --preset tsan -R "^threads\.(GrowingRecord|Live|Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"
+    unset RONDURE_FULL
+    run_tests tsan -R "^threads\.(GrowingRecord|Live|Uncertainty\.HasTheSameNumbersAtAnyThreadCount)"
     ;;
   *)
     ensure_packages $rondure_test_programs

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -454,6 +455,19 @@ std::vector<CharacteristicResult> judged(const Circles& circles, double sigma_mm
   return evaluated(run).features.front().characteristics;
 }
 
+/// Whether the interval of touched points holds the minimum zone value of the true ones; none, and
+/// a failure, where there is no value or no interval.
+std::optional<bool> is_held(const Circles& truth, const Circles& touched, double sigma_mm,
+                            record::Shape shape, record::Form form) {
+  const CharacteristicResult read = judged(touched, sigma_mm, shape, form).front();
+  const CharacteristicResult exact = judged(truth, 0.0, shape, form).front();
+  const UncertaintyStatement* stated = read.value ? read.value->statement() : nullptr;
+  EXPECT_NE(stated, nullptr) << read.reason.english();
+  EXPECT_TRUE(exact.value_mm()) << exact.reason.english();
+  if (stated == nullptr || !exact.value_mm()) return {};
+  return stated->low_mm <= *exact.value_mm() && *exact.value_mm() <= stated->high_mm;
+}
+
 // A plane tilts about two lines, not about four: an interval that forgets it takes noise for form.
 TEST(Coverage, OfFlatnessHoldsTheTruth) {
   const int count = inspections(40);
@@ -515,16 +529,10 @@ TEST(Coverage, OfFlatnessOnAGridHoldsTheTruth) {
     int held = 0;
     for (int p = 0; p < count; ++p) {
       const TouchedGrid face(n, kSigma, static_cast<std::uint64_t>(p));
-      const auto of = [](const Circles& circles, double sigma) {
-        return judged(circles, sigma, record::Shape::kPlane, record::Form::kFlatness).front();
-      };
-      const CharacteristicResult read = of(face.touched, kSigma);
-      const UncertaintyStatement* stated = read.value->statement();
-      ASSERT_NE(stated, nullptr) << read.reason.english();
-      const CharacteristicResult exact = of(face.truth, 0.0);
-      ASSERT_TRUE(exact.value_mm()) << exact.reason.english();
-      const double value_mm = *exact.value_mm();
-      held += stated->low_mm <= value_mm && value_mm <= stated->high_mm ? 1 : 0;
+      const auto one =
+          is_held(face.truth, face.touched, kSigma, record::Shape::kPlane, record::Form::kFlatness);
+      ASSERT_TRUE(one);
+      held += *one ? 1 : 0;
     }
     const double share = static_cast<double>(held) / count;
     std::printf("FLTt MZ, %d x %d points with a bow: %.1f %%\n", n, n, 100.0 * share);
@@ -647,12 +655,9 @@ TEST(Coverage, OfLobesThatALayerSeesAtOnePhaseHoldsTheTruth) {
       }
       const std::array forms = {record::Form::kRoundness, record::Form::kCylindricity};
       for (std::size_t f = 0; f < forms.size(); ++f) {
-        const auto read = judged(touched, kSigma, record::Shape::kCylinder, forms[f]).front();
-        const UncertaintyStatement* stated = read.value->statement();
-        ASSERT_NE(stated, nullptr) << read.reason.english();
-        const double value_mm =
-            *judged(truth, 0.0, record::Shape::kCylinder, forms[f]).front().value_mm();
-        held[f] += stated->low_mm <= value_mm && value_mm <= stated->high_mm ? 1 : 0;
+        const auto one = is_held(truth, touched, kSigma, record::Shape::kCylinder, forms[f]);
+        ASSERT_TRUE(one);
+        held[f] += *one ? 1 : 0;
       }
     }
     std::printf("%d layers of %d points: RONt %d, CYLt %d of %d\n", layers, points, held[0],

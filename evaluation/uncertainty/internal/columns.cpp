@@ -69,10 +69,7 @@ int class_of(int degree) { return degree == 0 ? 0 : (degree <= 2 ? 1 : 2); }
 }  // namespace
 
 FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
-    : root_weight_(root_weights) {
-  auto [layout, angle] = laid_out(cloud, root_weights.minCoeff() == root_weights.maxCoeff());
-  layout_ = layout;
-  angle_ = std::move(angle);
+    : layout_(layout_of(cloud, root_weights)), root_weight_(root_weights) {
   make_rigid(cloud, root_weights);
   const bool section = cloud.kind == FormKind::kRoundness;
   const bool plane = cloud.kind == FormKind::kFlatness && !layout_.arc_rad;
@@ -106,7 +103,7 @@ FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
   }
   for (int d = 0;
        alternate && d <= std::min(degrees_of(even / 2), static_cast<int>(along_.cols()) - 1); ++d) {
-    for (const bool sine : phases_seen(angle_, even / 2))
+    for (const bool sine : phases_seen(layout_.angle, even / 2))
       wanted.push_back({even / 2, d, sine, 1.0, {}});
   }
   project(std::move(wanted));
@@ -114,17 +111,14 @@ FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
 
 FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights,
                          const FormSpectrum& spectrum)
-    : root_weight_(root_weights), legendre_(true) {
-  auto [layout, angle] = laid_out(cloud, root_weights.minCoeff() == root_weights.maxCoeff());
-  layout_ = layout;
-  angle_ = std::move(angle);
+    : layout_(layout_of(cloud, root_weights)), root_weight_(root_weights), legendre_(true) {
   layout_.arc_rad.reset();  // terms of a spectrum are undulations of the full turn
   layout_.regular = false;
   make_rigid(cloud, root_weights);
   middle_mm_ = 0.5 * (spectrum.low_mm + spectrum.high_mm);
   reach_mm_ = 0.5 * (spectrum.high_mm - spectrum.low_mm);
-  for (Index i = 0; i < angle_.size(); ++i) {
-    angle_[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
+  for (Index i = 0; i < layout_.angle.size(); ++i) {
+    layout_.angle[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
   }
   int degrees = 0;
   std::vector<FormTerm> terms = spectrum.terms;
@@ -236,10 +230,11 @@ MatrixXd FormColumns::polynomials(const VectorXd& q) const {
 /// Of a face without circles: products of polynomials along its sides up to one order, about half
 /// as many as there are points. A bow, a twist of a machined face is one column then.
 void FormColumns::make_sides() {
-  const auto n = static_cast<Index>(angle_.size());
+  const auto n = static_cast<Index>(layout_.angle.size());
   std::vector<Eigen::Vector2d> points;
   for (Index i = 0; i < n; ++i)
-    points.emplace_back(height_mm_[i] * std::cos(angle_[i]), height_mm_[i] * std::sin(angle_[i]));
+    points.emplace_back(height_mm_[i] * std::cos(layout_.angle[i]),
+                        height_mm_[i] * std::sin(layout_.angle[i]));
   const Eigen::Matrix2d sides = sides_of(points);
   const int order =
       std::clamp(static_cast<int>(std::sqrt(static_cast<double>(n))) - 1, 2, kMostOrder);
@@ -266,12 +261,12 @@ void FormColumns::visit(const std::function<void(std::size_t, const VectorXd&)>&
     }
     return;
   }
-  const VectorXd step_c = angle_.array().cos();
-  const VectorXd step_s = angle_.array().sin();
-  VectorXd c = VectorXd::Ones(angle_.size());
-  VectorXd s = VectorXd::Zero(angle_.size());
-  VectorXd turned(angle_.size());
-  VectorXd column(angle_.size());
+  const VectorXd step_c = layout_.angle.array().cos();
+  const VectorXd step_s = layout_.angle.array().sin();
+  VectorXd c = VectorXd::Ones(layout_.angle.size());
+  VectorXd s = VectorXd::Zero(layout_.angle.size());
+  VectorXd turned(layout_.angle.size());
+  VectorXd column(layout_.angle.size());
   int harmonic = 0;
   MatrixXd radial = radial_polynomials(0);
   for (std::size_t k = 0; k < columns_.size(); ++k) {

@@ -89,9 +89,8 @@ class FormColumns {
   void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
 
   PointLayout layout_;
-  Eigen::VectorXd angle_;  ///< See LaidOut.
   Eigen::VectorXd height_mm_;
-  Eigen::VectorXd radial_1_;  ///< Of a plane: distances from its middle; else empty.
+  Eigen::VectorXd radial_1_;  ///< Of a face touched on circles: their radii; else empty.
   /// Of a face without circles: polynomials along its sides, the first weighted; else empty.
   std::array<Eigen::MatrixXd, 2> sides_;
   Eigen::VectorXd root_weight_;

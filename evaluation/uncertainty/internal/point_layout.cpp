@@ -114,47 +114,46 @@ double closed_gap(int points_per_layer) {
 
 }  // namespace
 
-LaidOut laid_out(const FormCloud& cloud, bool alike) {
-  LaidOut out;
-  PointLayout& layout = out.layout;
+PointLayout layout_of(const FormCloud& cloud, const Eigen::VectorXd& root_weights) {
+  PointLayout out;
   const Index n = static_cast<Index>(cloud.points.size());
   const auto layers = height_layers(cloud);
   Rows all(cloud.points.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   if (!layers.empty()) {
-    layout.layers = static_cast<int>(layers.size());
+    out.layers = static_cast<int>(layers.size());
     std::size_t least = layers.front().size();
-    layout.regular = cloud.passes == 1 && alike;
+    out.regular = cloud.passes == 1 && root_weights.minCoeff() == root_weights.maxCoeff();
     for (const Rows& layer : layers) {
       least = std::min(least, layer.size());
       const double extent =
           cloud.points[layer.back()].height_mm - cloud.points[layer.front()].height_mm;
-      layout.regular = layout.regular && layer.size() == layers.front().size() &&
-                       (layers.size() == 1 || extent < 1e-9) &&
-                       even_steps(sorted_angles(cloud, layer));
+      out.regular = out.regular && layer.size() == layers.front().size() &&
+                    (layers.size() == 1 || extent < 1e-9) &&
+                    even_steps(sorted_angles(cloud, layer));
     }
     // Passes at different places form bunches: together they resolve what one of them does.
-    layout.points_per_layer = std::max(1, static_cast<int>(least) / std::max(1, cloud.passes));
+    out.points_per_layer = std::max(1, static_cast<int>(least) / std::max(1, cloud.passes));
   } else {
-    layout.layered = false;
+    out.layered = false;
     const double turns = turns_of(cloud);
     const double count = static_cast<double>(n);
-    layout.layers = turns >= 2.0 ? static_cast<int>(turns)
-                                 : std::max(2, static_cast<int>(std::sqrt(count / 4.0)));
-    layout.points_per_layer = static_cast<int>(n) / layout.layers;
+    out.layers = turns >= 2.0 ? static_cast<int>(turns)
+                              : std::max(2, static_cast<int>(std::sqrt(count / 4.0)));
+    out.points_per_layer = static_cast<int>(n) / out.layers;
   }
   out.angle.resize(n);
   for (Index i = 0; i < n; ++i) out.angle[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
-  if (cloud.kind == FormKind::kFlatness && !layout.layered) return out;
+  if (cloud.kind == FormKind::kFlatness && !out.layered) return out;
   const auto angles = sorted_angles(cloud, all);
   const auto [gap, end] = largest_gap(angles);
-  if (gap < closed_gap(layout.points_per_layer)) return out;
-  layout.regular = false;
-  layout.arc_rad = core::kTwoPi - gap;
+  if (gap < closed_gap(out.points_per_layer)) return out;
+  out.regular = false;
+  out.arc_rad = core::kTwoPi - gap;
   for (double& angle : out.angle) {
     double from = std::fmod(angle - end, core::kTwoPi);
     if (from < -1e-12) from += core::kTwoPi;
-    angle = std::numbers::pi * from / std::max(*layout.arc_rad, 1e-9);
+    angle = std::numbers::pi * from / std::max(*out.arc_rad, 1e-9);
   }
   return out;
 }

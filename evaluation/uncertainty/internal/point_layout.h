@@ -16,15 +16,9 @@ struct PointLayout {
   bool layered = true;            ///< false: a helix, or scattered.
   bool regular = false;           ///< Even steps, all layers alike: the columns are orthogonal.
   std::optional<double> arc_rad;  ///< Angle covered, for points that do not close a turn.
+  Eigen::VectorXd angle;          ///< Of every point; on an arc its fraction of the arc, times pi.
 };
 
-/// The layout, and where on its turn or arc every point lies.
-struct LaidOut {
-  PointLayout layout;
-  Eigen::VectorXd angle;  ///< Angle; on an arc its fraction of the arc, times pi.
-};
-
-/// @param alike  Whether all points have one weight.
-[[nodiscard]] LaidOut laid_out(const FormCloud& cloud, bool alike);
+[[nodiscard]] PointLayout layout_of(const FormCloud& cloud, const Eigen::VectorXd& root_weights);
 
 }  // namespace rondure::evaluation
