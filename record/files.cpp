@@ -140,6 +140,13 @@ core::Result<std::string> read_open(const OpenFile& file, const fs::path& path,
   return bytes;
 }
 
+core::Result<std::string> sha256_open(const OpenFile& file, const fs::path& path) {
+  Sha256 hash;
+  TRY_DO(read_pieces(file, path, kMostJournalBytes,
+                     [&](std::string_view piece, auto) { hash.add(piece); }));
+  return hash.hex();
+}
+
 // Opened without waiting: a pipe without a writer would block the program forever.
 constexpr int kReadFlags = O_RDONLY | O_NONBLOCK | O_NOCTTY;
 
@@ -219,12 +226,13 @@ core::Result<std::string> read_inside(const fs::path& directory, const fs::path&
   return read_open(file, directory / name, most_bytes);
 }
 
+core::Result<std::string> sha256_file(const fs::path& path) {
+  return sha256_open(OpenFile(path, kReadFlags), path);
+}
+
 core::Result<std::string> sha256_inside(const fs::path& directory, const fs::path& name) {
   TRY(const auto file, open_inside(directory, name));
-  Sha256 hash;
-  TRY_DO(read_pieces(file, directory / name, kMostJournalBytes,
-                     [&](std::string_view piece, auto) { hash.add(piece); }));
-  return hash.hex();
+  return sha256_open(file, directory / name);
 }
 
 core::Result<void> sync_directory(const fs::path& directory) {

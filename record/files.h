@@ -20,6 +20,10 @@ inline constexpr std::uintmax_t kMostJournalBytes = std::uintmax_t{16} << 30;   
 [[nodiscard]] core::Result<std::string> read_file(const std::filesystem::path& path,
                                                   std::uintmax_t most_bytes = kMostDocumentBytes);
 
+/// The SHA-256 of a file, as 64 lower-case hexadecimal digits; refuses what read_file() refuses.
+/// Takes no memory for its bytes, so that it may be as long as a journal.
+[[nodiscard]] core::Result<std::string> sha256_file(const std::filesystem::path& path);
+
 /// Writes a file completely or not at all (temporary name in the same folder, flush to disk,
 /// rename). On kFile no temporary file remains and an older file is unchanged.
 [[nodiscard]] core::Result<void> write_file(const std::filesystem::path& path,
@@ -34,8 +38,7 @@ inline constexpr std::uintmax_t kMostJournalBytes = std::uintmax_t{16} << 30;   
 [[nodiscard]] core::Result<std::string> read_inside(const std::filesystem::path& directory,
                                                     const std::filesystem::path& name,
                                                     std::uintmax_t most_bytes = kMostDocumentBytes);
-/// The SHA-256 of a file below a directory, as 64 lower-case hexadecimal digits. Takes no memory
-/// for its bytes, so that it may be as long as a journal.
+/// sha256_file() below a directory.
 [[nodiscard]] core::Result<std::string> sha256_inside(const std::filesystem::path& directory,
                                                       const std::filesystem::path& name);
 /// write_file() below a directory; makes the folder where it is missing.

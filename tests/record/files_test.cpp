@@ -82,6 +82,7 @@ TEST(Files, BelowADirectoryAreReachedThroughNoLink) {
   ASSERT_TRUE(write_inside(scratch.path(), "tables/a.csv", "x"));
   EXPECT_EQ(*read_inside(scratch.path(), "tables/a.csv"), "x");
   EXPECT_EQ(*sha256_inside(scratch.path(), "tables/a.csv"), sha256_hex("x"));
+  EXPECT_EQ(*sha256_file(scratch / "tables/a.csv"), sha256_hex("x"));
   ASSERT_TRUE(remove_inside(scratch.path(), "tables/a.csv"));
   EXPECT_FALSE(remove_inside(scratch.path(), "tables/a.csv"));
   ASSERT_TRUE(write_file(elsewhere / "a.csv", "other"));
@@ -115,6 +116,8 @@ TEST(Files, LongerThanTheirLimitAreRefusedUnread) {
   EXPECT_TRUE(read_file(scratch / "long", kMostDocumentBytes + 1));
   std::filesystem::resize_file(scratch / "long", kMostJournalBytes + 1);
   EXPECT_THAT(sha256_inside(scratch.path(), "long").error().what, HasSubstr("is 17179869184"));
+  EXPECT_THAT(sha256_file(scratch / "long").error().what, HasSubstr("is 17179869184"));
+  EXPECT_THAT(sha256_file(scratch.path()).error().what, HasSubstr("it is a folder"));
 }
 
 TEST(Files, ThatCannotBeWrittenAreNamedWithTheReason) {
