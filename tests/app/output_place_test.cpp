@@ -144,7 +144,7 @@ TEST(StandardOutput, ThatTakesNothingIsNotSilent) {
   const std::vector<std::vector<std::string>> commands = {
       {"run", folder / "plan.json", "--out", folder / "run"},
       {"verify", folder / "run"},
-      {"report", folder / "run"},
+      {"report", folder / "run", "--format", "html,json,csv"},
       {"validate", folder / "plan.json"},
       {"fit", "circle", points, "--json"},
       {"--help"},

@@ -126,7 +126,7 @@ TEST(KilledRun, KeepsItsTouchesAndSaysThatItWasInterrupted) {
   const Outcome verified = rondure({"verify", run.directory()});
   EXPECT_EQ(verified.status, 1);
   EXPECT_THAT(verified.out, HasSubstr("it was interrupted"));
-  EXPECT_EQ(rondure({"report", run.directory()}).status, 1);
+  EXPECT_EQ(rondure({"report", run.directory(), "--format", "html"}).status, 1);
   EXPECT_THAT(read(run.directory() / "report.html"), HasSubstr("</html>"));
 }
 

@@ -34,36 +34,32 @@ async function drawn(page) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
+/// Headings that leave out a level, and what has no name.
+async function structure(page) {
+  const levels = await page.locator('h1, h2, h3, h4, [role=heading]').evaluateAll((all) => all.map(
+      (h) => Number(h.getAttribute('aria-level') ?? h.tagName[1])));
+  assert.equal(levels[0], 1);
+  levels.slice(1).forEach((level, i) => assert.ok(level >= 2 && level <= levels[i] + 1, `${levels}`));
+  assert.equal(await page.locator('table:not(:has(> caption))').count(), 0);
+  assert.equal(await page.locator('th:not([scope])').count(), 0);
+  assert.equal(await page.locator('figure:not(:has(figcaption))').count(), 0);
+  assert.equal(await page.locator('svg:not([aria-label]):not([aria-hidden])').count(), 0);
+}
+
 for (const plan of plans) {
-  test(`axe finds no serious problem in the page of ${plan}, light, dark and narrow`, async () => {
+  test(`the page of ${plan}: headings in order, names, nothing that axe finds serious in light, dark and narrow, 360 px`,
+       async () => {
     const {page} = await open(run(plan).html);
+    await structure(page);
     await page.evaluate(axe);
     for (const {scheme, width, rules} of views) {
       await page.setViewportSize({width, height: 800});
       await page.emulateMedia({colorScheme: scheme});
       await drawn(page);
       assert.deepEqual(await findings(page, ['critical', 'serious', 'moderate'], rules), [], `${scheme}, ${width} px`);
+      const [wide, seen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+      assert.ok(wide <= seen, `${wide} px wide at ${width} px`);
     }
-    await page.close();
-  });
-
-  test(`headings of ${plan} leave out no level, tables and drawings have names`, async () => {
-    const {page} = await open(run(plan).html);
-    const levels = await page.locator('h1, h2, h3, h4, [role=heading]').evaluateAll((all) => all.map(
-        (h) => Number(h.getAttribute('aria-level') ?? h.tagName[1])));
-    assert.equal(levels[0], 1);
-    levels.slice(1).forEach((level, i) => assert.ok(level >= 2 && level <= levels[i] + 1, `${levels}`));
-    assert.equal(await page.locator('table:not(:has(> caption))').count(), 0);
-    assert.equal(await page.locator('th:not([scope])').count(), 0);
-    assert.equal(await page.locator('figure:not(:has(figcaption))').count(), 0);
-    assert.equal(await page.locator('svg:not([aria-label]):not([aria-hidden])').count(), 0);
-    await page.close();
-  });
-
-  test(`the page of ${plan} fits 360 px`, async () => {
-    const {page} = await open(run(plan).html, {width: 360, height: 700});
-    const [wide, seen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
-    assert.ok(wide <= seen, `${wide} px wide`);
     await page.close();
   });
 }

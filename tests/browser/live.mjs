@@ -46,7 +46,7 @@ async function findings(page) {
 }
 
 test('the page follows the run and shows its verdict', async () => {
-  const run = await watch('01_spool_simulated.json', 15);  // slow enough for a browser that starts slowly
+  const run = await watch('01_spool_simulated.json', 10);  // slow enough for a browser that starts, and axe that looks, slowly
   const {page, said} = await open(run.url, {online: true});
   await page.waitForSelector('#drawing svg.polar');
   const before = await touches(page);

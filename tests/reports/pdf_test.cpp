@@ -186,30 +186,37 @@ TEST_F(Pdf, SaysEveryTextOfThePage) {
        {std::pair("conforms", cylinder_case(4, 7, 3)), std::pair("fails", failing_case()),
         std::pair("circle", circle_case(500)), std::pair("unfinished", unfinished_case())}) {
     SCOPED_TRACE(name);
-    const std::string html =
-        write_html(made.record, made.evaluation, Edition(Language::kEnglish, true));
+    std::string html = write_html(made.record, made.evaluation, Edition(Language::kEnglish, true));
     const std::string pdf = printed(html, Paper::kA4);
     EXPECT_THAT(lacking(pdf, html), IsEmpty());
     EXPECT_EQ(edition_of_pdf(pdf), Edition(Language::kEnglish, true));
+    html.insert(html.find("</footer>"), "<b>not on paper</b>");
+    EXPECT_THAT(lacking(pdf, html), ::testing::ElementsAre("notonpaper"));
   }
 }
 
-TEST_F(Pdf, TheComparisonOfTextsSeesOneThatIsMissing) {
+TEST_F(Pdf, HasItsTitleItsPaperItsFontsAndThePageThatItWasPrintedFrom) {
   const Case made = cylinder_case(4, 7, 3);
-  std::string html = write_html(made.record, made.evaluation, Edition(Language::kEnglish, true));
-  const std::string pdf = printed(html, Paper::kA4);
-  html.insert(html.find("</footer>"), "<b>not on paper</b>");
-  EXPECT_THAT(lacking(pdf, html), ::testing::ElementsAre("notonpaper"));
-}
-
-TEST_F(Pdf, IsTaggedHasItsTitleAndTheSizeOfItsPaperAndEmbedsItsFonts) {
-  const Case made = cylinder_case(4, 7, 3);
-  const std::string a4 = printed(made);
+  const std::string html = page_of(made);
+  const std::string a4 = printed(html, Paper::kA4);
   EXPECT_THAT(said_of(a4, "pdfinfo"),
               AllOf(HasSubstr("VS-1180 0042 - conforms\n"), HasSubstr("Tagged:          yes"),
                     HasSubstr("JavaScript:      no"), HasSubstr("(A4)")));
   expect_embedded(a4);
-  EXPECT_THAT(said_of(printed(made, Paper::kLetter), "pdfinfo"), HasSubstr("(letter)"));
+  const std::string pdf = printed(html, Paper::kLetter);
+  EXPECT_THAT(said_of(pdf, "pdfinfo"), HasSubstr("(letter)"));
+  EXPECT_TRUE(is_printed_from(html, pdf));
+  EXPECT_TRUE(is_printed_from(html, pdf, Paper::kLetter));
+  EXPECT_FALSE(is_printed_from(html, pdf, Paper::kA4));
+  EXPECT_FALSE(is_printed_from(page_of(failing_case()), pdf));
+  EXPECT_FALSE(is_printed_from(html, ""));
+  const std::size_t at = pdf.rfind("page-sha256-");
+  ASSERT_NE(at, std::string::npos);
+  // As version 0.2 stated it, within the document information.
+  const std::string earlier = "/Creator (rondure 0.2.0, " + pdf.substr(at, 76) +
+                              ", page-language-zh-Hans)\n/Title (t)\n%%EOF";
+  EXPECT_TRUE(is_printed_from(html, earlier));
+  EXPECT_EQ(edition_of_pdf(earlier), Language::kChinese);
 }
 
 TEST_F(Pdf, EveryPageHasPartRevisionRunSimulatedAndItsNumberAndNoPathOfAFile) {
@@ -251,24 +258,6 @@ TEST_F(Pdf, HostileNamesStayTextInTheHeadOfEachPage) {
     EXPECT_TRUE(is_printed_from(html, pdf, Paper::kA4));
     EXPECT_EQ(edition_of_pdf(pdf), Language::kEnglish);
   }
-}
-
-TEST_F(Pdf, NamesThePageThatItWasPrintedFrom) {
-  const Case made = cylinder_case(4, 7, 3);
-  const std::string html = page_of(made);
-  const std::string pdf = printed(html, Paper::kLetter);
-  EXPECT_TRUE(is_printed_from(html, pdf));
-  EXPECT_TRUE(is_printed_from(html, pdf, Paper::kLetter));
-  EXPECT_FALSE(is_printed_from(html, pdf, Paper::kA4));
-  EXPECT_FALSE(is_printed_from(page_of(failing_case()), pdf));
-  EXPECT_FALSE(is_printed_from(html, ""));
-  const std::size_t at = pdf.rfind("page-sha256-");
-  ASSERT_NE(at, std::string::npos);
-  // As version 0.2 stated it, within the document information.
-  const std::string earlier = "/Creator (rondure 0.2.0, " + pdf.substr(at, 76) +
-                              ", page-language-zh-Hans)\n/Title (t)\n%%EOF";
-  EXPECT_TRUE(is_printed_from(html, earlier));
-  EXPECT_EQ(edition_of_pdf(earlier), Language::kChinese);
 }
 
 TEST(PdfFailure, WithoutChromiumThePackageIsNamed) {

@@ -31,7 +31,7 @@ constexpr const char* kProcessor = "this processor";
 class RunOfAnotherVersion : public ::testing::Test {
  protected:
   /// A run over points, as if `version` of the program had written it.
-  void write_run(const std::string& version) {
+  void write_run(const std::string& version, bool print = false) {
     record::RunRecord run = points_run(rough_part(1, 3, 12, core::kTwoPi), 3);
     run.header.version = version;
     run.header.processor = kProcessor;
@@ -42,7 +42,9 @@ class RunOfAnotherVersion : public ::testing::Test {
     if (change_results) change_results(run.results);
     results = run.results.size();
     ASSERT_TRUE(record::write_run(directory, run));
-    ASSERT_TRUE(write_exports(directory, all_formats(), run, evaluation));
+    std::vector<std::string> formats = all_formats();
+    if (!print) std::erase(formats, "pdf");
+    ASSERT_TRUE(write_exports(directory, formats, run, evaluation));
   }
   /// Changes an export, as another version would have written it: with its digest.
   void rewrite(const std::string& file, const std::string& from, const std::string& to,
@@ -74,7 +76,7 @@ class RunOfAnotherVersion : public ::testing::Test {
 };
 
 TEST_F(RunOfAnotherVersion, OfTheSameVersionEveryByteCounts) {
-  write_run(std::string(core::kVersion));
+  write_run(std::string(core::kVersion), true);
   EXPECT_THAT(difference(), IsEmpty());
   rewrite("report.html", "</footer>", ".</footer>");
   EXPECT_THAT(difference(), AllOf(HasSubstr("report.html: line "),
