@@ -31,6 +31,27 @@ std::optional<core::Error> doubt(std::string where, std::optional<double> limit_
                      std::move(where)};
 }
 
+/// Limits of a size that are the size, in mm or um, and no deviations from the nominal one.
+std::optional<core::Error> doubt(const record::CharacteristicTask& asked, double nominal_mm,
+                                 const std::string& where) {
+  constexpr double kNear = 0.02;  // of the nominal diameter
+  if (!(nominal_mm > 0.0) || !asked.lower_um || !asked.upper_um) return {};
+  for (const double in_mm : {1e3, 1.0}) {
+    const auto deviation_um = [&](double limit) { return in_mm * limit - 1e3 * nominal_mm; };
+    const double lower_um = deviation_um(*asked.lower_um);
+    const double upper_um = deviation_um(*asked.upper_um);
+    if (std::max(std::abs(lower_um), std::abs(upper_um)) > kNear * 1e3 * nominal_mm) continue;
+    return core::Error{
+        core::Code::kMeaning,
+        fmt::format("{} and {} read like the size itself; limits are deviations from the nominal "
+                    "diameter of {} mm: were {:.6g} and {:.6g} um meant?",
+                    plain(*asked.lower_um), plain(*asked.upper_um), plain(nominal_mm), lower_um,
+                    upper_um),
+        where + "/lower_um"};
+  }
+  return {};
+}
+
 /// The features of the plan that a datum names, where all of them are touched cylinders or circles:
 /// their nominal axis is part z.
 bool is_axis_of_part(const Plan& plan, std::string_view datum) {
@@ -89,6 +110,7 @@ std::vector<core::Error> doubts_of(const Plan& plan) {
       add(doubt(where + "/tolerance_um", asked.tolerance_um, kLeastLimit_um));
       add(doubt(where + "/lower_um", asked.lower_um, kLeastDeviation_um));
       add(doubt(where + "/upper_um", asked.upper_um, kLeastDeviation_um));
+      add(doubt(asked, feature.nominal.diameter_mm, where));
       add(doubt(plan, asked.indication.datum, where + "/datum"));
     }
   }

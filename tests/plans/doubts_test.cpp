@@ -51,6 +51,14 @@ TEST(Doubts, ALimitInTheWrongUnitIsNamedWithTheLikelyOne) {
             "");
 }
 
+TEST(Doubts, LimitsThatAreTheSizeItselfAreNamed) {
+  EXPECT_EQ(
+      doubts_about(R"({"id": "x", "form": "diameter", "lower_um": 49.987, "upper_um": 50})"),
+      "/features/2/characteristics/0/lower_um: 49.987 and 50 read like the size itself; limits "
+      "are deviations from the nominal diameter of 50 mm: were -13 and 0 um meant?\n");
+  EXPECT_EQ(doubts_about(R"({"id": "x", "form": "diameter", "lower_um": 30, "upper_um": 60})"), "");
+}
+
 TEST(Doubts, ASecondDatumAxisOnTheFirstLocksNothing) {
   const auto about = [](const std::string& datum) {
     return doubts_about(R"({"id": "x", "form": "coaxiality", "tolerance_um": 8, "datum": )" +
