@@ -180,6 +180,13 @@ std::optional<core::Phrase> nominal_fault(const FeatureResult& result) {
   const double allowed_mm =
       std::max(kShare * nominal_mm, kLeast_mm) + (result.tip_radius_mm ? 0.0 : kUnknownTip_mm);
   if (std::abs(found_mm - nominal_mm) <= allowed_mm) return std::nullopt;
+  constexpr double kInch_mm = 25.4;
+  if (std::abs(nominal_mm / found_mm / kInch_mm - 1.0) > 0.1) {
+    return core::phrase(
+        "the points show a diameter of {:.4g} mm, nominal is {:g} mm: check the unit of the file, "
+        "the tip, the side and nominal.diameter_mm",
+        found_mm, nominal_mm);
+  }
   return core::phrase(
       "the points show a diameter of {:.4g} mm, nominal is {:g} mm: is the file in inches? Give "
       "points in mm, or correct nominal.diameter_mm",

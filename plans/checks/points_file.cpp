@@ -162,12 +162,19 @@ std::optional<core::Error> doubtful_unit(Shape shape, const record::PointTable& 
     const double mm = factor * *size;
     return mm < 1.0 || mm > 1000.0 ? std::string() : fmt::format(", in {} {:.6g} mm", unit, mm);
   };
+  const std::string inches = in_mm("inches", 25.4);
+  const std::string metres = in_mm("metres", 1000.0);
+  const std::string micrometres = in_mm("micrometres", 1e-3);
+  const auto option = [](const std::string& size_mm, const char* words) {
+    return size_mm.empty() ? "" : words;
+  };
   return core::Error{
       Code::kUnits,
       fmt::format("the points of {} show {} of {:.6g}: in mm that is {:.6g} mm{}{}{}; state the "
-                  "unit: --unit mm, in a plan source.unit or nominal.diameter_mm",
+                  "unit: {}{}{}--unit mm, in a plan source.unit or nominal.diameter_mm",
                   in_quotes(std::string(file)), other ? "an extent" : "a diameter", *size, *size,
-                  in_mm("inches", 25.4), in_mm("metres", 1000.0), in_mm("micrometres", 1e-3)),
+                  inches, metres, micrometres, option(inches, "--unit inch or "),
+                  option(metres, "--unit m or "), option(micrometres, "--unit um or ")),
       {}};
 }
 
@@ -182,9 +189,13 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
   const auto table = points_of(plan, index, *bytes);
   if (!table) {
     const core::Error& error = table.error();
-    const bool of_key = error.where == file;  // no line of the file
-    const std::string key = feature_pointer(index) + "/source/feature";
-    return findings.meaning(error.code, of_key ? key : error.where, error.what);
+    const bool of_line = error.where != file;
+    const bool of_feature = error.code == Code::kMissingKey || !feature.source->feature.empty();
+    return findings.meaning(error.code,
+                            of_line      ? error.where
+                            : of_feature ? feature_pointer(index) + "/source/feature"
+                                         : where,
+                            error.what);
   }
   if (feature.source->points == record::PointsAre::kSurface && feature.source->tip_diameter_mm) {
     findings.meaning(Code::kMeaning, feature_pointer(index) + "/source/tip_diameter_mm",

@@ -235,6 +235,16 @@ core::Result<Cloud> take_points(Body& body, const Block& block, std::string_view
   return out;
 }
 
+/// Refuses what stands behind the last point, where nothing else may.
+core::Result<void> check_end(Body& body, std::size_t points) {
+  using namespace std::string_view_literals;
+  if (body.rest.find_first_not_of(" \t\r\n\0"sv) == std::string_view::npos) return {};
+  ++body.line;
+  return body.fail(Code::kSyntax, fmt::format("the head announces {} points, and more follow; "
+                                              "correct the count, or save the file anew",
+                                              points));
+}
+
 std::optional<std::size_t> axis_named(std::string_view name) {
   const bool known = name.size() == 1 && name[0] >= 'x' && name[0] <= 'z';
   return known ? std::optional(static_cast<std::size_t>(name[0] - 'x')) : std::nullopt;
@@ -288,9 +298,11 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
   body.form = *form;
   std::optional<Cloud> out;
   bool faces = false;
+  bool more = false;  // than points
   for (const auto& [element, block] : blocks) {
     faces = faces || (element == "face" && block.rows > 0);
-    if (out) continue;
+    more = more || (out && block.rows > 0);
+    if (out) continue;  // what follows the points is not read
     if (element == "vertex") {
       TRY(out, take_points(body, block, "PLY"));
     } else {
@@ -298,6 +310,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
     }
   }
   if (!out) return body.fail(Code::kSyntax, "the PLY file has no element vertex");
+  if (!more) TRY_DO(check_end(body, out->points.size()));
   out->mesh = faces;
   out->unit = unit;
   return *std::move(out);
@@ -344,7 +357,9 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
                                                 quoted_text(data)));
   }
   body.form = data == "ascii" ? Coding::kText : Coding::kLittle;
-  return take_points(body, block, "PCD");
+  TRY(auto out, take_points(body, block, "PCD"));
+  TRY_DO(check_end(body, out.points.size()));
+  return out;
 }
 
 /// Keeps each different vertex once, and three by three the triangles.

@@ -245,6 +245,9 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
     if (text.left_out > 0)
       how += fmt::format(", {} row{} without values left out", text.left_out,
                          text.left_out == 1 ? "" : "s");
+    if (unit && text.unit && unit != text.unit) {
+      how += fmt::format(", which the file states in {},", name_of(*text.unit));
+    }
     if (!unit) unit = text.unit;
   }
   out.unit_stated = unit.has_value();

@@ -58,11 +58,12 @@ struct Line {
 /// "1,5" as a reader takes it for one number or for two.
 std::string both_readings(std::string_view line) {
   const Cells fields = fields_of(line, ',');
+  if (fields[0].find('.') != std::string_view::npos) return {};
   const auto text = [&](char between) {
     return quoted_text(fmt::format("{}{}{}", fields[0], between, fields[1]));
   };
   return fmt::format(
-      "{} may be one number, {}, or two: separate fields by semicolons, or write "
+      "; {} may be one number, {}, or two: separate fields by semicolons, or write "
       "decimals with a point",
       text(','), text('.'));
 }
@@ -148,22 +149,54 @@ class Finder {
                                                                        : std::nullopt;
   }
 
-  /// The unit that a line above the rows states, unless it contradicts another one.
+  [[nodiscard]] static core::Error unit_error(const std::string& fault) {
+    return {Code::kUnits, fault + ": give --unit, in a plan source.unit", {}};
+  }
+
+  /// The unit that a line above the rows states, unless it contradicts another one, or is the only
+  /// one and not understood.
   core::Result<void> take_units(TableLayout& layout, std::size_t end) const {
     std::string_view before;
+    const Line* doubtful = nullptr;
     for (std::size_t k = 0; k < end && !options_.unit && !wanted_.polar; ++k) {
       const std::string_view line = lines_[k].text;  // "Units:" may stand on the line before
-      const auto unit =
-          unit_in_text(before.ends_with(':') ? fmt::format("{} {}", before, line) : line);
+      const std::string whole =
+          before.ends_with(':') ? fmt::format("{} {}", before, line) : std::string(line);
+      const auto unit = unit_in_text(whole);
       before = line;
+      if (!unit && may_state_unit(whole)) doubtful = &lines_[k];
       if (!unit) continue;
       if (layout.unit && layout.unit != unit) {
-        return core::fail(at_line({Code::kUnits,
-                                   fmt::format("the file says {} and {}: give --unit, in a plan "
-                                               "source.unit",
-                                               name_of(*layout.unit), name_of(*unit)),
-                                   {}},
+        return core::fail(at_line(unit_error(fmt::format("the file says {} and {}",
+                                                         name_of(*layout.unit), name_of(*unit))),
                                   name_, lines_[k].number));
+      }
+      layout.unit = unit;
+    }
+    if (layout.unit || doubtful == nullptr) return {};
+    return core::fail(
+        at_line(unit_error(fmt::format("{} seems to state a unit, which is not understood",
+                                       quoted_text(doubtful->text))),
+                name_, doubtful->number));
+  }
+
+  /// The unit that a column "unit" states, one for all rows.
+  core::Result<void> take_unit_column(TableLayout& layout, std::size_t head,
+                                      std::size_t first) const {
+    const Cells names = fields_of(lines_[head].text, layout.notation.separator);
+    const auto column =
+        static_cast<std::size_t>(std::ranges::find_if(names, names_unit) - names.begin());
+    if (column == names.size() || options_.unit) return {};
+    for (std::size_t k = next(first); k < lines_.size(); k = next(k + 1)) {
+      const Cells fields = fields_of(lines_[k].text, layout.notation.separator);
+      if (column >= fields.size() || fields[column].empty()) continue;
+      const auto unit = unit_of_row({fields[column]});
+      if (!unit || unit != layout.unit.value_or(*unit)) {
+        return core::fail(
+            at_line(unit_error(fmt::format("column {} says {}{}", quoted_text(names[column]),
+                                           quoted_text(fields[column]),
+                                           unit ? ", another unit than above" : "")),
+                    name_, lines_[k].number));
       }
       layout.unit = unit;
     }
@@ -229,6 +262,8 @@ class Finder {
     if (std::ranges::all_of(options_.columns, by_number)) {  // names show which line is the head
       TRY_DO(check_above(k, head.roles, fitting.front()));
     }
+    layout.notation = fitting.front();
+    TRY_DO(take_unit_column(layout, k, first));
     TRY_DO(take_units(layout, first));
     std::vector<TableLayout> out;
     for (const Notation d : fitting) {
@@ -378,7 +413,7 @@ class Finder {
       return core::fail(error_at(
           first.number, fmt::format("{} has {} columns of numbers and no head line; {}{}",
                                     quoted_text(first.text), found.numbers.size(), kNameColumns,
-                                    commas ? "; " + both_readings(first.text) : "")));
+                                    commas ? both_readings(first.text) : "")));
     }
     out = found.numbers;
     out.resize(std::min<std::size_t>(out.size(), 3));
@@ -425,21 +460,28 @@ class Finder {
            !are(found, 6, is_direction) && !are(found, 3, is_colour) && !are(found, 6, is_colour);
   }
 
-  /// Whether the first column of numbers is 0, 1, 2, ... or 1, 2, 3, ...
+  /// Whether the first column of numbers is 0, 1, 2, ... or 1, 2, 3, ..., or others without
+  /// decimals in equal steps, 10, 20, 30, ..., beside columns with decimals.
   [[nodiscard]] bool counts(const Found& found) const {
     std::size_t rows = 0;
+    double first = 0.0;
     double before = 0.0;
+    double step = 0.0;
+    bool whole = std::get<2>(found.score) > 0;
     for (std::size_t k = found.first; k < lines_.size(); k = next(k + 1)) {
       const Cells fields = fields_of(lines_[k].text, found.notation.separator);
       if (fields.size() <= found.numbers[0]) return false;
-      const auto value = core::parse_number(fields[found.numbers[0]]);
-      if (!value || (rows == 0 ? *value != 0.0 && *value != 1.0 : *value != before + 1.0)) {
-        return false;
-      }
+      const std::string_view field = fields[found.numbers[0]];
+      const auto value = core::parse_number(field);
+      if (!value) return false;
+      if (rows == 0) first = *value;
+      if (rows == 1) step = *value - before;
+      if (rows > 0 && (*value != before + step || step <= 0.0)) return false;
+      whole = whole && field.find_first_not_of("0123456789") == std::string_view::npos;
       before = *value;
       ++rows;
     }
-    return rows >= 3;
+    return rows >= 3 && (whole || (step == 1.0 && (first == 0.0 || first == 1.0)));
   }
 
   std::string_view text_;
@@ -488,8 +530,7 @@ core::Error wrong_count(std::string_view line, char separator, std::size_t colum
   const bool commas = separator == ',' && found == 2 * columns;
   return syntax_error(fmt::format("{} field{} in {}, {} expected ({} between them){}", found,
                                   found == 1 ? "" : "s", quoted_text(line), columns,
-                                  name_of_separator(separator),
-                                  commas ? "; " + both_readings(line) : ""));
+                                  name_of_separator(separator), commas ? both_readings(line) : ""));
 }
 
 core::Error at_line(core::Error error, std::string_view name, std::size_t line) {

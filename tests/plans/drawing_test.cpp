@@ -134,11 +134,12 @@ TEST(PlanDrawing, ASizeThatLooksLikeAnotherUnitNeedsItsNominal) {
                                folder.path(), "plan.json"));
   };
   EXPECT_EQ(problems(1.0, ""), "");
-  EXPECT_THAT(problems(1.0 / 25.4, ""),
-              ::testing::HasSubstr("/features/0/source/file: the points of \"c.csv\" show a "
-                                   "diameter of 1.1811: in mm that is 1.1811 mm, in inches 30 mm; "
-                                   "state the unit: --unit mm, in a plan source.unit or "
-                                   "nominal.diameter_mm"));
+  EXPECT_THAT(
+      problems(1.0 / 25.4, ""),
+      ::testing::HasSubstr("/features/0/source/file: the points of \"c.csv\" show a "
+                           "diameter of 1.1811: in mm that is 1.1811 mm, in inches 30 mm; "
+                           "state the unit: --unit inch or --unit mm, in a plan source.unit or "
+                           "nominal.diameter_mm"));
   EXPECT_THAT(problems(1e-3, ""), ::testing::HasSubstr(", in metres 30 mm; state"));
   EXPECT_THAT(problems(1e3, ""), ::testing::HasSubstr(", in micrometres 30 mm; state"));
   EXPECT_EQ(problems(0.2, R"("nominal": {"diameter_mm": 6}, )"), "");

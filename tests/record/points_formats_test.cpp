@@ -164,6 +164,21 @@ TEST(PointsFormats, GiveAllPointsOrNoneOfAFileThatIsCutOff) {
   }
 }
 
+TEST(PointsFormats, RefuseMorePointsThanTheirHeadAnnounces) {
+  int seen = 0;
+  for (const FormatFile& c : good_files()) {
+    const std::string name = c.name;
+    if (!name.ends_with(".ply") && !name.ends_with(".pcd")) continue;
+    SCOPED_TRACE(c.read);
+    ++seen;
+    const auto table = read_points(c.bytes + "\n7 8 9\n", c.name);
+    ASSERT_FALSE(table);
+    EXPECT_THAT(table.error().what, HasSubstr("the head announces 3 points, and more follow"));
+    EXPECT_TRUE(read_points(c.bytes + "\n\n", c.name));
+  }
+  EXPECT_GE(seen, 4);
+}
+
 TEST(PointsFormats, AMeshIsSaidToBeOne) {
   const auto faces =
       read_points(binary_ply(false, false, 1) + bytes_of(std::uint8_t{0}, false), "a.ply");

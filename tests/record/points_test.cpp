@@ -114,6 +114,15 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"x;y;z\n1,5;2,5;3\n1.5;2;3\n", kSyntax, "pin.csv:3", "other numbers have a decimal comma"},
       {"x;y;z\n1.5;2;3\n1,5;2;3\n", kSyntax, "pin.csv:3", "other numbers have a decimal point"},
       {"1 20.5 30.5\n2 21.5 31.5\n3 22.5 32.5\n", kSyntax, "pin.csv:1", "column 1 counts the rows"},
+      {"37 20.5 30.5 7\n38 21.5 31.5 8\n39 22.5 32.5 9\n", kSyntax, "pin.csv:1",
+       "column 1 counts the rows"},
+      {"1.0 20.5 30.5\n2.0 21.5 31.5\n3.0 22.5 32.5\n", kSyntax, "pin.csv:1",
+       "column 1 counts the rows"},
+      {"10;20.5;30.5\n20;21.5;31.5\n30;22.5;32.5\n", kSyntax, "pin.csv:1",
+       "column 1 counts the rows"},
+      {"x;y\n1;Maße\x1b\u202e\n", kSyntax, "pin.csv:2", "y is \"Maße\\x1b\\xe2\\x80\\xae\""},
+      {"x;y\n1;#VALUE!\n", kSyntax, "pin.csv:2", "(an error of the spreadsheet)"},
+      {"x;y\n1;\u22122\n", kSyntax, "pin.csv:2", "(the minus is the sign U+2212; write -)"},
       {"r;phi;z\n10.5;20.5;30.5\n", kSyntax, "pin.csv:1", "names none of the columns x,y"},
       {"dx,dy,dz\n1.5,2.5,3.5\n", kSyntax, "pin.csv:1", "names none of the columns x,y"},
       {"a\nb\nc\n1.5,2.5,3.5\n", kSyntax, "pin.csv:3", "names none of the columns x,y"},
@@ -416,7 +425,12 @@ TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
       {"Unidades: pulgadas", kInch},
       {"Unité : pouce", kInch},
       {"单位: 毫米", kMm},
+      {"Units of measure: inch", kInch},
+      {"Masseinheit: Zoll", kInch},
       {"Unit under test: block 7, clamped in the vice", std::nullopt},
+      {"Unit: 3", std::nullopt},
+      {"Coordinates: part", std::nullopt},
+      {"Units: degrees", std::nullopt},
       {"# Unit 3, M. Weber", std::nullopt},
       {"Units:\nmeasured in Jena", std::nullopt},
   };
@@ -426,6 +440,45 @@ TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
     const std::string_view word = unit ? name_of(*unit) : "mm (not stated)";
     EXPECT_THAT(table.read, HasSubstr(fmt::format(" in {};", word)));
   }
+}
+
+TEST(PointsText, RefusesALineThatMayStateAUnitWhereNoneIsUnderstood) {
+  const auto text = [](std::string_view line, std::string_view head) {
+    return fmt::format("part 7\n{}\n{}\n1,2,3\n4,5,6\n", line, head);
+  };
+  for (const std::string_view line :
+       {"Measured in inches", "MODE INCH", "# [inch]", "G20", "Maße in Zoll", "System: imperial",
+        "Units: thousandths", "Units = English", "Units: tenths of mm", "単位: インチ"}) {
+    SCOPED_TRACE(line);
+    const auto table = read_points(text(line, "x,y,z"), "pin.csv");
+    ASSERT_FALSE(table);
+    EXPECT_EQ(table.error().code, core::Code::kUnits);
+    EXPECT_EQ(table.error().where, "pin.csv:2");
+    EXPECT_THAT(table.error().what, HasSubstr("which is not understood: give --unit"));
+    const auto said =
+        read_points(text(line, "x,y,z"), "pin.csv", {.feature = "", .unit = LengthUnit::kMm});
+    EXPECT_TRUE(said) << core::to_line(said.error());
+    EXPECT_TRUE(read_points(text(line, "x [mm],y [mm],z [mm]"), "pin.csv"));
+  }
+}
+
+TEST(PointsText, TakesTheUnitOfAColumn) {
+  const auto read = [](std::string_view rows) {
+    return read_points(fmt::format("x;y;z;Unit\n{}", rows), "pin.csv");
+  };
+  EXPECT_EQ(read("1;2;3;inch\n4;5;6;inch\n")->points_mm.at(0),
+            Eigen::Vector3d(25.4, 50.8, 25.4 * 3));
+  EXPECT_THAT(read_points("x;y;Einheit\n1;2;Zoll\n", "pin.csv")->read, HasSubstr("in inch;"));
+  EXPECT_THAT(read("1;2;3;mm\n4;5;6;inch\n").error().what, HasSubstr("another unit than above"));
+  EXPECT_THAT(read("1;2;3;thou\n").error().what, HasSubstr("column \"Unit\" says \"thou\": give"));
+}
+
+TEST(PointsText, SaysWhatTheFileStatesBesideTheUnitThatWasGiven) {
+  const auto table =
+      read_points("x [in];y [in]\n1;2\n3;4\n", "pin.csv", {.feature = "", .unit = LengthUnit::kMm});
+  ASSERT_TRUE(table) << core::to_line(table.error());
+  EXPECT_THAT(table->read, HasSubstr("y [in], which the file states in inch, in mm;"));
+  EXPECT_EQ(table->points_mm.at(0), Eigen::Vector3d(1, 2, 0));
 }
 
 TEST(PointsText, RefusesThreeCornersARow) {

@@ -1,10 +1,12 @@
 #include "record/csv/internal/lines.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 
+#include "core/encodings.h"
 #include "core/numbers.h"
 
 namespace rondure::record {
@@ -46,7 +48,8 @@ std::string_view take_line(std::string_view& text) {
 
 bool holds_no_row(std::string_view line) {
   const std::size_t first = line.find_first_not_of(kBlanks);
-  return first == std::string_view::npos || line[first] == '#';
+  return first == std::string_view::npos || line[first] == '#' ||
+         line.substr(first).starts_with("//");
 }
 
 std::vector<std::string_view> split_fields(std::string_view line) {
@@ -62,15 +65,22 @@ std::vector<std::string_view> split_fields(std::string_view line) {
 std::string quoted_text(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string shown = "\"";
-  for (const char c : text.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f) {
-      shown += fmt::format("\\x{:02x}", byte);
+  std::size_t at = 0;
+  while (at < std::min(text.size(), kLongest)) {
+    const core::Utf8Character c = core::next_character(text.substr(at));
+    const std::string_view bytes = text.substr(at, c.bytes);
+    const bool blank = c.code == 0xA0 || c.code == 0x202F || c.code == 0x3000 ||
+                       (c.code >= 0x2000 && c.code <= 0x200F);
+    if (c.valid && !blank && core::printable(bytes) == bytes) {
+      shown += bytes;
     } else {
-      shown += c;
+      for (const char byte : bytes) {
+        shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+      }
     }
+    at += bytes.size();
   }
-  return shown + (text.size() > kLongest ? "...\"" : "\"");
+  return shown + (at < text.size() ? "...\"" : "\"");
 }
 
 std::optional<core::Error> foreign_format(std::string_view line) {
@@ -139,9 +149,15 @@ std::optional<core::Error> explain_field(std::string_view field, std::string_vie
     return syntax_error(
         fmt::format("{} is empty; a number{} such as 12.5 is expected", column, in_unit));
   }
-  return syntax_error(fmt::format(
-      "{} is {}; a number{} such as 12.5 is expected{}", column, quoted_text(field), in_unit,
-      field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
+  const auto has = [&](std::string_view part) { return field.find(part) != field.npos; };
+  std::string_view hint;
+  if (has("#")) hint = " (a comment needs a line of its own)";
+  if (field.starts_with('#') && field.find_last_of("!?") == field.size() - 1)
+    hint = " (an error of the spreadsheet)";
+  if (has("\u2212")) hint = " (the minus is the sign U+2212; write -)";
+  if (has("\u00a0") || has("\u202f")) hint = " (a blank stands in it; write numbers without)";
+  return syntax_error(fmt::format("{} is {}; a number{} such as 12.5 is expected{}", column,
+                                  quoted_text(field), in_unit, hint));
 }
 
 std::string_view unit_of_column(std::string_view name) {

@@ -33,7 +33,8 @@ inline constexpr std::size_t kMostRows = 20'000'000;
 /// The fields of a line without blanks around them.
 [[nodiscard]] std::vector<std::string_view> split_fields(std::string_view line);
 
-/// At most 40 characters of a file's text, in quotes, with non-printing bytes escaped.
+/// At most 40 characters of a file's text, in quotes, with the bytes escaped that
+/// show nothing: blanks but the common one, marks, controls.
 [[nodiscard]] std::string quoted_text(std::string_view text);
 
 /// The error for a line in a format that spreadsheets or editors write, or nothing.

@@ -159,12 +159,18 @@ constexpr auto kLayerWords =
                                      "couche", "strato", "capa", "层"});
 /// NameWords that announce a unit in the text above a table, those that may stand between, and
 /// those that show that "in" was the unit: "Units: in, deg".
-constexpr auto kUnitHeadings = std::to_array<std::string_view>(
-    {"unit", "units", "einheit", "einheiten", "maßeinheit", "单位", "unidad", "unidades", "unidade",
-     "unité", "unités", "unità", "jednostka", "jednostki", "enhet", "eenheid", "dimensions",
-     "coordinates", "values"});
+constexpr auto kUnitNames = std::to_array<std::string_view>(
+    {"unit", "units", "einheit", "einheiten", "maßeinheit", "masseinheit", "längeneinheit", "单位",
+     "unidad", "unidades", "unidade", "unité", "unités", "unità", "jednostka", "jednostki", "enhet",
+     "eenheid"});
+constexpr auto kMeasures = std::to_array<std::string_view>({"dimensions", "coordinates", "values"});
 constexpr auto kBetween = std::to_array<std::string_view>(
-    {"in", "is", "are", "of", "ist", "sind", "length", "linear", "used", "system"});
+    {"in", "is", "are", "of", "for", "all", "ist", "sind", "length", "linear", "used", "system",
+     "measure", "measurement", "measurements"});
+/// Words that speak of inches wherever they stand: "Measured in inches", "G20".
+constexpr auto kInchWords = std::to_array<std::string_view>(
+    {"inch", "inches", "zoll", "imperial", "g20", "pouce", "pouces", "pulgada", "pulgadas",
+     "polegada", "polegadas", "pollice", "pollici", "дюйм", "дюймы", "дюймах", "英寸", "インチ"});
 constexpr auto kAngles =
     std::to_array<std::string_view>({"deg", "degree", "degrees", "rad", "radian", "grad"});
 
@@ -196,9 +202,16 @@ std::optional<LengthUnit> unit_named(std::string_view word) {
   return std::nullopt;
 }
 
-bool is_measured(std::string_view word) {
-  return std::ranges::find(kMeasuredWords, word) != kMeasuredWords.end();
+template <class List>
+bool is_one_of(const List& list, std::string_view word) {
+  return std::ranges::find(list, word) != list.end();
 }
+
+bool announces_unit(std::string_view word) {
+  return is_one_of(kUnitNames, word) || is_one_of(kMeasures, word);
+}
+
+bool is_measured(std::string_view word) { return is_one_of(kMeasuredWords, word); }
 
 /// "x", "xactual", "posx": the coordinate that a word names.
 std::optional<Role> coordinate(std::string_view word) {
@@ -253,7 +266,7 @@ Column column_of(std::string_view field) {
     out.role = *role;
   } else if (words.size() == 1 && words[0] == "feature") {
     out.role = Role::kFeature;
-  } else if (words.size() == 1 && std::ranges::find(kLayerWords, words[0]) != kLayerWords.end()) {
+  } else if (words.size() == 1 && is_one_of(kLayerWords, words[0])) {
     out.role = Role::kLayer;
   }
   return out;
@@ -390,18 +403,38 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
 
 std::optional<LengthUnit> unit_in_text(std::string_view line) {
   const NameWords words = words_in(line);
-  const auto is_one_of = [](const auto& list, std::string_view word) {
-    return std::ranges::find(list, word) != list.end();
-  };
   // The unit follows at once: "Unit 3, M. Weber" and "unit clamped in a vice" state none.
   std::size_t k = 0;
-  while (k < words.size() && !is_one_of(kUnitHeadings, words[k])) ++k;
+  while (k < words.size() && !announces_unit(words[k])) ++k;
   for (++k; k < words.size(); ++k) {
-    const bool between = is_one_of(kBetween, words[k]) || is_one_of(kUnitHeadings, words[k]);
+    const bool between = is_one_of(kBetween, words[k]) || announces_unit(words[k]);
     const bool ends = k + 1 == words.size() || is_one_of(kAngles, words[k + 1]);
     if (!between || ends) return unit_named(words[k]);  // "in" at the end is inch
   }
   return std::nullopt;
+}
+
+bool may_state_unit(std::string_view line) {
+  NameWords words = words_in(line);
+  const auto speaks_of_inches = [](std::string_view word) { return is_one_of(kInchWords, word); };
+  if (std::ranges::any_of(words, speaks_of_inches)) return true;
+  // "Units: thousandths", but neither "Unit: 3" nor "Units: degrees"
+  const bool stated = line.find_first_of(":=") != std::string_view::npos;
+  if (!stated || words.empty() || !is_one_of(kUnitNames, words[0])) return false;
+  std::erase_if(words, [](std::string_view word) {
+    return is_one_of(kUnitNames, word) || is_one_of(kBetween, word);
+  });
+  const auto is_no_unit = [](std::string_view word) {
+    return is_one_of(kAngles, word) || word.find_first_of("0123456789") != std::string_view::npos;
+  };
+  const auto is_unit = [](std::string_view word) { return unit_named(word).has_value(); };
+  return (words.size() == 1 || std::ranges::any_of(words, is_unit)) &&
+         std::ranges::none_of(words, is_no_unit);
+}
+
+bool names_unit(std::string_view field) {
+  const NameWords words = words_in(field);
+  return words.size() == 1 && is_one_of(kUnitNames, words[0]);
 }
 
 std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields) {

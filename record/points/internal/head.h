@@ -60,6 +60,11 @@ struct Head {
 
 /// The unit that a line of text states: "Units: inch".
 [[nodiscard]] std::optional<LengthUnit> unit_in_text(std::string_view line);
+/// Whether a line that unit_in_text() does not understand may state a unit all the same: it speaks
+/// of inches, or is "Units: thousandths".
+[[nodiscard]] bool may_state_unit(std::string_view line);
+/// Whether a column of this name holds the unit of each row.
+[[nodiscard]] bool names_unit(std::string_view field);
 /// The unit of a row that holds nothing but units.
 [[nodiscard]] std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields);
 
