@@ -245,6 +245,16 @@ core::Result<void> check_end(Body& body, std::size_t points) {
                                               points));
 }
 
+/// Takes the unit that a line of a head states, or the line where its unit is in doubt.
+void take_unit(std::string_view line, Cloud& head) {
+  const auto unit = unit_in_text(line);
+  if (unit && !head.unit) head.doubtful.clear();
+  const bool doubtful =
+      unit ? head.unit.value_or(*unit) != unit : !head.unit && may_state_unit(line);
+  if (doubtful) head.doubtful = line;
+  if (unit) head.unit = unit;
+}
+
 std::optional<std::size_t> axis_named(std::string_view name) {
   const bool known = name.size() == 1 && name[0] >= 'x' && name[0] <= 'z';
   return known ? std::optional(static_cast<std::size_t>(name[0] - 'x')) : std::nullopt;
@@ -261,7 +271,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
   Body body{bytes, name};
   std::vector<std::pair<std::string, Block>> blocks;
   std::optional<Coding> form;
-  std::optional<LengthUnit> unit;
+  Cloud head;
   for (bool ended = false; !ended;) {
     if (body.rest.empty()) return body.fail(Code::kSyntax, "the head of the PLY file has no end");
     ++body.line;
@@ -291,7 +301,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
     } else if (word == "end_header") {
       ended = true;
     } else if (word == "comment" || word == "obj_info") {
-      if (const auto stated = unit_in_text(line)) unit = stated;
+      take_unit(line, head);
     }  // other lines mean nothing: "Created by ..."
   }
   if (!form) return body.fail(Code::kSyntax, "the head of the PLY file names no format");
@@ -312,7 +322,8 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
   if (!out) return body.fail(Code::kSyntax, "the PLY file has no element vertex");
   if (!more) TRY_DO(check_end(body, out->points.size()));
   out->mesh = faces;
-  out->unit = unit;
+  out->unit = head.unit;
+  out->doubtful = std::move(head.doubtful);
   return *std::move(out);
 }
 
@@ -324,11 +335,13 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   std::vector<std::size_t> sizes;
   std::vector<std::size_t> counts;
   std::string_view data;
+  Cloud head;
   while (data.empty()) {
     if (body.rest.empty()) return body.fail(Code::kSyntax, "the head of the PCD file has no end");
     ++body.line;
     const std::string_view line = take_line(body.rest);
     const auto words = fields_of(line, ' ');
+    if (words[0].starts_with('#')) take_unit(line, head);
     for (std::size_t i = 1; i < words.size(); ++i) {
       if (words[0] == "FIELDS") names.push_back(words[i]);
       if (words[0] == "TYPE") types.push_back(words[i]);
@@ -359,6 +372,8 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   body.form = data == "ascii" ? Coding::kText : Coding::kLittle;
   TRY(auto out, take_points(body, block, "PCD"));
   TRY_DO(check_end(body, out.points.size()));
+  out.unit = head.unit;
+  out.doubtful = std::move(head.doubtful);
   return out;
 }
 

@@ -231,6 +231,9 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
     out.mesh = found.mesh;
     how = found.read + (found.mesh ? " of a mesh" : "");
     if (found.single) how += ", stored with 32 bits";
+    if (!unit && !found.doubtful.empty()) {
+      return core::fail(doubtful_unit(found.doubtful).at(std::string(name)));
+    }
     if (!unit) unit = found.unit;
   } else {
     PointsOptions said = options;  // a name may be in the encoding of the file

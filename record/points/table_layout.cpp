@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -149,13 +150,12 @@ class Finder {
                                                                        : std::nullopt;
   }
 
-  [[nodiscard]] static core::Error unit_error(const std::string& fault) {
-    return {Code::kUnits, fault + ": give --unit, in a plan source.unit", {}};
-  }
-
-  /// The unit that a line above the rows states, unless it contradicts another one, or is the only
-  /// one and not understood.
-  core::Result<void> take_units(TableLayout& layout, std::size_t end) const {
+  /// What the lines above the rows state: the unit, unless it contradicts another one, or is the
+  /// only one and not understood, and the number of points.
+  core::Result<void> take_texts(TableLayout& layout, std::size_t end) const {
+    for (std::size_t k = 0; k < end; ++k) {
+      layout.at_least = std::max(layout.at_least, points_in_text(lines_[k].text));
+    }
     std::string_view before;
     const Line* doubtful = nullptr;
     for (std::size_t k = 0; k < end && !options_.unit && !wanted_.polar; ++k) {
@@ -173,34 +173,24 @@ class Finder {
       }
       layout.unit = unit;
     }
-    if (layout.unit || doubtful == nullptr) return {};
-    return core::fail(
-        at_line(unit_error(fmt::format("{} seems to state a unit, which is not understood",
-                                       quoted_text(doubtful->text))),
-                name_, doubtful->number));
+    if (layout.unit || layout.has(Role::kUnit) || doubtful == nullptr) return {};
+    return core::fail(at_line(doubtful_unit(doubtful->text), name_, doubtful->number));
   }
 
-  /// The unit that a column "unit" states, one for all rows.
-  core::Result<void> take_unit_column(TableLayout& layout, std::size_t head,
-                                      std::size_t first) const {
-    const Cells names = fields_of(lines_[head].text, layout.notation.separator);
-    const auto column =
-        static_cast<std::size_t>(std::ranges::find_if(names, names_unit) - names.begin());
-    if (column == names.size() || options_.unit) return {};
+  /// Whether a column called "Element" names features: most rows have the name of another one, or
+  /// none, below it. Otherwise each has the name of its point.
+  [[nodiscard]] bool names_features(const TableLayout& layout, std::size_t first) const {
+    const auto column = static_cast<std::size_t>(std::ranges::find(layout.roles, Role::kFeature) -
+                                                 layout.roles.begin());
+    std::set<std::string_view> names;
+    std::size_t rows = 0;
     for (std::size_t k = next(first); k < lines_.size(); k = next(k + 1)) {
       const Cells fields = fields_of(lines_[k].text, layout.notation.separator);
-      if (column >= fields.size() || fields[column].empty()) continue;
-      const auto unit = unit_of_row({fields[column]});
-      if (!unit || unit != layout.unit.value_or(*unit)) {
-        return core::fail(
-            at_line(unit_error(fmt::format("column {} says {}{}", quoted_text(names[column]),
-                                           quoted_text(fields[column]),
-                                           unit ? ", another unit than above" : "")),
-                    name_, lines_[k].number));
-      }
-      layout.unit = unit;
+      if (!agrees(fields, layout.roles.size())) continue;
+      ++rows;
+      if (!fields[column].empty()) names.insert(fields[column]);
     }
-    return {};
+    return 2 * names.size() <= rows;
   }
 
   /// How well rows fit: (rows, numbers, fractions).
@@ -263,8 +253,13 @@ class Finder {
       TRY_DO(check_above(k, head.roles, fitting.front()));
     }
     layout.notation = fitting.front();
-    TRY_DO(take_unit_column(layout, k, first));
-    TRY_DO(take_units(layout, first));
+    // the columns of x, y and z alone: all rows are one feature
+    layout.elements = head.elements && (options_.columns.empty() || !options_.feature.empty()) &&
+                      names_features(layout, first);
+    if (head.elements && !layout.elements) {
+      std::ranges::replace(layout.roles, Role::kFeature, Role::kNone);
+    }
+    TRY_DO(take_texts(layout, first));
     std::vector<TableLayout> out;
     for (const Notation d : fitting) {
       out.push_back(layout);
@@ -373,7 +368,7 @@ class Finder {
     }
     layout.rows = lines_[best->first].before;
     if (best->first > 0) layout.announced = announced_by(lines_[best->first - 1].text);
-    TRY_DO(take_units(layout, best->first));
+    TRY_DO(take_texts(layout, best->first));
     std::vector<TableLayout> out = {layout};
     layout.notation.decimal = layout.notation.decimal == '.' ? ',' : '.';
     out.push_back(layout);

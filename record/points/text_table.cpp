@@ -81,7 +81,9 @@ class RowReader {
  public:
   RowReader(const TableLayout& layout, std::string_view name, const PointsOptions& options,
             const WantedColumns& wanted)
-      : layout_(layout), name_(name), options_(options), wanted_(wanted) {}
+      : layout_(layout), name_(name), options_(options), wanted_(wanted) {
+    table_.unit = layout.unit;
+  }
 
   core::Result<TextTable> read() {
     Lines lines = layout_.rows;
@@ -117,6 +119,7 @@ class RowReader {
       while (at != end && (*at == ' ' || (*at == '\t' && separator != '\t'))) ++at;
     };
     skip_blanks();
+    unit_.reset();
     for (std::size_t i = 0; i < layout_.roles.size(); ++i) {
       if (i > 0 && separator != ' ') {
         if (at == end || *at != separator) return false;
@@ -154,8 +157,15 @@ class RowReader {
   bool take(Role role, std::string_view field) {
     if (role == Role::kNone) return true;
     if (role == Role::kFeature) {
-      feature_ = field;
-      return !field.empty();
+      if (!field.empty() || !layout_.elements) feature_ = field;
+      return !feature_.empty();
+    }
+    if (role == Role::kUnit) {
+      if (field.empty()) return true;
+      const auto unit = unit_of_row({field});
+      const bool one = unit && unit == unit_.value_or(*unit);
+      unit_ = unit;
+      return one;
     }
     double& value = role == Role::kLayer ? layer_ : values_[static_cast<Eigen::Index>(role)];
     const char* const end = field.data() + field.size();
@@ -181,6 +191,12 @@ class RowReader {
         return std::nullopt;
       }
     }
+    if (unit_ && unit_ != table_.unit.value_or(*unit_)) {
+      return at_line(unit_error(fmt::format("the column of units says {}, another unit than above",
+                                            name_of(*unit_))),
+                     name_, lines.number);
+    }
+    if (unit_) table_.unit = unit_;
     if (table_.rows.empty()) {  // rows are about as long as the first
       table_.rows.reserve(std::min(lines.rest.size() / bytes + 1, kMostRows));
     }
@@ -209,6 +225,9 @@ class RowReader {
                         "read without layers: --layers none, in a plan "
                         "source.layers",
                         quoted_text(fields[i])));
+      }
+      if (role == Role::kUnit && !take(role, fields[i])) {
+        return unit_error(fmt::format("the column of units says {}", quoted_text(fields[i])));
       }
       if (role > Role::kZ || take(role, fields[i])) continue;
       auto error = explain_number(fields[i], static_cast<std::size_t>(role));
@@ -261,6 +280,13 @@ class RowReader {
                                    *layout_.announced, all)),
           name_, lines.number));
     }
+    if (layout_.at_least > all) {
+      return core::fail(at_line(
+          syntax_error(fmt::format("a line above the rows speaks of {} points, {} follow: is the "
+                                   "file cut off?",
+                                   *layout_.at_least, all)),
+          name_, lines.number));
+    }
     if (table_.rows.empty()) {
       return core::fail(Code::kNoPoints,
                         fmt::format("no row is of feature {}; the file has {}",
@@ -269,13 +295,17 @@ class RowReader {
     }
     if (options_.feature.empty() && !table_.others.empty()) {
       table_.others.insert(table_.others.begin(), {table_.feature, table_.rows.size(), 0});
-      return core::fail(Code::kMissingKey,
-                        fmt::format("the file holds the features {}; choose one by feature, as {}",
-                                    other_names(), quoted_text(table_.feature)),
-                        std::string(name_));
+      return core::fail(
+          Code::kMissingKey,
+          fmt::format("the file holds the features {}; choose one by feature, as {}{}",
+                      other_names(), quoted_text(table_.feature),
+                      layout_.elements ? ", or name the columns of x, y and z where "
+                                         "they are one: --columns, in a plan "
+                                         "source.columns"
+                                       : ""),
+          std::string(name_));
     }
     table_.dimensions = layout_.has(Role::kZ) ? 3 : 2;
-    table_.unit = layout_.unit;
     table_.read = fmt::format(
         "{}, decimal {}, {}", name_of_separator(layout_.notation.separator),
         layout_.notation.decimal == '.' ? "point" : "comma",
@@ -307,6 +337,7 @@ class RowReader {
   Eigen::Vector3d values_ = Eigen::Vector3d::Zero();
   double layer_ = 0.0;
   std::string_view feature_;
+  std::optional<LengthUnit> unit_;  ///< Of the row.
 };
 
 }  // namespace

@@ -1,10 +1,13 @@
 // Points files that are no text tables. The bytes are made here, by other code than that which
 // reads them.
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -177,6 +180,35 @@ TEST(PointsFormats, RefuseMorePointsThanTheirHeadAnnounces) {
     EXPECT_TRUE(read_points(c.bytes + "\n\n", c.name));
   }
   EXPECT_GE(seen, 4);
+}
+
+TEST(PointsFormats, AUnitInDoubtInTheHeadIsRefusedUntilItIsGiven) {
+  const auto ply = [](std::string_view comment) {
+    return fmt::format(
+        "ply\nformat ascii 1.0\n{}element vertex 2\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n1 2 3\n4 5 6\n",
+        comment);
+  };
+  const auto pcd = [](std::string_view comment) {
+    return fmt::format(
+        "# .PCD v.7\n{}VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\n"
+        "POINTS 2\nDATA ascii\n1 2 3\n4 5 6\n",
+        comment);
+  };
+  const std::array files = {std::pair(ply("comment all in inch\n"), "a.ply"),
+                            std::pair(ply("comment unit mm\ncomment unit inch\n"), "a.ply"),
+                            std::pair(pcd("# all in inch\n"), "a.pcd")};
+  for (const auto& [bytes, name] : files) {
+    SCOPED_TRACE(bytes);
+    const auto refused = read_points(bytes, name);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, core::Code::kUnits);
+    EXPECT_THAT(refused.error().what, HasSubstr("inch\" seems to state a unit"));
+    EXPECT_TRUE(read_points(bytes, name, {.feature = "", .unit = LengthUnit::kMm}));
+  }
+  EXPECT_EQ(read_points(pcd("# units: inch\n"), "a.pcd")->points_mm.at(0)[0], 25.4);
+  EXPECT_EQ(read_points(ply("comment all in inch\ncomment unit mm\n"), "a.ply")->points_mm.at(0)[0],
+            1.0);
 }
 
 TEST(PointsFormats, AMeshIsSaidToBeOne) {

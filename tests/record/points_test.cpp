@@ -470,7 +470,44 @@ TEST(PointsText, TakesTheUnitOfAColumn) {
             Eigen::Vector3d(25.4, 50.8, 25.4 * 3));
   EXPECT_THAT(read_points("x;y;Einheit\n1;2;Zoll\n", "pin.csv")->read, HasSubstr("in inch;"));
   EXPECT_THAT(read("1;2;3;mm\n4;5;6;inch\n").error().what, HasSubstr("another unit than above"));
-  EXPECT_THAT(read("1;2;3;thou\n").error().what, HasSubstr("column \"Unit\" says \"thou\": give"));
+  EXPECT_THAT(read("1;2;3;thou\n").error().what, HasSubstr("column of units says \"thou\": give"));
+  std::string rows;
+  for (int k = 0; k < 250; ++k) rows += fmt::format("{};2;3;mm\n", k);
+  const auto late = read(rows + "1;2;3.5;inch\n");
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().where, "pin.csv:252");
+  EXPECT_THAT(late.error().what, HasSubstr("says inch, another unit than above"));
+}
+
+TEST(PointsText, KeepsApartTheFeaturesOfAColumnElement) {
+  const std::string_view rows = "1;2;3;A\n4;5;6;A\n7;8;9;B\n1;5;9;B\n";
+  for (const std::string_view name : {"Element", "Merkmal", "Feature name", "FEATURE_ID"}) {
+    SCOPED_TRACE(name);
+    const std::string text = fmt::format("x;y;z;{}\n{}", name, rows);
+    const auto both = read_points(text, "pin.csv");
+    ASSERT_FALSE(both);
+    EXPECT_THAT(both.error().what, HasSubstr("holds the features \"A\", \"B\"; choose one by"));
+    EXPECT_EQ(read_points(text, "pin.csv", {.feature = "B"})->points_mm.size(), 2);
+    PointsOptions one;
+    one.columns = {"x", "y", "z"};
+    EXPECT_EQ(read_points(text, "pin.csv", one)->points_mm.size(), 4);
+  }
+  // The name stands once, above its rows; or each point has its own.
+  const std::string_view below = "Element;x;y;z\nA;1;2;3\n;4;5;6\nB;7;8;9\n;1;5;9\n";
+  EXPECT_EQ(read_points(below, "pin.csv", {.feature = "A"})->points_mm.size(), 2);
+  EXPECT_EQ(read_points("Element;x;y\nP1;1;2\nP2;3;4\nP3;5;6\n", "pin.csv")->points_mm.size(), 3);
+}
+
+TEST(PointsText, RefusesFewerPointsThanTheTextAboveSpeaksOf) {
+  for (const std::string_view line :
+       {"Number of points: 3", "# Points: 3", "Anzahl der Messpunkte = 3", "TOTAL PTS 3"}) {
+    SCOPED_TRACE(line);
+    const auto cut = read_points(fmt::format("{}\nx;y\n1;2\n3;4\n", line), "pin.csv");
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().what, HasSubstr("speaks of 3 points, 2 follow: is the file cut off?"));
+    EXPECT_TRUE(read_points(fmt::format("{}\nx;y\n1;2\n3;4\n5;6\n7;8\n", line), "pin.csv"));
+  }
+  EXPECT_TRUE(read_points("Points per layer: 36\nx;y\n1;2\n3;4\n", "pin.csv"));
 }
 
 TEST(PointsText, SaysWhatTheFileStatesBesideTheUnitThatWasGiven) {

@@ -24,6 +24,7 @@ struct Cloud {
   bool mesh = false;                                       ///< They are the vertices of triangles.
   bool single = false;                                     ///< Stored with 32 bits.
   std::optional<LengthUnit> unit;                          ///< As the file states it.
+  std::string doubtful = {};  ///< A line of the head that may state a unit.
 };
 
 /// Hash of a place; a coordinate of -0.0 must have become 0.0.

@@ -171,6 +171,16 @@ constexpr auto kBetween = std::to_array<std::string_view>(
 constexpr auto kInchWords = std::to_array<std::string_view>(
     {"inch", "inches", "zoll", "imperial", "g20", "pouce", "pouces", "pulgada", "pulgadas",
      "polegada", "polegadas", "pollice", "pollici", "дюйм", "дюймы", "дюймах", "英寸", "インチ"});
+/// NameWords of a column that names the feature of each row, where it does so for several rows.
+constexpr auto kElementWords = std::to_array<std::string_view>(
+    {"element", "elementname", "featurename", "featureid", "merkmal", "merkmalname", "élément",
+     "elemento", "caractéristique", "característica", "caratteristica", "元素", "要素", "特征"});
+/// NameWords of "Number of points: 180".
+constexpr auto kPointWords = std::to_array<std::string_view>(
+    {"points", "punkte", "messpunkte", "pts", "puntos", "punti", "点数"});
+constexpr auto kCountWords =
+    std::to_array<std::string_view>({"number", "no", "num", "count", "total", "anzahl", "nombre",
+                                     "número", "numero", "of", "der", "de", "di", "measured"});
 constexpr auto kAngles =
     std::to_array<std::string_view>({"deg", "degree", "degrees", "rad", "radian", "grad"});
 
@@ -226,6 +236,7 @@ std::optional<Role> coordinate(std::string_view word) {
 
 struct Column {
   Role role = Role::kNone;
+  bool element = false;  ///< A feature by one of kElementWords.
   std::optional<LengthUnit> unit = {};
   std::string unknown_unit = {};
 };
@@ -262,12 +273,17 @@ Column column_of(std::string_view field) {
     }
     if (named) role = named;
   }
+  std::string whole;
+  for (const std::string& word : words) whole += word;
+  out.element = is_one_of(kElementWords, whole);
   if (role) {
     out.role = *role;
-  } else if (words.size() == 1 && words[0] == "feature") {
+  } else if (whole == "feature" || out.element) {
     out.role = Role::kFeature;
-  } else if (words.size() == 1 && is_one_of(kLayerWords, words[0])) {
+  } else if (is_one_of(kLayerWords, whole)) {
     out.role = Role::kLayer;
+  } else if (is_one_of(kUnitNames, whole)) {
+    out.role = Role::kUnit;
   }
   return out;
 }
@@ -363,11 +379,19 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
   }
   if (coordinates < 2) return std::nullopt;
   Head out;
+  const auto names_feature = [](const Column& column) {
+    return column.role == Role::kFeature && !column.element;
+  };
+  const bool named_feature = std::ranges::any_of(columns, names_feature);
   std::array<bool, 5> seen{};
   for (std::size_t i = 0; i < count; ++i) {
-    const Column& column = columns[i];
+    Column& column = columns[i];
+    const bool feature = column.role == Role::kFeature;
+    if (feature && column.element && (named_feature || seen[4])) column.role = Role::kNone;
+    if (column.role == Role::kUnit && options.unit) column.role = Role::kNone;
     out.roles.push_back(column.role);
-    if (column.role == Role::kNone) continue;
+    if (column.role >= Role::kUnit) continue;
+    out.elements = out.elements || (feature && column.element);
     const auto role = static_cast<std::size_t>(column.role);
     if (std::exchange(seen.at(role), true) && !out.fault) {
       out.fault = fault_of(
@@ -432,9 +456,31 @@ bool may_state_unit(std::string_view line) {
          std::ranges::none_of(words, is_no_unit);
 }
 
-bool names_unit(std::string_view field) {
-  const NameWords words = words_in(field);
-  return words.size() == 1 && is_one_of(kUnitNames, words[0]);
+core::Error unit_error(const std::string& fault) {
+  return {core::Code::kUnits, fault + ": give --unit, in a plan source.unit", {}};
+}
+
+core::Error doubtful_unit(std::string_view line) {
+  return unit_error(
+      fmt::format("{} seems to state a unit, which is not understood", quoted_text(line)));
+}
+
+std::optional<std::size_t> points_in_text(std::string_view line) {
+  NameWords words = words_in(line);
+  if (words.size() < 2) return std::nullopt;
+  std::size_t count = 0;
+  const std::string last = std::move(words.back());
+  words.pop_back();
+  const char* const end = last.data() + last.size();
+  const auto [stop, problem] = std::from_chars(last.data(), end, count);
+  const auto speaks_of_points = [](std::string_view word) { return is_one_of(kPointWords, word); };
+  const auto counts = [&](std::string_view word) {
+    return speaks_of_points(word) || is_one_of(kCountWords, word);
+  };
+  const bool stated = problem == std::errc() && stop == end &&
+                      std::ranges::any_of(words, speaks_of_points) &&
+                      std::ranges::all_of(words, counts);
+  return stated ? std::optional(count) : std::nullopt;
 }
 
 std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields) {

@@ -28,7 +28,7 @@ struct DecodedText {
 [[nodiscard]] core::Result<DecodedText> decode_text(std::string_view bytes, std::string_view name);
 
 /// What a column holds.
-enum class Role : std::uint8_t { kX, kY, kZ, kLayer, kFeature, kNone };
+enum class Role : std::uint8_t { kX, kY, kZ, kLayer, kFeature, kUnit, kNone };
 
 /// Columns that a table may have. The coordinates of a profile are angle and deviation.
 struct WantedColumns {
@@ -50,6 +50,7 @@ struct Head {
   std::vector<Role> roles;         ///< One a field, up to the last that is not empty.
   std::optional<LengthUnit> unit;  ///< Of the coordinates.
   std::array<std::string, 3> names;
+  bool elements = false;             ///< The column of the feature is called "Element", or similar.
   std::optional<core::Error> fault;  ///< Why it cannot be used.
 };
 
@@ -63,8 +64,12 @@ struct Head {
 /// Whether a line that unit_in_text() does not understand may state a unit all the same: it speaks
 /// of inches, or is "Units: thousandths".
 [[nodiscard]] bool may_state_unit(std::string_view line);
-/// Whether a column of this name holds the unit of each row.
-[[nodiscard]] bool names_unit(std::string_view field);
+/// That the unit of a file is in doubt, and what settles it.
+[[nodiscard]] core::Error unit_error(const std::string& fault);
+/// The same of a line that may_state_unit().
+[[nodiscard]] core::Error doubtful_unit(std::string_view line);
+/// The number of points that a line above them states in words: "Number of points: 180".
+[[nodiscard]] std::optional<std::size_t> points_in_text(std::string_view line);
 /// The unit of a row that holds nothing but units.
 [[nodiscard]] std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields);
 

@@ -48,7 +48,9 @@ struct TableLayout {
   std::array<std::string, 3> names;
   std::optional<LengthUnit> unit;
   Lines rows{std::string_view()};
+  bool elements = false;  ///< A feature without a name is that of the row above.
   std::optional<std::size_t> announced = {};  ///< Rows that the line above them states.
+  std::optional<std::size_t> at_least = {};   ///< Rows that a text above them states.
 
   [[nodiscard]] bool has(Role role) const { return std::ranges::find(roles, role) != roles.end(); }
 };
