@@ -28,11 +28,9 @@ namespace rondure::app {
 namespace {
 
 constexpr const char* kExits =
-    "\nExit status: run, report: 0 all conform, 1 finished but something does not conform or is "
-    "void,\n"
-    "2 bad input, 3 machine, fixture or run failed (go on with run --resume). verify: 0 equal, 1 "
-    "not equal, 2 unreadable. Others: 0 "
-    "or 2.";
+    "\nExit status: run, report: 0 all conform, 1 finished but something does not conform, is\n"
+    "undecided or void, 2 bad input, 3 machine, fixture or run failed (go on with run --resume).\n"
+    "verify: 0 equal, 1 not equal, 2 unreadable. Others: 0 or 2.";
 
 /// "--format html,json": one argument, so that the plan may follow it.
 void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* meaning) {

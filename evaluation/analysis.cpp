@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/internal/conformance.h"
 #include "evaluation/interval/internal/declared.h"
@@ -22,6 +23,23 @@ namespace {
 std::optional<double> nominal_limit(const record::Characteristic& asked) {
   if (!asked.harmonic_limits.empty()) return asked.harmonic_limits.front().amplitude_mm;
   return asked.tolerance_mm;
+}
+
+/// A value, or under a rule that asks for one the end of its interval, conforms only where it does
+/// with what was not seen as well.
+void leave_room_for_unseen(double unseen_mm, const UncertaintyStatement* interval,
+                           CharacteristicResult& out) {
+  const bool conforms = out.verdict == Verdict::kConforms && out.characteristic.tolerance_mm;
+  if (!conforms || unseen_mm == 0.0) return;
+  const double value_mm = interval != nullptr ? interval->high_mm : out.value->value_mm();
+  if (value_mm + unseen_mm <= *out.characteristic.tolerance_mm) return;
+  out.verdict = Verdict::kUndecided;
+  out.outcome.reset();
+  out.risks.reset();
+  out.reason = core::phrase(
+      "up to {} um were not seen, and no interval holds them: with them {} um may be {} um, above "
+      "the limit; measure more points, or recover higher harmonics",
+      core::um(unseen_mm), core::um(value_mm), core::um(value_mm + unseen_mm));
 }
 
 void judge(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
@@ -74,6 +92,7 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
       out.outcome.reset();
       out.risks.reset();
     }
+    leave_room_for_unseen(value->unseen_mm, asks ? interval.about(rule->measurand) : nullptr, out);
     if (!value->detail.empty()) out.reason = core::phrase("{} ({})", out.reason, value->detail);
   }
 }

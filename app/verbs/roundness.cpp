@@ -251,14 +251,13 @@ core::Result<fit::RoundnessEvaluation> evaluate_polar(const record::ProfileTable
   TRY_DO(check_angle_unit(theta_deg));
   auto out = fit::evaluate_profile(theta, r, options);
   if (!out) return out;
-  const auto [low, high] =
-      std::minmax_element(out->measured.r_mm.begin(), out->measured.r_mm.end());
-  const double range_um = (*high - *low) / core::kMicrometre;
+  if (out->values.empty()) return out;
+  const double range_um = out->values.front().total_mm / core::kMicrometre;  // without eccentricity
   if (range_um > 0.0 && range_um < kLeastRoundnessUm) {
     out->warnings.push_back(
         {core::Code::kUnits,
-         fmt::format("r_um runs over {:.3g} um only, less than {} um: are these mm? Then it is "
-                     "{:.3g} um; give r in um",
+         fmt::format("roundness is {:.3g} um only, less than {} um: is r in mm? Then it is {:.3g} "
+                     "um; give r in um",
                      range_um, kLeastRoundnessUm, 1e3 * range_um),
          {}});
   }

@@ -17,6 +17,8 @@ struct AnalysisValue {
   /// With `void_because`: the true value is not below `value_mm`, so that above the tolerance it
   /// does prove something.
   bool lower_bound = false;
+  /// What the true value may be above `value_mm` by what was not seen; no part of an interval.
+  double unseen_mm = 0.0;
 };
 
 }  // namespace rondure::evaluation

@@ -27,6 +27,10 @@ constexpr double kNormal999 = 3.0902;
 constexpr double kUsableRange = 0.9;
 /// Of a tolerance, what undulations above the highest recovered may add.
 constexpr double kBeyondShare = 0.1;
+/// Of a tolerance, what drift may do to motion.
+constexpr double kDriftShare = 0.1;
+/// Standard uncertainties of a declared drift that its interval holds.
+constexpr double kSeenDrift = 3.0;
 /// Standard uncertainties from which on an amplitude is no noise: in 50 one of 5000 times.
 constexpr double kStandsOut = 5.0;
 /// Times the rms, the peak to valley of many undulations at most.
@@ -245,6 +249,13 @@ Gate band_gate(const SpindleResult& facts, const record::Characteristic& asked) 
   return out;
 }
 
+/// The greatest of a probe: within a turn, for total motion in all turns.
+double greatest_drift_mm(const SpindleResult& facts, Form form) {
+  double out = 0.0;
+  for (const double drift_mm : facts.separation.drift_mm) out = std::max(out, std::abs(drift_mm));
+  return form == Form::kMotionTotal ? out * facts.separation.revolutions : out;
+}
+
 /// Longest run of equal readings of a channel in which another one moves.
 struct SteadyRun {
   std::size_t channel = 0;
@@ -345,8 +356,9 @@ Gate disconnect_gate(const fit::ProbeReadings& readings) {
   return out;
 }
 
-/// Gross readings and readings that contradict the stated arm.
-Gate readings_gate(const SpindleResult& facts) {
+/// Gross readings, readings that contradict the stated arm, and readings in another unit.
+Gate readings_gate(const SpindleResult& facts, const fit::ProbeReadings& readings) {
+  constexpr double kLeastSpread_mm = 0.1 * core::kMicrometre;  // no part turns so true
   const fit::ThreeProbeResult& s = facts.separation;
   Gate out{.code = "readings",
            .condition = phrase("contradictions between the readings, their neighbours and the arm"),
@@ -361,6 +373,15 @@ Gate readings_gate(const SpindleResult& facts) {
     }
     if (*out.found == 0.0) out.reason = one.said();
     *out.found += 1.0;
+  }
+  double widest_mm = 0.0;
+  for (const std::vector<double>& h : readings.h_mm) widest_mm = std::max(widest_mm, spread(h));
+  if (*out.found == 0.0 && widest_mm < kLeastSpread_mm) {
+    out.found = 1.0;
+    out.reason = phrase(
+        "the probes read over {:.3g} um in all: readings in mm look so, as do probes that do not "
+        "touch; give H1_um, H2_um and H3_um in um, or mount the part 5 to 20 um off centre",
+        micrometres(widest_mm));
   }
   if (*out.found > 0.0) out.outcome = Outcome::kVoids;
   return out;
@@ -405,6 +426,19 @@ Gate quadratic_gate(const SpindleResult& facts,
   return out;
 }
 
+Gate drift_gate(const SpindleResult& facts, const record::Characteristic& asked) {
+  Gate out{.code = "drift",
+           .condition = phrase("greatest drift of a probe, limit T/10"),
+           .found = micrometres(greatest_drift_mm(facts, asked.form)),
+           .limit = micrometres(kDriftShare * *asked.tolerance_mm),
+           .unit = "um"};
+  if (auto reason = drift_because(facts, asked)) {
+    out.outcome = Outcome::kVoids;
+    out.reason = *std::move(reason);
+  }
+  return out;
+}
+
 Gate few_turns_gate(const SpindleResult& facts) {
   const int turns = facts.separation.revolutions;
   Gate out{.code = "few-turns",
@@ -443,8 +477,11 @@ bool any_limit(std::span<const record::Characteristic> characteristics,
 
 }  // namespace
 
-double passed_beyond_mm(const SpindleResult& result, bool rms) {
-  const fit::FilterOptions& filter = result.roundness.filter;
+namespace {
+
+/// What a filter leaves of the readings above the highest harmonic recovered: most of a peak to
+/// valley, or the rms.
+double beyond_mm(const SpindleResult& result, const fit::FilterOptions& filter, bool rms) {
   const bool filters = filter.filter != fit::ProfileFilter::kNone;
   double sum_mm = 0.0;
   double power_mm2 = 0.0;
@@ -456,6 +493,29 @@ double passed_beyond_mm(const SpindleResult& result, bool rms) {
   }
   const double rms_mm = std::sqrt(power_mm2);
   return rms ? rms_mm : std::min(sum_mm, kOfMany * rms_mm);
+}
+
+}  // namespace
+
+double passed_beyond_mm(const SpindleResult& result, bool rms) {
+  return beyond_mm(result, result.roundness.filter, rms);
+}
+
+std::optional<core::Phrase> form_in_motion(const SpindleResult& result, double value_mm,
+                                           const record::Characteristic& asked) {
+  fit::FilterOptions none;
+  none.filter = fit::ProfileFilter::kNone;
+  constexpr double kGain = 2.0;  // of a motion over form that is not taken out
+  const double form_mm = kGain * beyond_mm(result, none, false);
+  const bool may_conform = asked.tolerance_mm && value_mm > *asked.tolerance_mm &&
+                           value_mm - form_mm <= *asked.tolerance_mm;
+  if (!may_conform) return std::nullopt;
+  const int highest = result.separation.harmonics.back().order;
+  return phrase(
+      "the readings hold undulations above {} of up to {:.3g} um, which may be form of the part "
+      "and "
+      "are counted as motion: raise highest_order to {}",
+      highest, micrometres(form_mm) / kGain, 2 * highest);
 }
 
 std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
@@ -491,6 +551,22 @@ std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
       highest, micrometres(lost_mm), micrometres(*asked.tolerance_mm), 2 * highest);
 }
 
+std::optional<core::Phrase> drift_because(const SpindleResult& result,
+                                          const record::Characteristic& asked) {
+  const double drift_mm = greatest_drift_mm(result, asked.form);
+  if (!asked.tolerance_mm || drift_mm <= kDriftShare * *asked.tolerance_mm) return std::nullopt;
+  if (result.influences && result.influences->drift_um_per_turn) {
+    const double declared_um = record::u_of(result.influences->drift_um_per_turn);
+    const double a_turn_mm = greatest_drift_mm(result, Form::kMotionSynchronous);
+    if (micrometres(a_turn_mm) <= kSeenDrift * declared_um) return std::nullopt;
+  }
+  return phrase(
+      "a probe drifts by {:.3g} um meanwhile, more than a tenth of the tolerance of {:g} um, and "
+      "motion holds it: let spindle and probes warm up and measure again, or declare "
+      "drift_um_per_turn",
+      micrometres(drift_mm), micrometres(*asked.tolerance_mm));
+}
+
 std::optional<core::Phrase> blind_on_an_arm(const SpindleResult& result) {
   const bool knows_arm = result.wheel_radius || (result.influences && result.influences->arm_mm);
   if (!result.declares_probes() || !result.arm.swings() || knows_arm ||
@@ -514,7 +590,7 @@ std::optional<core::Phrase> one_turn_of_total(const SpindleResult& result) {
 std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings& readings,
                            std::span<const record::Characteristic> characteristics) {
   // The first that voids gives the reason: a bad reading is named before what it does to the rest.
-  std::vector<Gate> out = {disconnect_gate(readings),   readings_gate(result),
+  std::vector<Gate> out = {disconnect_gate(readings),   readings_gate(result, readings),
                            first_harmonic_gate(result), blind_gate(result),
                            layout_gate(result),         turns_gate(result),
                            small_scatter_gate(result),  weak_gate(result, characteristics),
@@ -524,6 +600,8 @@ std::vector<Gate> gates_of(const SpindleResult& result, const fit::ProbeReadings
   for (const record::Characteristic& asked : characteristics) {
     const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
     if (part && asked.tolerance_mm) out.push_back(band_gate(result, asked));
+    const bool motion = asked.form == Form::kMotionTotal || asked.form == Form::kMotionSynchronous;
+    if (motion && asked.tolerance_mm) out.push_back(drift_gate(result, asked));
   }
   if (any_limit(characteristics, {Form::kMotionAsynchronous})) {
     out.push_back(few_turns_gate(result));

@@ -73,6 +73,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
   AnalysisValue out;
   out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
   out.void_because = loss_of(facts);
+  out.unseen_mm = passed_beyond_mm(facts, rms);
   if (!out.void_because && asked.tolerance_mm) out.void_because = beyond_the_band(facts, asked);
   if (!out.void_because && asked.tolerance_mm) {
     for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
@@ -153,6 +154,8 @@ core::Result<AnalysisValue> motion_value(const SpindleResult& facts,
     return out;
   }
   out.void_because = loss_of(facts);
+  if (!out.void_because) out.void_because = drift_because(facts, asked);
+  if (!out.void_because) out.void_because = form_in_motion(facts, out.value_mm, asked);
   if (form == Form::kMotionTotal && !out.void_because && asked.toleranced()) {
     out.void_because = one_turn_of_total(facts);
   }

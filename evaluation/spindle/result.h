@@ -75,6 +75,15 @@ constexpr double kWeakShare = 0.25;
 /// readings were filtered before.
 [[nodiscard]] std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
                                                           const record::Characteristic& asked);
+/// Why a motion above its limit may be form of the part above the highest harmonic recovered; or
+/// nothing.
+[[nodiscard]] std::optional<core::Phrase> form_in_motion(const SpindleResult& result,
+                                                         double value_mm,
+                                                         const record::Characteristic& asked);
+/// Why motion holds the drift of a probe: it is more than a tenth of the tolerance a turn, and not
+/// declared; or nothing.
+[[nodiscard]] std::optional<core::Phrase> drift_because(const SpindleResult& result,
+                                                        const record::Characteristic& asked);
 /// Why nothing vouches for the arm of tracking probes: no eccentricity shows it and it is not
 /// declared; or nothing.
 [[nodiscard]] std::optional<core::Phrase> blind_on_an_arm(const SpindleResult& result);

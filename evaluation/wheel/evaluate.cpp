@@ -129,6 +129,7 @@ core::Result<AnalysisValue> roundness(const WheelResult& facts,
   } else {
     return core::fail(core::Code::kNotConverged, core::phrase("there is no minimum zone"));
   }
+  out.unseen_mm = between_points(facts, characteristic.form).loss_mm.value_or(0.0);
   if (auto reason = unseen_because(facts, characteristic)) {
     out.void_because = *std::move(reason);
     // The zone of some points is never wider than that of all, nor than their least-squares one.
@@ -206,7 +207,9 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
   }
   if (characteristic.form == record::Form::kRoundness) return roundness(facts, characteristic);
   if (!m.runout) return core::fail(core::Code::kNoAxis, m.runout_absent);
-  AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
+  AnalysisValue out;
+  out.value_mm = m.runout->fim_mm;
+  out.unseen_mm = between_points(facts, characteristic.form).loss_mm.value_or(0.0);
   if (auto reason = unseen_because(facts, characteristic)) {
     out.void_because = *std::move(reason);
     out.lower_bound = true;

@@ -50,12 +50,21 @@ core::Result<void> check(std::span<const double> angle, std::span<const double> 
   return {};
 }
 
-/// Refuses angles with a step against the first step, and names the row.
+/// Refuses angles with a step against the first step, and names the row, and more than one turn:
+/// rows at the same angle would be averaged.
 core::Result<void> check_order(std::span<const double> angle) {
   const double sense = std::remainder(angle[1] - angle[0], core::kTwoPi);
+  double turned = 0.0;
   for (std::size_t i = 1; i < angle.size(); ++i) {
     const double step = std::remainder(angle[i] - angle[i - 1], core::kTwoPi);
-    if (step * sense > 0.0) continue;
+    turned += std::abs(step);
+    if (step * sense > 0.0 && turned <= core::kTwoPi + kLargestGap) continue;
+    if (step * sense > 0.0) {
+      return core::fail_with(core::Code::kAngleOrder,
+                             "the angles go on at row {}, where a turn is complete; a contour is "
+                             "one turn of one part: give each a file of its own",
+                             i);
+    }
     return core::fail_with(core::Code::kAngleOrder,
                            "the angle stands still or goes back at row {}, by {:.4g} deg; a "
                            "contour runs one way round",

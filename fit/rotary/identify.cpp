@@ -60,6 +60,26 @@ double drift_of(const RotaryMeasurement& m) {
   return out;
 }
 
+/// Greatest mean shift of the balls between two measurements of the reference pose, over its
+/// standard uncertainty in a coordinate. Drift moves them together, noise does not.
+double common_drift(const RotaryMeasurement& m, double u_mm) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < m.references.size(); ++i) {
+    for (std::size_t j = i + 1; j < m.references.size(); ++j) {
+      Vector3d sum = Vector3d::Zero();
+      double count = 0.0;
+      for (const BallCentre& a : m.references[i]) {
+        const auto b = std::ranges::find(m.references[j], a.ball, &BallCentre::ball);
+        if (b == m.references[j].end()) continue;
+        sum += b->centre_mm - a.centre_mm;
+        ++count;
+      }
+      if (count > 0.0) out = std::max(out, sum.norm() / (u_mm * std::sqrt(2.0 * count)));
+    }
+  }
+  return out;
+}
+
 /// Greatest uncertainty of a reference measurement in one coordinate.
 double largest_reference_u(const RotaryMeasurement& m) {
   double out = 0.0;
@@ -342,6 +362,18 @@ void warn_of_study(const RotaryMeasurement& m, RotaryStudy& study) {
         fmt::format("the reference pose drifts by {:.2f} um between its measurements (limit {:.2f} "
                     "um)",
                     study.drift_mm / core::kMicrometre, limit / core::kMicrometre));
+  }
+  constexpr double kTogether = 5.0;  // of three coordinates and some pairs: one in 10 000
+  if (study.drift_mm <= limit && limit > 0.0) {
+    const double sigmas = common_drift(m, largest_reference_u(m));
+    if (sigmas > kTogether) {
+      warn(
+          study, Code::kInconsistent,
+          fmt::format("all balls together drift between the measurements of the reference pose, "
+                      "by {:.1f} standard uncertainties (limit {:g}): the place of the axis drifts "
+                      "with them",
+                      sigmas, kTogether));
+    }
   }
   if (m.references.size() < 3 && largest_reference_u(m) > 0.0) {
     warn(study, Code::kSparse,

@@ -42,6 +42,11 @@ AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_
   return out;
 }
 
+bool AngularOrder::even() const {
+  const double step = core::kTwoPi / static_cast<double>(rows.size());
+  return closed() && largest_gap_rad <= 2.0 * step * (1.0 + 1e-9);
+}
+
 CircleFactors circle_factors(std::span<const double> angles_rad) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < angles_rad.size(); ++i) {

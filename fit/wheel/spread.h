@@ -20,6 +20,8 @@ struct AngularOrder {
   [[nodiscard]] double coverage_rad() const;
   /// Whether the last point is a neighbour of the first: no gap above 90 deg.
   [[nodiscard]] bool closed() const;
+  /// Whether no gap is wider than two even steps: lobes of orders 2 and 3 then hardly move R.
+  [[nodiscard]] bool even() const;
 };
 /// Sorts points by their angle about a centre.
 [[nodiscard]] AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_mm);

@@ -175,7 +175,7 @@ void fill_circle(const Points& used, const std::optional<WheelPointErrors>& erro
   out.correlation = correlation_time(residuals, out.order.closed());
   // The circle that a wheel sweeps has no lobes, unless its points say so.
   const bool lobed = out.mode == WheelMode::kIndexed || out.correlation > kCorrelationLimit;
-  if (lobed && !out.order.closed()) {
+  if (lobed && !out.order.even()) {
     out.lobes_in_radius_mm = lobes_in_radius_mm(out.order.angles_rad, residuals,
                                                 errors ? errors->point_mm : out.spread_mm);
   }

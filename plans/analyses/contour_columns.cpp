@@ -88,7 +88,7 @@ core::Result<Values> read(std::string_view text, std::string_view name,
   for (std::size_t i = 0; i < names.size(); ++i) {
     wanted.push_back({names[i], required});
     // Only a file whose columns are named may have others.
-    if (!columns.empty()) in_file.push_back({names[i], name_in_file(quantities[i], columns)});
+    if (!columns.empty()) in_file.push_back({names[i], name_in_file(quantities[i], columns), true});
   }
   TRY(const auto series, record::parse_series_csv(text, name, wanted, in_file));
   Values out;

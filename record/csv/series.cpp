@@ -116,9 +116,17 @@ core::Result<void> check_names(std::span<const WantedColumn> wanted, std::string
   for (const ColumnName& name : names) {
     const bool known = std::any_of(wanted.begin(), wanted.end(),
                                    [&](const auto& column) { return column.name == name.wanted; });
-    if (known) continue;
-    return core::fail_with(Code::kBadOption, "{} is no column of this data; the columns are {}",
-                           quoted_text(name.wanted), list);
+    if (!known) {
+      return core::fail_with(Code::kBadOption, "{} is no column of this data; the columns are {}",
+                             quoted_text(name.wanted), list);
+    }
+    const std::string_view unit = unit_of_column(name.in_file);
+    const std::string_view read = unit_of_column(name.wanted);
+    if (name.converted || unit.empty() || read.empty() || unit == read) continue;
+    return core::fail_with(Code::kWrongUnit,
+                           "column {} is read as {}, in {}: convert its numbers, and name the "
+                           "column after their unit",
+                           quoted_text(name.in_file), name.wanted, read);
   }
   return {};
 }

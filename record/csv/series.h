@@ -21,6 +21,7 @@ struct WantedColumn {
 struct ColumnName {
   std::string wanted;
   std::string in_file;
+  bool converted = false;  ///< The reader brings it from another unit to that of the wanted one.
 };
 
 /// The column that every table may have beside the wanted ones: the temperature of the part.
@@ -38,7 +39,8 @@ inline constexpr std::string_view kTemperatureColumn = "temperature_degC";
 ///
 /// @param name  The file's name for `where` ("name:line").
 /// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column
-///          whose unit differs from that of the wanted column with the same name; kSyntax,
+///          whose unit differs from that of the wanted column with the same name, or that stands
+///          for it; kSyntax,
 ///          kNotFinite, kNoPoints as read_points(); kBadOption for a name in `names` that is
 ///          not wanted. O(bytes).
 [[nodiscard]] core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,

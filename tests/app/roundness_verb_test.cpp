@@ -152,7 +152,7 @@ TEST_F(RoundnessVerb, SuspectsMillimetresAndRadians) {
   const auto mm = rondure("fit roundness --cutoff-upr 15 " +
                           profile([](int i, double um) { return plain(i, um * 1e-3); }));
   EXPECT_EQ(mm.status, 0);
-  EXPECT_THAT(mm.text, HasSubstr("are these mm? Then it is 6 um"));
+  EXPECT_THAT(mm.text, HasSubstr("is r in mm? Then it is 5."));
   const auto radians = rondure("fit roundness --cutoff-upr 15 " + profile([](int i, double um) {
                                  return plain(i * std::numbers::pi / 180.0, um);
                                }));

@@ -83,6 +83,46 @@ TEST(SpindleGates, VoidAChannelThatStandsStill) {
     EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
 }
 
+TEST(SpindleGates, VoidReadingsInMillimetres) {
+  const auto in_mm = [](fit::ProbeReadings& readings) {
+    for (auto& h : readings.h_mm) {
+      for (double& one : h) one *= 1e-3;
+    }
+  };
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const FeatureResult result = result_of(run_of(world, std::nullopt, in_mm));
+  EXPECT_THAT(gate(result, "readings").reason.english(), HasSubstr("readings in mm look so"));
+  for (const CharacteristicResult& one : result.characteristics)
+    EXPECT_EQ(one.verdict, Verdict::kVoid) << one.characteristic.id;
+}
+
+// Probe 1 drifts by 0.3 um in each turn. The ramp is taken out of the part, motion holds it.
+TEST(SpindleGates, VoidMotionThatHoldsTheDriftOfAProbe) {
+  const auto drift = [](fit::ProbeReadings& readings) {
+    for (std::size_t m = 0; m < readings.alpha_rad.size(); ++m) {
+      const double turns = (readings.alpha_rad[m] - readings.alpha_rad[0]) / core::kTwoPi;
+      readings.h_mm[0][m] += 0.3e-3 * turns;
+    }
+  };
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const auto judged = [&](const record::SpindleInfluencesTask& declared, double tolerance_um) {
+    auto run = run_of(world, declared, drift);
+    run.features[0].characteristics = {asked("EM", record::Form::kMotionSynchronous, tolerance_um)};
+    return result_of(run);
+  };
+  const FeatureResult drifting = judged(probes(0.002, 0.02), 2.9);
+  EXPECT_NEAR(*gate(drifting, "drift").found, 0.3, 0.01);
+  EXPECT_EQ(drifting.characteristics.at(0).verdict, Verdict::kVoid);
+  EXPECT_THAT(drifting.characteristics.at(0).reason.english(),
+              HasSubstr("um meanwhile, more than a tenth"));
+  EXPECT_EQ(gate(judged(probes(0.002, 0.02), 10.0), "drift").outcome, Gate::Outcome::kPassed);
+  auto declared = probes(0.002, 0.02);
+  declared.drift_um_per_turn = declared_probe(0.2);
+  EXPECT_EQ(gate(judged(declared, 2.9), "drift").outcome, Gate::Outcome::kPassed);
+}
+
 TEST(SpindleGates, VoidAnAcquisitionThatStandsStill) {
   World world = readings_of_a_wrong_gain();
   world.gain = {0.0, 0.0, 0.0};
@@ -259,6 +299,49 @@ TEST(SpindleGates, DoNotJudgeRoundnessWithoutTheChatterThatItsFilterPasses) {
   EXPECT_EQ(gate(whole, "band").outcome, Gate::Outcome::kPassed);
   EXPECT_NEAR(*whole.characteristics.at(0).value_mm() / kMicrometre, truth_um, 0.03);
   EXPECT_EQ(whole.characteristics.at(0).verdict, Verdict::kDoesNotConform);
+}
+
+// Undulations of 55 UPR of the part are read as motion of the axis.
+TEST(SpindleGates, FormThatIsNotRecoveredDoesNotRejectASpindle) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  const auto judged = [&](double tolerance_um) {
+    auto run = run_of(world, probes(0.002, 0.02));
+    run.features[0].characteristics = {asked("EM", record::Form::kMotionSynchronous, tolerance_um)};
+    return result_of(run).characteristics.at(0);
+  };
+  const double true_um = *judged(20.0).value_mm() / kMicrometre;
+  world.chatter = {{55, 2.0, 0.3}};
+  const CharacteristicResult read = judged(true_um + 1.0);
+  ASSERT_GT(*read.value_mm() / kMicrometre, true_um + 1.0);
+  EXPECT_EQ(read.verdict, Verdict::kVoid);
+  EXPECT_THAT(read.reason.english(), HasSubstr("may be form of the part"));
+  world.chatter = {{55, 0.3, 0.3}};
+  EXPECT_EQ(judged(0.3 * true_um).verdict, Verdict::kDoesNotConform);  // whatever is form
+}
+
+// What the filter passes is less than a tenth of the tolerance, and more than what is left of it.
+TEST(SpindleGates, ChatterThatMayReachTheLimitLeavesRoundnessUndecided) {
+  World world = readings_of_a_wrong_gain();
+  world.gain = {0.0, 0.0, 0.0};
+  world.chatter = {{60, 0.6, 0.3}};
+  auto run = run_of(world, probes(0.002, 0.02));
+  const auto judged = [&](double tolerance_um, const char* rule) {
+    run.header.decision_rule = rule;
+    run.features[0].characteristics = {asked("RONt", record::Form::kRoundness, tolerance_um)};
+    return result_of(run);
+  };
+  const FeatureResult wide = judged(20.0, "iso-14253-1");
+  EXPECT_EQ(wide.characteristics.at(0).verdict, Verdict::kConforms);
+  const double lost_um = *gate(wide, "band").found;
+  const double value_um = *wide.characteristics.at(0).value_mm() / kMicrometre;
+  for (const char* rule : {"simple-acceptance", "iso-14253-1"}) {
+    SCOPED_TRACE(rule);
+    const FeatureResult near = judged(value_um + 0.7 * lost_um, rule);
+    EXPECT_EQ(gate(near, "band").outcome, Gate::Outcome::kPassed);
+    EXPECT_EQ(near.characteristics.at(0).verdict, Verdict::kUndecided);
+    EXPECT_THAT(near.characteristics.at(0).reason.english(), HasSubstr("were not seen"));
+  }
 }
 
 /// A shaft that turns on a fixed axis, read with 0.2 um of noise by amplifiers of that cut-off; 0:

@@ -587,7 +587,7 @@ TEST(WheelInterval, TheRadiusOfAnArcHoldsTheTruthWithItsLobes) {
   options.least_trials = 400;
   record::Characteristic radius = asked(record::Form::kRadius, 100.0);
   radius.lower_mm = -0.1;
-  for (const double arc_deg : {120.0, 140.0, 220.0}) {
+  for (const double arc_deg : {120.0, 140.0, 220.0, 285.0}) {
     SCOPED_TRACE(arc_deg);
     int held = 0;
     for (int seed = 0; seed < wheels; ++seed) {
@@ -613,6 +613,36 @@ TEST(WheelInterval, TheRadiusOfAnArcHoldsTheTruthWithItsLobes) {
     if (wheels >= 200) {
       EXPECT_LT(held, wheels);
     }
+  }
+}
+
+// An oval of 4.1 um and six lobes of 1.1 um at 24 points: the whole turn has 10.4 um.
+TEST(WheelInterval, WhatMayBeLostBetweenThePointsIsKeptFromTheLimit) {
+  test::Points2 points_mm;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = core::kTwoPi * i / 24.0;
+    const double radius_mm = 50.0 + 4.1e-3 * std::cos(2.0 * angle) + 1.1e-3 * std::cos(6.0 * angle);
+    points_mm.emplace_back(radius_mm * std::cos(angle), radius_mm * std::sin(angle));
+  }
+  const auto judged = [&](std::string_view rule, double tolerance_um) {
+    WheelTask task;
+    task.nominal_radius_mm = 50.0;
+    task.uncertainty.emplace().point_um = DeclaredInfluence{0.02};
+    return evaluated_wheel(
+        run_of(points_mm, task, {asked(record::Form::kRoundness, tolerance_um)}, rule));
+  };
+  const auto feature = judged(kIso, 20.0);
+  const double value_um = *feature.characteristics.at(0).value_mm() / core::kMicrometre;
+  const double loss_um = *wheel_gate(feature, "loss-between-points")->found;
+  ASSERT_GT(loss_um, 0.1);
+  for (const std::string_view rule : {kIso, kSimple}) {
+    SCOPED_TRACE(rule);
+    const double limit_um = value_um + 0.7 * loss_um;
+    ASSERT_LT(loss_um, 0.1 * limit_um);  // the gate itself passes
+    const auto near = judged(rule, limit_um);
+    EXPECT_EQ(near.characteristics.at(0).verdict, Verdict::kUndecided);
+    EXPECT_THAT(near.characteristics.at(0).reason.english(), HasSubstr("were not seen"));
+    EXPECT_EQ(judged(rule, 20.0).characteristics.at(0).verdict, Verdict::kConforms);
   }
 }
 

@@ -286,6 +286,18 @@ TEST(MeasuredContour, RefusesGapsWrongOrderAndWrongUnits) {
   EXPECT_EQ(order.error().code, core::Code::kAngleOrder);
   EXPECT_NE(order.error().what.find("row 21,"), std::string::npos) << order.error().what;
 
+  // Two pins in one file, as two turns one after the other.
+  Gauge two;
+  const std::size_t rows = two.angle.size();
+  for (std::size_t i = 0; i < rows; ++i) {
+    two.angle.push_back(two.angle[i]);
+    two.deviation.push_back(-two.deviation[i]);
+  }
+  const auto turns = measured_contour(two.angle, two.deviation);
+  ASSERT_FALSE(turns);
+  EXPECT_EQ(turns.error().code, core::Code::kAngleOrder);
+  EXPECT_NE(turns.error().what.find("one turn of one part"), std::string::npos);
+
   Gauge gap;
   gap.angle.erase(gap.angle.begin() + 100, gap.angle.begin() + 104);
   gap.deviation.erase(gap.deviation.begin() + 100, gap.deviation.begin() + 104);

@@ -604,6 +604,16 @@ TEST(RotaryAxes, WarnsOfWeakSetupsAndOfADriftingReference) {
   ASSERT_TRUE(study);
   EXPECT_TRUE(warned("the reference pose drifts by"));
   EXPECT_FALSE(warned("least redundancy"));
+  // A drift that no ball alone shows: the mean of all does.
+  m = good();
+  EXPECT_FALSE(warned("together"));
+  for (BallCentre& ball : m.references[2]) {
+    ball.centre_mm.x() += 4.0 * ball.u_mm.maxCoeff();
+  }
+  study = identify_rotary_axis(m);
+  ASSERT_TRUE(study);
+  EXPECT_FALSE(warned("the reference pose drifts by"));
+  EXPECT_TRUE(warned("all balls together drift"));
   m.references.resize(1);
   study = identify_rotary_axis(m);
   ASSERT_TRUE(study);

@@ -42,6 +42,12 @@ TEST(SeriesCsv, TakesNamesOfTheFileAndPassesOverTheRest) {
   EXPECT_THAT(series->values, ElementsAre(1.0, 2.0, 3.0, 4.0));
   const std::array<ColumnName, 1> foreign = {{{"gamma_deg", "C"}}};
   EXPECT_EQ(series_refusal("C\n1\n", foreign).code, core::Code::kBadOption);
+  std::array<ColumnName, 2> in_mm = {{{"alpha_deg", "C"}, {"H1_um", "H1_mm"}}};
+  const core::Error unit = series_refusal("C,H1_mm\n1,2\n", in_mm);
+  EXPECT_EQ(unit.code, core::Code::kWrongUnit);
+  EXPECT_THAT(unit.what, HasSubstr("column \"H1_mm\" is read as H1_um, in um"));
+  in_mm[1].converted = true;
+  EXPECT_TRUE(parse_series_csv("C,H1_mm\n1,2\n", "p", kWanted, in_mm));
 }
 
 TEST(SeriesCsv, TakesTheTemperatureFromAColumnOrOnceFromAComment) {

@@ -198,7 +198,7 @@ Gate sense(ContourResult& facts) {
                 "the mirrored f fits {} of {} parts better: rest {:.3g} um rms as given, "
                 "{:.3g} um mirrored: are \"c_axis\" and \"gauge\" right?",
                 found.mirrored_better, found.parts, given_um, found.rms_mirrored_mm / kMicrometre);
-  void_rest(facts, out.reason);
+  void_following(facts, out.reason);  // the sign of one axis alone may be wrong
   return out;
 }
 
