@@ -11,7 +11,6 @@
 #include "core/error.h"
 #include "core/result.h"
 #include "core/words.h"
-#include "evaluation/factors/points.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
@@ -100,19 +99,23 @@ struct FactorStudy {
   std::array<FactorEffect, 4> effects;
   std::optional<FactorShares> shares;  ///< None where nothing makes a difference.
 
+  /// Index of a combination in `cells`.
+  [[nodiscard]] std::size_t index(const std::array<std::size_t, 4>& levels_of) const;
   [[nodiscard]] const FactorCell& cell(const std::array<std::size_t, 4>& levels_of) const;
   /// The cell that differs from the reported one in one factor.
   [[nodiscard]] const FactorCell& changed(Factor factor, std::size_t level) const;
 };
 
-/// Evaluates a characteristic under every combination of reference (LS, MZ, MC, MI), filter
+/// Asks find() for a characteristic under every combination of reference (LS, MZ, MC, MI), filter
 /// (unfiltered, Gaussian 15, 50, 150 UPR section by section, and that of the report), outlier rule
-/// and sampling subset. Takes cylindricity and roundness of surfaces, and the roundness of a wheel
-/// and of the part on a spindle.
+/// (none; beyond 3 s of the least-squares feature; that of a plan) and sampling. Takes cylindricity
+/// and roundness of surfaces, and the roundness of a wheel and of the part on a spindle.
 ///
-/// The steps follow each other as in points.h and internal/outliers.h. The reported combination
-/// carries the reported value, which is certified; the other values are proven locally. A
-/// combination that cannot be evaluated states the reason.
+/// Points are left out as another sampling plan would, then outliers, the rest filtered and fitted.
+/// The rule of a plan has no value where what lies off is form. Windows, portion, parameter and
+/// layers stay those of the plan. The reported combination carries the reported value, which is
+/// certified; the other values are proven locally. A combination that cannot be evaluated states
+/// the reason.
 ///
 /// @return The failure of the feature; kMeaning with the reason for any other form;
 ///         kReferenceAbsent where the characteristic has no value.

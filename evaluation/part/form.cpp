@@ -115,11 +115,25 @@ struct SectionForm {
   std::vector<std::size_t> points;
 };
 
+/// The points of a section across the axis. One that is seen along the nominal axis has any height.
+core::Result<std::vector<Eigen::Vector2d>> seen_along_axis(const PreparedSurface& surface,
+                                                           const SurfaceSection& section) {
+  if (stated_plane(surface.of->feature) != "nominal") {
+    TRY(auto flat, projected(surface, std::span(&section, 1)));
+    return std::move(flat.front().points_mm);
+  }
+  const auto frame = fit::across(surface.axis.direction);
+  std::vector<Eigen::Vector2d> out;
+  for (const std::size_t i : section.points) {
+    out.emplace_back(frame.transpose() * (surface.points_mm[i] - surface.axis.point_mm));
+  }
+  return out;
+}
+
 core::Result<SectionForm> form_of_section(const PreparedSurface& surface,
                                           const SurfaceSection& section,
                                           const record::Characteristic& asked, Proof proof) {
-  TRY(const auto flat, projected(surface, std::span(&section, 1)));
-  const auto& points_mm = flat.front().points_mm;
+  TRY(const auto points_mm, seen_along_axis(surface, section));
   const auto exact = [&] {
     return core::fail(core::Code::kTooFewPoints,
                       core::phrase("layer {}: a section of three different points has no "

@@ -165,14 +165,18 @@ core::Result<PreparedSurface> prepared(const MeasuredSurface& surface,
   };
   take();
   // Square to the axis of the feature, not of the portion, which may be a single layer.
-  TRY(const auto fit,
-      fitted(*surface.of, out.points_mm, layout->axis.direction, Deviations::kSkip));
-  out.axis = fit.axis;
+  if (surface.across) {
+    out.axis = *surface.across;
+  } else {
+    TRY(const auto fit,
+        fitted(*surface.of, out.points_mm, layout->axis.direction, Deviations::kSkip));
+    out.axis = fit.axis;
+  }
   TRY_DO(check_tip(out));
   TRY_DO(restrict_rows(*layout, indication, taken));
   if (indication.from_mm || indication.to_mm) take();
   fill_sections(*layout, taken, out);
-  out.as_measured = is_as_measured(surface);
+  out.as_measured = layout->as_measured && is_as_measured(surface);
   const Warnings warnings = out.as_measured ? Warnings::kFind : Warnings::kSkip;
   if (warnings == Warnings::kFind) {
     out.warnings = layout->warnings;

@@ -54,6 +54,8 @@ std::vector<std::size_t> outlying_rows(const MeasuredSurface& surface) {
 
 MeasuredSurface without_rows(const MeasuredSurface& surface, std::span<const std::size_t> rows) {
   SurfaceLayout layout = *known_layout(surface);
+  if (layout.failure) return surface;
+  layout.as_measured = false;
   for (const std::size_t row : rows) layout.kept[row] = false;
   for (SectionRows& section : layout.sections) {
     std::erase_if(section.rows, [&](std::size_t row) { return !layout.kept[row]; });

@@ -28,6 +28,8 @@ struct MeasuredSurface {
   /// Windows, outliers and sections of the cloud as measured: a trial moves points, but never
   /// changes which ones take part. Null: prepared() finds them anew, at its cost.
   std::shared_ptr<const SurfaceLayout> layout = nullptr;
+  /// The axis that sections stand square to; none: that of least squares of the points.
+  std::optional<fit::Axis> across = std::nullopt;
 };
 
 /// The surfaces of a part, one for each feature of the run, in its order. Analyses have no points.
@@ -65,8 +67,8 @@ struct PreparedSurface {
   std::vector<LeftOut> left_out;
   std::vector<core::Error> warnings;
   core::Phrase filter;  ///< For the operator: "unfiltered", "gaussian 50 UPR".
-  /// No trial has moved the points. Only then are there warnings, and is what they leave unseen
-  /// looked for: a trial has the same gaps.
+  /// No trial has moved the points, and without_rows() took none. Only then are there warnings, and
+  /// is what they leave unseen looked for: a trial has the same gaps.
   bool as_measured = true;
 };
 

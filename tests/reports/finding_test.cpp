@@ -256,11 +256,6 @@ TEST(FindingCompare, NamesWhatItLeavesOut) {
     ASSERT_FALSE(study);
     EXPECT_EQ(study.error().code, core::Code::kMeaning);
   }
-  evaluation::CharacteristicResult filtered = journal.characteristics[0];
-  filtered.finding = journal.characteristics[3].finding;
-  const auto study = evaluation::study_factors(journal, filtered);
-  ASSERT_FALSE(study);
-  EXPECT_THAT(study.error().what, HasSubstr("is not the peak-to-valley value of all points"));
 }
 
 TEST(FindingPage, StatesSizesInMillimetresWithBothLimits) {

@@ -1,5 +1,7 @@
 #include "evaluation/part/internal/associated.h"
 
+#include <cmath>
+
 #include "core/units.h"
 #include "evaluation/part/internal/layout.h"
 #include "fit/least_squares/cylinder.h"
@@ -111,6 +113,13 @@ core::Result<void> check_cylinder(const PreparedSurface& surface) {
 
 core::Result<void> check_turn(fit::SpacePoints points_mm, const fit::Axis& axis) {
   const auto frame = fit::across(axis.direction);
+  unsigned octants = 0;  // with a point in each no gap is wider than two of them
+  for (const Eigen::Vector3d& p : points_mm) {
+    const Eigen::Vector2d v = frame.transpose() * (p - axis.point_mm);
+    const bool steep = std::abs(v.y()) > std::abs(v.x());
+    octants |= 1U << ((v.x() > 0.0 ? 4U : 0U) + (v.y() > 0.0 ? 2U : 0U) + (steep ? 1U : 0U));
+  }
+  if (octants == 0xFFU) return {};
   std::vector<Eigen::Vector2d> flat;
   for (const Eigen::Vector3d& p : points_mm) {
     flat.emplace_back(frame.transpose() * (p - axis.point_mm));

@@ -44,6 +44,7 @@ struct SurfaceLayout {
   std::vector<core::Error> warnings;
   /// Why a cloud without layers has no sections: its points follow no circles (a helix).
   std::optional<core::Error> no_sections = {};
+  bool as_measured = true;  ///< without_rows() took no row.
 };
 
 [[nodiscard]] SurfaceLayout layout_of(const FeatureResult& feature);
