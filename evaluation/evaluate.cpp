@@ -15,6 +15,7 @@
 #include "evaluation/handed_calibration.h"
 #include "evaluation/internal/conformance.h"
 #include "evaluation/internal/merged.h"
+#include "evaluation/internal/touched_surface.h"
 #include "evaluation/internal/truth.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
@@ -35,22 +36,6 @@ namespace {
 
 using record::RunRecord;
 using record::Touch;
-
-std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
-  std::vector<Eigen::Vector3d> tips;
-  for (const Touch& touch : record.touches) {
-    if (touch.purpose == Touch::Purpose::kQualification) tips.push_back(touch.tip_mm);
-  }
-  if (tips.empty()) return std::nullopt;
-  const auto said =
-      record::task_of<record::QualificationSettings>(record.settings, "qualification/");
-  if (!said) return std::nullopt;
-  const auto tip = said->artefact == record::ReferenceArtefact::kColumn
-                       ? fit::qualify_tip_on_column(tips, record.artefact.radius_mm)
-                       : fit::qualify_tip(tips, record.artefact.radius_mm);
-  if (!tip) return std::nullopt;
-  return *tip;
-}
 
 /// f of every measured pose, from its own touches.
 void evaluate_poses(const RunRecord& record, int index, FeatureResult& result) {
@@ -486,9 +471,8 @@ std::optional<core::Error> fault_of_settings(const record::Feature& feature) {
   return std::nullopt;
 }
 
-FeatureResult evaluate_feature(const RunRecord& record, int index,
-                               const std::optional<fit::ProbeTip>& probe,
-                               const fixture::Kinematics& kinematics) {
+/// A feature before its points are taken: its settings, and the tip that touched it.
+FeatureResult begun(const RunRecord& record, int index, const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
   result.complete = is_complete(record, static_cast<std::size_t>(index));
@@ -498,42 +482,65 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     result.tip_radius_mm = probe->radius_mm;
   }
   result.failure = fault_of_settings(result.feature);
-  if (result.failure) return result;
-  if (result.feature.strategy == record::Strategy::kMerged) {
-    evaluate_merged(record, index, probe, result);
-    return result;
-  }
+  return result;
+}
+
+/// The touches of the cloud that is evaluated, and where the surface is expected.
+struct FinalCloud {
+  const record::PoseVisit* visit = nullptr;
+  std::vector<const Touch*> touches;
+  std::optional<Eigen::Vector3d> direction;  ///< See expected_axis().
+};
+
+/// Fills the cloud of a feature, with its temperatures and windows; none where `failure` of the
+/// result says why.
+std::optional<FinalCloud> take_cloud(const RunRecord& record, int index, FeatureResult& result) {
   const auto last =
       std::find_if(record.poses.begin(), record.poses.end(), [&](const record::PoseVisit& visit) {
         return visit.feature == index && is_final(record, visit);
       });
-  evaluate_poses(record, index, result);
   if (last == record.poses.end()) {
     result.failure = core::error_of(
         core::Code::kNoPoints,
         record.failure ? core::phrase("not measured to its end: {}", record.failure->said())
                        : core::phrase("the run ended before the final cloud was measured"));
-    return result;
+    return std::nullopt;
   }
-  const auto touches = touches_of(record, last->id);
-  result.cloud = measured_cloud(touches);
+  FinalCloud out{&*last, touches_of(record, last->id), {}};
+  result.cloud = measured_cloud(out.touches);
   if (result.cloud.empty()) {
     result.failure =
         core::error_of(core::Code::kNoPoints, core::phrase("the final cloud holds no touches"));
-    return result;
+    return std::nullopt;
   }
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
   if (touched) result.part_turn = part_turn(record, *last);
-  result.temperatures = temperatures_of(record, touched ? touches : decltype(touches){});
+  result.temperatures = temperatures_of(record, touched ? out.touches : decltype(out.touches){});
   result.thermal = thermal_correction(record, index, last->id);
   if (result.thermal && result.tip_radius_mm) {
     const ThermalCorrection& c = *result.thermal;
     *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
   }
-  const auto direction = expected_axis(record, result, *last);
+  out.direction = expected_axis(record, result, *last);
   if (!touched && result.feature.shape == record::Shape::kCircle)
-    result.section_axis.direction = *direction;
+    result.section_axis.direction = *out.direction;
   for (const LeftOut& row : rows_in_windows(result)) result.cloud[row.row].left_out = true;
+  return out;
+}
+
+FeatureResult evaluate_feature(const RunRecord& record, int index,
+                               const std::optional<fit::ProbeTip>& probe,
+                               const fixture::Kinematics& kinematics) {
+  FeatureResult result = begun(record, index, probe);
+  if (result.failure) return result;
+  if (result.feature.strategy == record::Strategy::kMerged) {
+    evaluate_merged(record, index, probe, result);
+    return result;
+  }
+  evaluate_poses(record, index, result);
+  const auto taken = take_cloud(record, index, result);
+  if (!taken) return result;
+  const auto& direction = taken->direction;
   switch (result.feature.shape) {
     case record::Shape::kCylinder:
       evaluate_cylinder(direction, result);
@@ -551,12 +558,14 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
       evaluate_circle(*direction, result);
   }
   if (result.failure) return result;
-  evaluate_repeats(touches, direction, result);
+  evaluate_repeats(taken->touches, direction, result);
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
   if (result.mz_cylinder && touched && !stands_still(result.feature)) {
     result.levelling_pose =
-        levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
+        levelling(kinematics, taken->visit->reached, result.mz_cylinder->axis.direction);
   }
-  if (result.feature.strategy == record::Strategy::kVirtual) search_virtual_poses(*last, result);
+  if (result.feature.strategy == record::Strategy::kVirtual)
+    search_virtual_poses(*taken->visit, result);
   warn(result);
   return result;
 }
@@ -629,6 +638,34 @@ CheckedEvaluation evaluate_all(const RunRecord& measured, const InvariantCheck& 
 }
 
 }  // namespace
+
+std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
+  std::vector<Eigen::Vector3d> tips;
+  for (const Touch& touch : record.touches) {
+    if (touch.purpose == Touch::Purpose::kQualification) tips.push_back(touch.tip_mm);
+  }
+  if (tips.empty()) return std::nullopt;
+  const auto said =
+      record::task_of<record::QualificationSettings>(record.settings, "qualification/");
+  if (!said) return std::nullopt;
+  const auto tip = said->artefact == record::ReferenceArtefact::kColumn
+                       ? fit::qualify_tip_on_column(tips, record.artefact.radius_mm)
+                       : fit::qualify_tip(tips, record.artefact.radius_mm);
+  if (!tip) return std::nullopt;
+  return *tip;
+}
+
+FeatureResult touched_surface(const RunRecord& record, int index,
+                              const std::optional<fit::ProbeTip>& probe) {
+  FeatureResult result = begun(record, index, probe);
+  if (result.failure) return result;
+  const auto taken = take_cloud(record, index, result);
+  if (!taken) return result;
+  if (result.feature.shape == record::Shape::kCircle)
+    result.section_axis = {mean_of(result.cloud), *taken->direction};
+  result.clamping = clamping_of(record, index);
+  return result;
+}
 
 CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
   CheckedEvaluation out = evaluate_all(measured, check, true);

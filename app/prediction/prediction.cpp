@@ -99,7 +99,13 @@ core::Result<std::vector<PredictedCharacteristic>> predict_plan(const plans::Pla
   const record::RunRecord& expected = simulated;
   evaluation::PredictionOptions options;
   options.budget_trials = 20;
+  std::vector<int> surfaces;
+  for (std::size_t i = 0; i < expected.features.size(); ++i) {
+    if (!record::is_analysis(expected.features[i].shape)) surfaces.push_back(static_cast<int>(i));
+  }
+  TRY(auto found, evaluation::predict(expected, surfaces, options));
   std::vector<PredictedCharacteristic> out;
+  auto next = found.begin();
   for (std::size_t i = 0; i < expected.features.size(); ++i) {
     if (record::is_analysis(expected.features[i].shape)) {
       TRY(auto analysis, plans::measures_by_touch(plan.features[i])
@@ -108,10 +114,10 @@ core::Result<std::vector<PredictedCharacteristic>> predict_plan(const plans::Pla
       std::move(analysis.begin(), analysis.end(), std::back_inserter(out));
       continue;
     }
-    for (const record::Characteristic& asked : expected.features[i].characteristics) {
-      TRY(auto found, evaluation::predict(expected, static_cast<int>(i), asked, options));
-      out.push_back({i, asked, std::move(found)});
+    for (std::size_t c = 0; c < next->size(); ++c) {
+      out.push_back({i, expected.features[i].characteristics[c], std::move((*next)[c])});
     }
+    ++next;
   }
   return out;
 }

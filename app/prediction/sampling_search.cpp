@@ -53,6 +53,7 @@ std::vector<Sampling> layouts_of(const plans::FeaturePlan& feature, Measurand me
 
 evaluation::PredictionOptions few_parts(Measurand measurand) {
   evaluation::PredictionOptions options;
+  options.plain_forms_only = true;
   options.whole_surface = measurand == Measurand::kWholeSurface;
   options.least_inspections = options.most_inspections = 24;
   return options;
@@ -60,6 +61,7 @@ evaluation::PredictionOptions few_parts(Measurand measurand) {
 
 evaluation::PredictionOptions all_parts() {
   evaluation::PredictionOptions options;
+  options.plain_forms_only = true;
   options.budget_trials = 20;
   return options;
 }
@@ -120,20 +122,20 @@ class SamplingLayout {
     candidate.expanded_mm = candidate.nine_of_ten_expanded_mm = 0.0;
     candidate.stated = 0;
     candidate.missing.clear();
-    for (const record::Characteristic& asked : expected.features[feature_].characteristics) {
-      auto found = evaluation::predict(expected, static_cast<int>(feature_), asked, options);
-      if (!found) return found;
-      const auto& said = found->about(measurand);
+    const int feature = static_cast<int>(feature_);
+    TRY(auto all, evaluation::predict(expected, {&feature, 1}, options));
+    for (evaluation::Prediction& found : all.front()) {
+      const auto& said = found.about(measurand);
       if (!said) {
-        if (worst.why.empty() && !worst.sampled) worst.why = found->why;
-        if (candidate.missing.empty()) candidate.missing = found->why;
+        if (worst.why.empty() && !worst.sampled) worst.why = found.why;
+        if (candidate.missing.empty()) candidate.missing = found.why;
         continue;
       }
       ++candidate.stated;
       candidate.expanded_mm = std::max(candidate.expanded_mm, said->expanded_mm());
       if (said->nine_of_ten_expanded_mm() >= candidate.nine_of_ten_expanded_mm) {
         candidate.nine_of_ten_expanded_mm = said->nine_of_ten_expanded_mm();
-        worst = *std::move(found);
+        worst = std::move(found);
       }
     }
     return worst;

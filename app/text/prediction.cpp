@@ -35,10 +35,9 @@ std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacte
   const evaluation::Prediction& p = of.prediction;
   std::string out = fmt::format("  {}, {}\n", plan.features[of.feature].id, of.characteristic.id);
   out += statement_row(p.sampled) + statement_row(p.whole);
+  if (p.budget.empty()) return out;  // trials of a part have none
   const Measurand widest = p.whole ? Measurand::kWholeSurface : Measurand::kSampledPoints;
-  const std::string largest = largest_influences(p, widest);
-  return out + wrapped(largest.empty() ? "nothing: no influence is declared" : largest, "    from ",
-                       "      ");
+  return out + wrapped(largest_influences(p, widest), "    from ", "      ");
 }
 
 /// Characteristics without an interval; those of a feature with the same reason are listed

@@ -11,14 +11,12 @@
 #include "core/decompositions.h"
 #include "core/noise.h"
 #include "core/watch.h"
-#include "evaluation/results/measured_cloud.h"
+#include "evaluation/part/internal/chart.h"
 #include "evaluation/uncertainty/internal/chains.h"
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/sampler.h"
 #include "evaluation/uncertainty/internal/statement.h"
 #include "evaluation/uncertainty/kept_draws.h"
-#include "fit/least_squares/cylinder.h"
-#include "fit/least_squares/plane.h"
 #include "fit/least_squares/probe_tip.h"
 
 namespace rondure::evaluation {
@@ -35,105 +33,9 @@ enum Stream : std::uint64_t { kSharedStream = 14, kNoiseStream = 15 };
 constexpr std::size_t kReadDraws = 7;  // per chain, of inspections of a drawn part
 constexpr std::size_t kBiasDraws = 8;  // per chain, of the bias by place, size and shared errors
 constexpr std::uint64_t kMostChains = 64;
-// Work that keeps the trials of a part to some seconds: points that all value functions read, where
-// a call counts as kPointsOfCall of them. Parts that need more have fewer trials, down to
-// kLeastTrials, of which 5 lie beyond each end of a 95 % interval.
-constexpr double kMostWork = 4e7;
-constexpr double kPointsOfCall = 300.0;
-constexpr double kPointsOfPivot = 200.0;  // of the searches for a reference
+// Parts that need more than kWorkOfPart have fewer trials, down to these, of which 5 lie beyond
+// each end of a 95 % interval.
 constexpr int kLeastTrials = 200;
-
-/// Slope of the distances along the axis: tangent of the half angle of a cone.
-struct Slope {
-  double at_middle_mm = 0.0;
-  double per_mm = 0.0;
-};
-
-Slope slope_of(const FormCloud& cloud) {
-  double height = 0.0;
-  double distance = 0.0;
-  for (const FormPoint& p : cloud.points) {
-    height += p.height_mm;
-    distance += cloud.radius_mm + p.deviation_mm;
-  }
-  const auto count = static_cast<double>(cloud.points.size());
-  height /= count;
-  distance /= count;
-  double both = 0.0;
-  double square = 0.0;
-  for (const FormPoint& p : cloud.points) {
-    both += (p.height_mm - height) * (cloud.radius_mm + p.deviation_mm - distance);
-    square += (p.height_mm - height) * (p.height_mm - height);
-  }
-  const double per_mm = square > 0.0 ? both / square : 0.0;
-  return {distance - per_mm * height, per_mm};
-}
-
-/// The points of a feature as the form model takes them, whatever its shape: an angle, a position
-/// along the generatrix and a deviation along the normal.
-struct Chart {
-  FormCloud cloud;
-  std::vector<Vector3d> normals;
-};
-
-core::Result<Chart> chart_of_plane(std::span<const Vector3d> tips) {
-  TRY(const auto plane, fit::ls_plane(tips));
-  Chart out;
-  out.cloud.kind = FormKind::kFlatness;
-  out.cloud.axis = {plane.plane.point_mm, plane.plane.normal};
-  const auto across = fit::across(plane.plane.normal);
-  double least = 0.0;
-  double greatest = 0.0;
-  for (const Vector3d& tip : tips) {
-    const Eigen::Vector2d place = across.transpose() * (tip - plane.plane.point_mm);
-    FormPoint point;
-    point.angle_rad = std::atan2(place.y(), place.x());
-    point.height_mm = place.norm();
-    point.deviation_mm = fit::height_mm(plane.plane, tip);
-    point.time_1 = static_cast<double>(out.normals.size()) / static_cast<double>(tips.size());
-    least = out.cloud.points.empty() ? point.height_mm : std::min(least, point.height_mm);
-    greatest = std::max(greatest, point.height_mm);
-    out.cloud.points.push_back(point);
-    out.normals.push_back(plane.plane.normal);
-  }
-  out.cloud.radius_mm = greatest;
-  if (greatest - least < 1e-3 * greatest) {  // one circle: its height and its tilt alone
-    out.cloud.kind = FormKind::kRoundness;
-    for (FormPoint& point : out.cloud.points) point.height_mm = 0.0;
-  }
-  return out;
-}
-
-core::Result<Chart> chart_of(const FeatureResult& result, std::span<const Vector3d> tips) {
-  using record::Shape;
-  const Shape shape = result.feature.shape;
-  if (shape == Shape::kPlane) return chart_of_plane(tips);
-  if (shape == Shape::kSphere || record::is_analysis(shape)) {
-    return core::fail(Code::kMeaning,
-                      core::phrase("intervals of this kind of feature are not computed"));
-  }
-  std::optional<Vector3d> direction;
-  if (result.ls_cylinder) direction = result.ls_cylinder->axis.direction;
-  const bool circle = shape == Shape::kCircle;
-  if (circle) direction = result.section_axis.direction;
-  TRY(auto cloud,
-      form_cloud(circle ? FormKind::kRoundness : FormKind::kCylindricity, tips, direction));
-  Chart out{std::move(cloud), {}};
-  const bool cone = shape == Shape::kCone;
-  const Slope slope = cone ? slope_of(out.cloud) : Slope{out.cloud.radius_mm, 0.0};
-  const double cosine = 1.0 / std::hypot(1.0, slope.per_mm);
-  for (FormPoint& point : out.cloud.points) {
-    const Vector3d radial = outward_normal(out.cloud, point);
-    if (!cone) {
-      out.normals.push_back(radial);
-      continue;
-    }
-    out.normals.push_back(cosine * (radial - slope.per_mm * out.cloud.axis.direction));
-    point.deviation_mm = cosine * (out.cloud.radius_mm + point.deviation_mm - slope.at_middle_mm -
-                                   slope.per_mm * point.height_mm);
-  }
-  return out;
-}
 
 /// A surface with the model of its form.
 struct ModelledSurface {
@@ -202,8 +104,6 @@ struct PartTrials::Part {
   void make_charts();
   void make_models();
   void make_modes(const ReferenceTouches& reference);
-  [[nodiscard]] std::vector<TouchedPoint> touched(std::size_t surface,
-                                                  const Vector3d& middle_mm) const;
   [[nodiscard]] std::vector<bool> surfaces_of(std::span<const TrialQuestion> questions) const;
   [[nodiscard]] int most_trials(std::span<const TrialQuestion> questions,
                                 double pivots_of_trial) const;
@@ -264,21 +164,14 @@ void PartTrials::Part::make_charts() {
       made.fault = result.failure;
       continue;
     }
-    std::vector<Vector3d> tips;
-    for (const std::size_t row : surface.rows) tips.push_back(surface.measured.tips_mm[row]);
-    auto chart = chart_of(result, tips);
+    auto chart = chart_of(result, surface.rows, surface.measured.tips_mm);
     if (!chart) {
       made.fault = chart.error();
       continue;
     }
     made.chart = *std::move(chart);
     FormCloud& cloud = made.chart.cloud;
-    cloud.outside = result.feature.side == record::Side::kOutside;
-    cloud.passes = passes_of(result.cloud);
-    for (std::size_t i = 0; i < surface.rows.size(); ++i) {
-      cloud.points[i].repeats = result.cloud[surface.rows[i]].repeats;
-      cloud.points[i].pose = surface.pose;
-    }
+    for (FormPoint& point : cloud.points) point.pose = surface.pose;
     if (const auto good = check_cloud(cloud); !good) made.fault = good.error();
   }
   // Drift and creep run through the measurement of the whole part.
@@ -306,21 +199,6 @@ void PartTrials::Part::make_charts() {
   });
 }
 
-std::vector<TouchedPoint> PartTrials::Part::touched(std::size_t surface,
-                                                    const Vector3d& middle_mm) const {
-  const ModelledSurface& made = modelled[surface];
-  std::vector<TouchedPoint> out;
-  for (std::size_t i = 0; i < made.chart.normals.size(); ++i) {
-    const FormPoint& point = made.chart.cloud.points[i];
-    const Vector3d& normal = made.chart.normals[i];
-    const Vector3d& tip = surfaces[surface].measured.tips_mm[surfaces[surface].rows[i]];
-    const double from_middle = normal.dot(tip - middle_mm);
-    out.push_back({tip, normal, made.chart.cloud.outside ? Vector3d(-normal) : normal, from_middle,
-                   from_middle, point.repeats, point.pose, point.time_1});
-  }
-  return out;
-}
-
 void PartTrials::Part::make_models() {
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     ModelledSurface& made = modelled[s];
@@ -331,8 +209,8 @@ void PartTrials::Part::make_models() {
     for (Index i = 0; i < made.read_mm.size(); ++i) {
       made.read_mm[i] = made.chart.cloud.points[static_cast<std::size_t>(i)].deviation_mm;
     }
-    made.errors = std::make_unique<ErrorModel>(touched(s, made.chart.cloud.axis.point_mm),
-                                               made.rigid, influences);
+    made.errors = std::make_unique<ErrorModel>(
+        touched_points(made.chart, made.chart.cloud.axis.point_mm), made.rigid, influences);
     if (noise_is_unknown(*made.errors, influences)) {
       made.fault = core::error_of(
           Code::kMeaning, core::phrase("no noise of a touch is known: declare "
@@ -363,7 +241,7 @@ void PartTrials::Part::make_modes(const ReferenceTouches& reference) {
     if (modelled[s].fault) continue;
     any = &surfaces[s];
     first[s] = static_cast<Index>(points.size());
-    const auto more = touched(s, middle);
+    const auto more = touched_points(modelled[s].chart, middle);
     points.insert(points.end(), more.begin(), more.end());
   }
   const std::size_t of_part = points.size();
@@ -486,7 +364,7 @@ int PartTrials::Part::most_trials(std::span<const TrialQuestion> questions,
   }
   if (work == 0.0) return 0;
   work += kPointsOfPivot * pivots_of_trial;
-  const double most = std::max(kMostWork / work, static_cast<double>(kLeastTrials));
+  const double most = std::max(kWorkOfPart / work, static_cast<double>(kLeastTrials));
   return static_cast<int>(std::min(most, static_cast<double>(options.most_trials)));
 }
 

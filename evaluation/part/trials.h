@@ -17,6 +17,12 @@
 
 namespace rondure::evaluation {
 
+/// Work that keeps the trials of a part to some seconds: points that all value functions read in
+/// all trials, where a call, and a pivot of the searches for a reference, count as so many of them.
+inline constexpr double kWorkOfPart = 4e7;
+inline constexpr double kPointsOfCall = 300.0;
+inline constexpr double kPointsOfPivot = 200.0;
+
 /// One feature of a part with what acts on its points.
 struct TrialSurface {
   MeasuredSurface measured;

@@ -27,8 +27,11 @@ struct PredictionOptions {
   int trials = 200;           ///< Trials per inspection, 200..100 000.
   int budget_trials = 0;      ///< Trials per influence alone and per part; 0: no budget, else >= 2.
   bool whole_surface = true;  ///< false: no statement (b), in a fifth of the time.
-  std::uint64_t seed = 1;     ///< Same seed, same numbers, at any number of threads.
-  int threads = 0;            ///< 0: as many as the processor has.
+  /// Leaves out all but CYLt and RONt without filter, portion or window, whose interval depends on
+  /// the sampling of their feature alone and which have a budget.
+  bool plain_forms_only = false;
+  std::uint64_t seed = 1;  ///< Same seed, same numbers, at any number of threads.
+  int threads = 0;         ///< 0: as many as the processor has.
 };
 
 /// The names of the influences of a touched surface that a plan leaves undeclared.
@@ -74,27 +77,33 @@ struct Prediction {
   }
 };
 
-/// Predicts the interval of a characteristic before the first touch.
+/// Predicts the intervals of the characteristics of surfaces before the first touch.
 ///
 /// Parts are drawn from an assumed form, each is inspected once with one draw of every declared
-/// influence, and the interval of each inspection is computed as in a run, by
-/// uncertainty_question() and measurement_uncertainty() with fewer trials.
+/// influence, and the intervals of each inspection are computed as in a run, with fewer trials: of
+/// plain CYLt and RONt by measurement_uncertainty(), of all others by the trials of the part
+/// (part/trials.h). Of a characteristic with two judged values the wider interval counts.
 ///
 /// Form: the spectrum that the plan declares, with its amplitudes as they are. Without one: 2..15
 /// undulations that fall as 1/n, taper, barrel and bend, scaled so that the expected value is half
 /// the tolerance or, without a tolerance, ten times the standard deviation of a point.
+/// Characteristics with common trials share their parts: the form of each surface uses half of the
+/// form tolerance that it reaches first, and a surface with a tolerance about a datum is displaced
+/// by half of the tightest one.
 /// Repeatability of a touch: as declared; where the run would determine it from its repeats, at
 /// most the value that the form limit of the qualification just allows (P / 3.93). With one touch
 /// per point the run determines none, and then there is no interval.
 ///
 /// @param expected  An error-free record: places, repeats and times of the touches, settings.
-/// @param feature   Index into its features.
-/// @return  kBadOption; `why` states what prevents an interval. Same input, same bits, on one kind
-///          of processor. 28 points: 0.1 s for (a), 0.4 s for (b) on two cores.
+/// @param features  Indices into its features.
+/// @return  For each of them, one prediction for each of its characteristics, whose `why` states
+///          what prevents an interval; or kBadOption. Same input, same bits, on one kind of
+///          processor. A plain form of 28 points: 0.1 s for (a), 0.4 s for (b) on two cores; all
+///          others together at most about as long as the trials of the run.
 /// Source: docs/uncertainty.md, "Before the first touch".
-[[nodiscard]] core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
-                                               const record::Characteristic& asked,
-                                               const PredictionOptions& options = {});
+[[nodiscard]] core::Result<std::vector<std::vector<Prediction>>> predict(
+    const record::RunRecord& expected, std::span<const int> features,
+    const PredictionOptions& options = {});
 
 /// Predicted statement of a run about a characteristic of an analysis of series.
 struct AnalysisPrediction {

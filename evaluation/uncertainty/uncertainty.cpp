@@ -274,22 +274,18 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   return found;
 }
 
-core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influences& influences,
-                                        const FormSpectrum& spectrum, std::uint64_t seed) {
-  FormCloud cloud = nominal;
-  for (FormPoint& point : cloud.points) point.deviation_mm = 0.0;
-  TRY_DO(check_all(cloud, influences, spectrum, {}));
-  const Eigen::MatrixXd columns = spectrum_columns(spectrum, cloud.points);
+core::Result<Eigen::VectorXd> simulated_deviations(const FormCloud& nominal,
+                                                   const ErrorModel& errors,
+                                                   const FormSpectrum& spectrum,
+                                                   std::uint64_t seed) {
+  TRY_DO(check_all(nominal, Influences{}, spectrum, {}));
+  const Eigen::MatrixXd columns = spectrum_columns(spectrum, nominal.points);
   core::KeyedNoise noise(seed, {0});
   Eigen::VectorXd deviations;
-  ErrorModel(cloud, influences).draw(noise, std::nullopt, deviations);
+  errors.draw(noise, std::nullopt, deviations);
   for (Eigen::Index k = 0; k < columns.cols(); ++k) deviations += noise.normal() * columns.col(k);
-  const Eigen::MatrixXd rigid = rigid_basis(cloud);
-  deviations -= rigid * (rigid.transpose() * deviations);
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    cloud.points[i].deviation_mm = deviations[static_cast<Eigen::Index>(i)];
-  }
-  return cloud;
+  const Eigen::MatrixXd rigid = rigid_basis(nominal);
+  return deviations - rigid * (rigid.transpose() * deviations);
 }
 
 }  // namespace rondure::evaluation

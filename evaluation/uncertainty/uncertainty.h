@@ -11,6 +11,8 @@
 
 namespace rondure::evaluation {
 
+class ErrorModel;  // internal/error_modes.h
+
 /// Uncertainty of a form value by propagating distributions (Monte Carlo).
 ///
 /// The deviations are form + declared errors: only declared errors are noise, the rest is form. A
@@ -35,16 +37,17 @@ namespace rondure::evaluation {
     const std::optional<FormSpectrum>& spectrum = std::nullopt,
     const UncertaintyOptions& options = {});
 
-/// Reading of one inspection of a part with a given form spectrum: for a prediction before the
-/// first touch; measurement_uncertainty() of the result is that of such an inspection.
+/// Deviations that one inspection of a part with a given form spectrum reads, about its axis [mm]:
+/// for a prediction before the first touch.
 ///
 /// @param nominal   Places; their deviations are ignored.
+/// @param errors    Of these points.
 /// @param spectrum  Its amplitudes are used as they are.
 /// @param seed      Another seed gives another part and another inspection.
-/// @return  The cloud with deviations, about its axis; errors as for measurement_uncertainty().
-[[nodiscard]] core::Result<FormCloud> simulated_cloud(const FormCloud& nominal,
-                                                      const Influences& influences,
-                                                      const FormSpectrum& spectrum,
-                                                      std::uint64_t seed);
+/// @return  One for each point; errors as for measurement_uncertainty().
+[[nodiscard]] core::Result<Eigen::VectorXd> simulated_deviations(const FormCloud& nominal,
+                                                                 const ErrorModel& errors,
+                                                                 const FormSpectrum& spectrum,
+                                                                 std::uint64_t seed);
 
 }  // namespace rondure::evaluation

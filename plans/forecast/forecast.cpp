@@ -390,12 +390,25 @@ void add_cloud(const ForecastStage& stage, double start_s, record::RunRecord& ou
   }
 }
 
+void add_qualification(const ForecastStage& stage, record::RunRecord& out) {
+  for (const Eigen::Vector3d& tip_mm : stage.contacts_W) {
+    record::Touch touch;
+    touch.id = static_cast<std::int64_t>(out.touches.size());
+    touch.purpose = record::Touch::Purpose::kQualification;
+    touch.pose = -1;
+    touch.tip_mm = tip_mm;
+    touch.temperature_degC = touch.scale_temperature_degC = 20.0;
+    out.touches.push_back(touch);
+  }
+}
+
 }  // namespace
 
 record::RunRecord expected_record(const Plan& plan, const Forecast& forecast) {
   record::RunRecord out = run_head(plan, RunOptions{}, 0);
   double start_s = 0.0;
   for (const ForecastStage& stage : forecast.stages) {
+    if (stage.kind == ForecastStage::Kind::kQualification) add_qualification(stage, out);
     if (stage.final_cloud) add_cloud(stage, start_s, out);
     start_s += stage.time_s;
   }

@@ -60,9 +60,9 @@ struct Forecast {
 [[nodiscard]] core::Result<Forecast> forecast(const Plan& plan);
 
 /// The record of a run whose part, fixture and probe are as stated in the plan: settings, features,
-/// and the touches of the final clouds with their repeats, positions and times. The touches have no
-/// errors, and the part is at 20 degC. Omitted are touches that enter no result (qualification,
-/// location, search) and header fields known only to a run.
+/// the touches of the qualification, and those of the final clouds with their repeats, positions
+/// and times. The touches have no errors, and the part is at 20 degC. Omitted are touches that
+/// enter no result (location, search) and header fields known only to a run.
 /// @param forecast  Forecast of this plan.
 [[nodiscard]] record::RunRecord expected_record(const Plan& plan, const Forecast& forecast);
 

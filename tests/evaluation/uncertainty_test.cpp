@@ -514,19 +514,19 @@ TEST(Uncertainty, StopsWhenTheNumericalToleranceIsReached) {
 TEST(Uncertainty, ASimulatedInspectionHasTheFormAndTheErrorsThatWereStated) {
   evaluation::FormSpectrum oval = spectrum();
   oval.terms = {{2, 0, 3e-3}};
+  const evaluation::ErrorModel errors(shaft(4, 7), repeatability(1e-3));
   double square = 0.0;
   const int parts = 400;
   for (int seed = 0; seed < parts; ++seed) {
-    const auto cloud =
-        simulated_cloud(shaft(4, 7), repeatability(1e-3), oval, static_cast<std::uint64_t>(seed));
-    ASSERT_TRUE(cloud.has_value());
-    for (const evaluation::FormPoint& point : cloud->points)
-      square += std::pow(point.deviation_mm, 2);
+    const auto deviations_mm =
+        simulated_deviations(shaft(4, 7), errors, oval, static_cast<std::uint64_t>(seed));
+    ASSERT_TRUE(deviations_mm.has_value());
+    square += deviations_mm->squaredNorm();
   }
   // The oval in 28 points, the noise in 23 dimensions beside place and size.
   const double expected = 28.0 * 9e-6 + 23.0 * 1e-6;
   EXPECT_NEAR(square / parts, expected, 0.15 * expected);
-  EXPECT_EQ(simulated_cloud(evaluation::FormCloud{}, {}, oval, 1).error().code,
+  EXPECT_EQ(simulated_deviations(evaluation::FormCloud{}, errors, oval, 1).error().code,
             core::Code::kBadOption);
 }
 

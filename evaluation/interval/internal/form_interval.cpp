@@ -83,6 +83,7 @@ core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) 
   std::vector<Eigen::Vector3d> tips;
   for (const std::size_t row : rows.rows) tips.push_back(result.cloud[row].tip_mm);
   std::optional<Eigen::Vector3d> direction;
+  if (result.ls_cylinder) direction = result.ls_cylinder->axis.direction;
   if (result.mz_cylinder) direction = result.mz_cylinder->axis.direction;
   if (result.feature.shape == record::Shape::kCircle) direction = result.section_axis.direction;
   auto cloud = core::Result<FormCloud>();
@@ -154,13 +155,6 @@ core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
   out.low_mm = low->height_mm;
   out.high_mm = high->height_mm;
   return std::optional<FormSpectrum>(std::move(out));
-}
-
-core::Result<FormCloud> surface_cloud(const FeatureResult& result) {
-  Rows all;
-  if (result.feature.shape == record::Shape::kCircle) all.kind = FormKind::kRoundness;
-  for (std::size_t i = 0; i < result.cloud.size(); ++i) all.rows.push_back(i);
-  return cloud_of(result, all);
 }
 
 std::optional<core::Phrase> why_no_interval(const record::RunRecord& record,

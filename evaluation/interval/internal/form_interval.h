@@ -22,10 +22,6 @@ struct UncertaintyQuestion {
   UncertaintyOptions options;
 };
 
-/// All points of a cylinder or a circle, as input of the engine.
-/// @return  The errors of form_cloud().
-[[nodiscard]] core::Result<FormCloud> surface_cloud(const FeatureResult& result);
-
 /// The declared spectrum on a cloud, or an empty one where the part's own was asked for; none where
 /// no spectrum was asked for.
 [[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,

@@ -87,7 +87,8 @@ std::vector<double> judged_values(const core::Result<Finding>& found, std::size_
 std::vector<PartInterval> intervals_of(const record::RunRecord& record,
                                        std::span<const FeatureResult> features,
                                        const std::optional<fit::ProbeTip>& probe,
-                                       std::span<const PartQuestion> questions) {
+                                       std::span<const PartQuestion> questions,
+                                       const std::optional<UncertaintyOptions>& trials) {
   std::vector<PartInterval> out(questions.size());
   const std::vector<MeasuredSurface> measured = surfaces_of(features);
   std::vector<std::optional<core::Phrase>> why(features.size());
@@ -111,7 +112,7 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
     surface.rows = rows_of_surface(surface.measured);
     surface.influences = declared->influences;
     surface.growth_1 = growth_of(features[f], declared->influences);
-    options = declared->options;
+    options = trials.value_or(declared->options);
     whole = declared->spectrum.has_value();
   }
   ReferenceTouches reference{{}, probe && probe->on_column()};
@@ -143,8 +144,8 @@ std::vector<PartInterval> intervals_of(const record::RunRecord& record,
     asked.push_back(std::move(trial));
   }
   if (asked.empty()) return out;
-  const PartTrials trials(std::move(surfaces), reference, options);
-  std::vector<TrialAnswer> answers = trials.answers(asked);
+  const PartTrials part(std::move(surfaces), reference, options);
+  std::vector<TrialAnswer> answers = part.answers(asked);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     PartInterval& interval = out[places[k]];
     interval.conformance_1 = conformance_of(questions[places[k]], answers[k]);

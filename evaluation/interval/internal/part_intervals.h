@@ -37,10 +37,11 @@ struct PartInterval {
 /// The uncertainties of all characteristics of a part, from trials that move the points of all its
 /// features together. Pure; the record holds the seed.
 /// @param features  All features of the run, in its order.
+/// @param trials    In place of the settings that the plan declares.
 /// @return  One for each question.
-[[nodiscard]] std::vector<PartInterval> intervals_of(const record::RunRecord& record,
-                                                     std::span<const FeatureResult> features,
-                                                     const std::optional<fit::ProbeTip>& probe,
-                                                     std::span<const PartQuestion> questions);
+[[nodiscard]] std::vector<PartInterval> intervals_of(
+    const record::RunRecord& record, std::span<const FeatureResult> features,
+    const std::optional<fit::ProbeTip>& probe, std::span<const PartQuestion> questions,
+    const std::optional<UncertaintyOptions>& trials = std::nullopt);
 
 }  // namespace rondure::evaluation
