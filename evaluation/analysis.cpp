@@ -33,9 +33,7 @@ void leave_room_for_unseen(double unseen_mm, const UncertaintyStatement* interva
   if (!conforms || unseen_mm == 0.0) return;
   const double value_mm = interval != nullptr ? interval->high_mm : out.value->value_mm();
   if (value_mm + unseen_mm <= *out.characteristic.tolerance_mm) return;
-  out.verdict = Verdict::kUndecided;
-  out.outcome.reset();
-  out.risks.reset();
+  overrule(out, Verdict::kUndecided);
   out.reason = core::phrase(
       "up to {} um were not seen, and no interval holds them: with them {} um may be {} um, above "
       "the limit; measure more points, or recover higher harmonics",
@@ -87,10 +85,8 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     apply(rule, out);
     if (value->void_because && out.verdict != Verdict::kDoesNotConform) {
       // The value as read is above the limit, but its interval is not: a bound proves no more.
-      out.verdict = Verdict::kVoid;
+      overrule(out, Verdict::kVoid);
       out.reason = *value->void_because;
-      out.outcome.reset();
-      out.risks.reset();
     }
     leave_room_for_unseen(value->unseen_mm, asks ? interval.about(rule->measurand) : nullptr, out);
     if (!value->detail.empty()) out.reason = core::phrase("{} ({})", out.reason, value->detail);

@@ -356,9 +356,7 @@ void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& fo
   if (other.verdict == out.verdict) return;
   double play_mm = 0.0;
   for (const DatumResult& datum : found.datums) play_mm = std::max(play_mm, datum.play_mm);
-  out.verdict = Verdict::kUndecided;
-  out.outcome.reset();
-  out.risks.reset();
+  overrule(out, Verdict::kUndecided);
   out.reason = core::phrase(
       "the datum rocks by {:.1f} um: {} {} about the one-sided, {} {} about the equalised datum, "
       "and the limit lies between; support the datum at both ends, or plan the association that "
@@ -473,9 +471,7 @@ void hold_against_probe(const Circumstances& by, const FeatureResult& result,
   }
   const double span_mm = by.probe->form_mm;
   if (known->expanded_mm() >= as_value(result, *out.value, 0.5 * span_mm)) return;
-  out.verdict = Verdict::kUndecided;
-  out.outcome.reset();
-  out.risks.reset();
+  overrule(out, Verdict::kUndecided);
   // Rounded up, so that what is pasted is not below what was seen.
   const double limit_um = std::ceil(100.0 * micrometres(span_mm)) / 100.0;
   out.reason = core::phrase(
@@ -511,9 +507,7 @@ void hold_against_digits(const Circumstances& by, const FeatureResult& result,
     moved.value = out.value->moved_to(out.value->value_mm() + by_mm);
     apply(by.rule, moved);
     if (moved.verdict == out.verdict) continue;
-    out.verdict = Verdict::kUndecided;
-    out.outcome.reset();
-    out.risks.reset();
+    overrule(out, Verdict::kUndecided);
     out.reason = core::phrase(
         "the file writes its coordinates in steps of {:.4g} um, which can move the value by {} {}: "
         "the limit is nearer; export more digits",

@@ -27,9 +27,8 @@
 namespace rondure::evaluation {
 namespace {
 
-constexpr double kWork = 4e6;  // points times trials of a prediction: about one second
-constexpr int kFewestOfPart =
-    3;  // of dense clouds, whose intervals differ little from part to part
+constexpr double kWork = 4e6;     // points times trials of a prediction: about one second
+constexpr int kFewestOfPart = 3;  // of dense clouds, whose intervals differ little
 // cost of a circumscribed or inscribed cylinder, relative to a zone
 constexpr double kOneSidedCost = 10.0;
 constexpr int kLeastInspections = 8;
@@ -410,14 +409,15 @@ core::Result<std::vector<std::vector<Prediction>>> predict(const record::RunReco
     if (!why && !chart) why = chart.error().what;
     for (std::size_t c = 0; c < out[k].size(); ++c) {
       const Asked of{f, &feature.characteristics[c], &out[k][c]};
-      *of.out =
-          none("a sampling is searched for CYLt and RONt without filter, portion or window alone");
       if (why || of.asked->form == record::Form::kHarmonicLimits) {
         out[k][c] = none(why.value_or("a run states no interval of it"));
-      } else if (is_found(feature, *of.asked)) {
-        if (!options.plain_forms_only) of_part.push_back(of);
-      } else {
+      } else if (!is_found(feature, *of.asked)) {
         inspections.foretell_form(of);
+      } else if (!options.plain_forms_only) {
+        of_part.push_back(of);
+      } else {
+        out[k][c] = none(
+            "a sampling is searched for CYLt and RONt without filter, portion or window alone");
       }
     }
   }
@@ -513,8 +513,6 @@ core::Result<std::vector<AnalysisPrediction>> predict_analysis(const record::Run
 
 namespace {
 
-constexpr double kMeanRangeOf25 = 3.93;  // of normal values: the touches of the qualification
-
 ResidualPrediction no_residual(std::string why) {
   ResidualPrediction out;
   out.why = std::move(why);
@@ -529,7 +527,7 @@ std::pair<double, std::string> touch_scatter(const record::RunRecord& expected) 
     const double sigma_um = *(*recorded)->task.probe->repeatability_um;
     return {sigma_um * core::kMicrometre, fmt::format("{:.2g} um, as declared", sigma_um)};
   }
-  const double sigma_mm = expected.artefact.form_limit_mm / kMeanRangeOf25;
+  const double sigma_mm = expected.artefact.form_limit_mm / kRangeOf25Touches;
   return {sigma_mm, fmt::format("{:.2g} um, the most that the qualification lets pass",
                                 sigma_mm / core::kMicrometre)};
 }

@@ -102,6 +102,14 @@ struct CharacteristicResult {
   }
 };
 
+/// Puts another verdict in the place of what a rule said; the caller gives the reason.
+template <class Judgement>
+void overrule(Judgement& judgement, Verdict verdict) {
+  judgement.verdict = verdict;
+  judgement.outcome.reset();
+  judgement.risks.reset();
+}
+
 /// The calibration of the fixture that a run used.
 struct FixtureUse {
   std::string id;

@@ -233,27 +233,37 @@ Gate suppressed_gate(const SpindleResult& facts) {
   return out;
 }
 
-/// The filter of the profile passes more than is recovered.
-Gate band_gate(const SpindleResult& facts, const record::Characteristic& asked) {
-  const double lost_mm = passed_beyond_mm(facts, asked.form == Form::kRoundnessRms);
-  Gate out{.code = "band",
-           .condition = phrase("what the filter passes above the highest harmonic recovered, limit "
-                               "T/10"),
-           .found = micrometres(lost_mm),
-           .limit = micrometres(kBeyondShare * *asked.tolerance_mm),
-           .unit = "um"};
-  if (auto reason = beyond_the_band(facts, asked)) {
+/// A gate that voids where there is a reason.
+Gate voided(Gate out, std::optional<core::Phrase> reason) {
+  if (reason) {
     out.outcome = Outcome::kVoids;
     out.reason = *std::move(reason);
   }
   return out;
 }
 
-/// The greatest of a probe: within a turn, for total motion in all turns.
-double greatest_drift_mm(const SpindleResult& facts, Form form) {
+/// The filter of the profile passes more than is recovered.
+Gate band_gate(const SpindleResult& facts, const record::Characteristic& asked) {
+  const double lost_mm = passed_beyond_mm(facts, asked.form == Form::kRoundnessRms);
+  return voided({.code = "band",
+                 .condition = phrase("what the filter passes above the highest harmonic recovered, "
+                                     "limit T/10"),
+                 .found = micrometres(lost_mm),
+                 .limit = micrometres(kBeyondShare * *asked.tolerance_mm),
+                 .unit = "um"},
+                beyond_the_band(facts, asked));
+}
+
+/// The greatest drift of a probe in a turn.
+double drift_a_turn_mm(const SpindleResult& facts) {
   double out = 0.0;
-  for (const double drift_mm : facts.separation.drift_mm) out = std::max(out, std::abs(drift_mm));
-  return form == Form::kMotionTotal ? out * facts.separation.revolutions : out;
+  for (const double one_mm : facts.separation.drift_mm) out = std::max(out, std::abs(one_mm));
+  return out;
+}
+
+/// The same in the turns that a motion is made of.
+double drift_mm(const SpindleResult& facts, Form form) {
+  return drift_a_turn_mm(facts) * (form == Form::kMotionTotal ? facts.separation.revolutions : 1);
 }
 
 /// Longest run of equal readings of a channel in which another one moves.
@@ -427,16 +437,12 @@ Gate quadratic_gate(const SpindleResult& facts,
 }
 
 Gate drift_gate(const SpindleResult& facts, const record::Characteristic& asked) {
-  Gate out{.code = "drift",
-           .condition = phrase("greatest drift of a probe, limit T/10"),
-           .found = micrometres(greatest_drift_mm(facts, asked.form)),
-           .limit = micrometres(kDriftShare * *asked.tolerance_mm),
-           .unit = "um"};
-  if (auto reason = drift_because(facts, asked)) {
-    out.outcome = Outcome::kVoids;
-    out.reason = *std::move(reason);
-  }
-  return out;
+  return voided({.code = "drift",
+                 .condition = phrase("greatest drift of a probe, limit T/10"),
+                 .found = micrometres(drift_mm(facts, asked.form)),
+                 .limit = micrometres(kDriftShare * *asked.tolerance_mm),
+                 .unit = "um"},
+                drift_because(facts, asked));
 }
 
 Gate few_turns_gate(const SpindleResult& facts) {
@@ -455,15 +461,11 @@ Gate few_turns_gate(const SpindleResult& facts) {
 }
 
 Gate total_turns_gate(const SpindleResult& facts) {
-  Gate out{.code = "few-turns",
-           .condition = phrase("revolutions for total motion, at least"),
-           .found = static_cast<double>(facts.separation.revolutions),
-           .limit = 2.0};
-  if (auto reason = one_turn_of_total(facts)) {
-    out.outcome = Outcome::kVoids;
-    out.reason = *std::move(reason);
-  }
-  return out;
+  return voided({.code = "few-turns",
+                 .condition = phrase("revolutions for total motion, at least"),
+                 .found = static_cast<double>(facts.separation.revolutions),
+                 .limit = 2.0},
+                one_turn_of_total(facts));
 }
 
 bool any_limit(std::span<const record::Characteristic> characteristics,
@@ -506,16 +508,15 @@ std::optional<core::Phrase> form_in_motion(const SpindleResult& result, double v
   fit::FilterOptions none;
   none.filter = fit::ProfileFilter::kNone;
   constexpr double kGain = 2.0;  // of a motion over form that is not taken out
-  const double form_mm = kGain * beyond_mm(result, none, false);
+  const double form_mm = beyond_mm(result, none, false);
   const bool may_conform = asked.tolerance_mm && value_mm > *asked.tolerance_mm &&
-                           value_mm - form_mm <= *asked.tolerance_mm;
+                           value_mm - kGain * form_mm <= *asked.tolerance_mm;
   if (!may_conform) return std::nullopt;
   const int highest = result.separation.harmonics.back().order;
   return phrase(
       "the readings hold undulations above {} of up to {:.3g} um, which may be form of the part "
-      "and "
-      "are counted as motion: raise highest_order to {}",
-      highest, micrometres(form_mm) / kGain, 2 * highest);
+      "and are counted as motion: raise highest_order to {}",
+      highest, micrometres(form_mm), 2 * highest);
 }
 
 std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
@@ -553,18 +554,17 @@ std::optional<core::Phrase> beyond_the_band(const SpindleResult& result,
 
 std::optional<core::Phrase> drift_because(const SpindleResult& result,
                                           const record::Characteristic& asked) {
-  const double drift_mm = greatest_drift_mm(result, asked.form);
-  if (!asked.tolerance_mm || drift_mm <= kDriftShare * *asked.tolerance_mm) return std::nullopt;
+  const double found_mm = drift_mm(result, asked.form);
+  if (!asked.tolerance_mm || found_mm <= kDriftShare * *asked.tolerance_mm) return std::nullopt;
   if (result.influences && result.influences->drift_um_per_turn) {
     const double declared_um = record::u_of(result.influences->drift_um_per_turn);
-    const double a_turn_mm = greatest_drift_mm(result, Form::kMotionSynchronous);
-    if (micrometres(a_turn_mm) <= kSeenDrift * declared_um) return std::nullopt;
+    if (micrometres(drift_a_turn_mm(result)) <= kSeenDrift * declared_um) return std::nullopt;
   }
   return phrase(
       "a probe drifts by {:.3g} um meanwhile, more than a tenth of the tolerance of {:g} um, and "
       "motion holds it: let spindle and probes warm up and measure again, or declare "
       "drift_um_per_turn",
-      micrometres(drift_mm), micrometres(*asked.tolerance_mm));
+      micrometres(found_mm), micrometres(*asked.tolerance_mm));
 }
 
 std::optional<core::Phrase> blind_on_an_arm(const SpindleResult& result) {

@@ -129,8 +129,9 @@ core::Result<AnalysisValue> roundness(const WheelResult& facts,
   } else {
     return core::fail(core::Code::kNotConverged, core::phrase("there is no minimum zone"));
   }
-  out.unseen_mm = between_points(facts, characteristic.form).loss_mm.value_or(0.0);
-  if (auto reason = unseen_because(facts, characteristic)) {
+  const BetweenPoints between = between_points(facts, characteristic.form);
+  out.unseen_mm = between.loss_mm.value_or(0.0);
+  if (auto reason = unseen_because(facts, between, characteristic)) {
     out.void_because = *std::move(reason);
     // The zone of some points is never wider than that of all, nor than their least-squares one.
     const bool proven = m.zone && m.zone->certificate.kind == fit::Certificate::Kind::kGlobal;
@@ -171,7 +172,8 @@ void bound_runout(std::span<const record::Characteristic> characteristics, Wheel
   if (!runout) return;
   for (const record::Characteristic& asked : characteristics) {
     if (asked.form != record::Form::kRunOut || !runout->bound_because.empty()) continue;
-    if (auto reason = unseen_because(facts, asked)) runout->bound_because = *std::move(reason);
+    auto reason = unseen_because(facts, between_points(facts, asked.form), asked);
+    if (reason) runout->bound_because = *std::move(reason);
   }
   fit::WheelEvaluation& e = facts.evaluation;
   if (runout->bound_because.empty() || !e.path || e.radius != fit::RadiusChoice::kEffective) return;
@@ -209,8 +211,9 @@ core::Result<AnalysisValue> value_of(const WheelResult& facts,
   if (!m.runout) return core::fail(core::Code::kNoAxis, m.runout_absent);
   AnalysisValue out;
   out.value_mm = m.runout->fim_mm;
-  out.unseen_mm = between_points(facts, characteristic.form).loss_mm.value_or(0.0);
-  if (auto reason = unseen_because(facts, characteristic)) {
+  const BetweenPoints between = between_points(facts, characteristic.form);
+  out.unseen_mm = between.loss_mm.value_or(0.0);
+  if (auto reason = unseen_because(facts, between, characteristic)) {
     out.void_because = *std::move(reason);
     out.lower_bound = true;
   }

@@ -40,15 +40,15 @@ Gate gap_gate(const fit::WheelMeasurement& m) {
 }
 
 Gate loss_gate(const WheelResult& facts, const record::Characteristic& asked) {
-  const auto loss_mm = between_points(facts, asked.form).loss_mm;
+  const BetweenPoints between = between_points(facts, asked.form);
   Gate out = gate("loss-between-points",
                   asked.form == record::Form::kRunOut
                       ? core::phrase("most that run-out can lose between the points")
                       : core::phrase("most that roundness can lose between the points"),
                   std::nullopt, std::nullopt, "um");
-  if (loss_mm) out.found = core::micrometres(*loss_mm);
+  if (between.loss_mm) out.found = core::micrometres(*between.loss_mm);
   if (asked.tolerance_mm) out.limit = core::micrometres(kLossShare * *asked.tolerance_mm);
-  if (auto reason = unseen_because(facts, asked)) {
+  if (auto reason = unseen_because(facts, between, asked)) {
     out.outcome = Outcome::kBounds;
     out.reason = *std::move(reason);
   }
@@ -160,11 +160,10 @@ BetweenPoints between_points(const WheelResult& facts, record::Form form) {
   return out;
 }
 
-std::optional<core::Phrase> unseen_because(const WheelResult& facts,
+std::optional<core::Phrase> unseen_because(const WheelResult& facts, const BetweenPoints& found,
                                            const record::Characteristic& characteristic) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   if (characteristic.form == record::Form::kRadius) return std::nullopt;
-  const BetweenPoints found = between_points(facts, characteristic.form);
   if (!m.sees_whole_turn()) {
     return core::phrase(
         "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "

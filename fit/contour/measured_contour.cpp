@@ -57,18 +57,18 @@ core::Result<void> check_order(std::span<const double> angle) {
   double turned = 0.0;
   for (std::size_t i = 1; i < angle.size(); ++i) {
     const double step = std::remainder(angle[i] - angle[i - 1], core::kTwoPi);
-    turned += std::abs(step);
-    if (step * sense > 0.0 && turned <= core::kTwoPi + kLargestGap) continue;
-    if (step * sense > 0.0) {
+    if (!(step * sense > 0.0)) {
       return core::fail_with(core::Code::kAngleOrder,
-                             "the angles go on at row {}, where a turn is complete; a contour is "
-                             "one turn of one part: give each a file of its own",
-                             i);
+                             "the angle stands still or goes back at row {}, by {:.4g} deg; a "
+                             "contour runs one way round",
+                             i, std::abs(step) / core::kDegree);
     }
+    turned += std::abs(step);
+    if (turned <= core::kTwoPi + kLargestGap) continue;
     return core::fail_with(core::Code::kAngleOrder,
-                           "the angle stands still or goes back at row {}, by {:.4g} deg; a "
-                           "contour runs one way round",
-                           i, std::abs(step) / core::kDegree);
+                           "the angles go on at row {}, where a turn is complete; a contour is "
+                           "one turn of one part: give each a file of its own",
+                           i);
   }
   return {};
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <unordered_map>
@@ -258,13 +257,6 @@ void take_unit(std::string_view line, Cloud& head) {
 std::optional<std::size_t> axis_named(std::string_view name) {
   const bool known = name.size() == 1 && name[0] >= 'x' && name[0] <= 'z';
   return known ? std::optional(static_cast<std::size_t>(name[0] - 'x')) : std::nullopt;
-}
-
-std::optional<std::size_t> count_of(std::string_view word) {
-  std::size_t out = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, problem] = std::from_chars(word.data(), end, out);
-  return problem == std::errc() && stop == end ? std::optional(out) : std::nullopt;
 }
 
 core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {

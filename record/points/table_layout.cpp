@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -143,11 +142,7 @@ class Finder {
   /// The number of rows that a line states above them.
   static std::optional<std::size_t> announced_by(std::string_view line) {
     const Cells fields = fields_of(line, ' ');
-    std::size_t count = 0;
-    const char* const end = fields[0].data() + fields[0].size();
-    const auto [stop, problem] = std::from_chars(fields[0].data(), end, count);
-    return fields.size() == 1 && problem == std::errc() && stop == end ? std::optional(count)
-                                                                       : std::nullopt;
+    return fields.size() == 1 ? count_of(fields[0]) : std::nullopt;
   }
 
   /// What the lines above the rows state: the unit, unless it contradicts another one, or is the

@@ -273,18 +273,12 @@ class RowReader {
                    {}},
                   name_, std::max<std::size_t>(lines.number, 1)));
     }
-    if (layout_.announced && *layout_.announced != all) {
+    const auto announced = layout_.announced ? layout_.announced : layout_.at_least;
+    if (layout_.announced ? *announced != all : announced > all) {
       return core::fail(at_line(
-          syntax_error(fmt::format("the line above the rows announces {} of them, {} follow: is "
-                                   "the file cut off?",
-                                   *layout_.announced, all)),
-          name_, lines.number));
-    }
-    if (layout_.at_least > all) {
-      return core::fail(at_line(
-          syntax_error(fmt::format("a line above the rows speaks of {} points, {} follow: is the "
+          syntax_error(fmt::format("a line above the rows announces {} of them, {} follow: is the "
                                    "file cut off?",
-                                   *layout_.at_least, all)),
+                                   *announced, all)),
           name_, lines.number));
     }
     if (table_.rows.empty()) {

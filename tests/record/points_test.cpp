@@ -504,7 +504,7 @@ TEST(PointsText, RefusesFewerPointsThanTheTextAboveSpeaksOf) {
     SCOPED_TRACE(line);
     const auto cut = read_points(fmt::format("{}\nx;y\n1;2\n3;4\n", line), "pin.csv");
     ASSERT_FALSE(cut);
-    EXPECT_THAT(cut.error().what, HasSubstr("speaks of 3 points, 2 follow: is the file cut off?"));
+    EXPECT_THAT(cut.error().what, HasSubstr("announces 3 of them, 2 follow: is the file cut off?"));
     EXPECT_TRUE(read_points(fmt::format("{}\nx;y\n1;2\n3;4\n5;6\n7;8\n", line), "pin.csv"));
   }
   EXPECT_TRUE(read_points("Points per layer: 36\nx;y\n1;2\n3;4\n", "pin.csv"));

@@ -24,9 +24,8 @@ constexpr double kShareOfTolerance = 0.5;
 constexpr double kTimesPointError = 10.0;  // where there is no tolerance
 constexpr double kLeastForm_mm = 1e-3;     // where there is no error either
 constexpr int kScalingParts = 32;
-constexpr int kScalingFound = 8;            // of values that take longer
-constexpr double kUnit_mm = 0.01;           // of deviations before they are scaled
-constexpr double kRangeOf25Touches = 3.93;  // mean range of 25 normal values (influences.h)
+constexpr int kScalingFound = 8;   // of values that take longer
+constexpr double kUnit_mm = 0.01;  // of deviations before they are scaled
 
 /// Fits again what the trials take of a surface whose points were moved.
 void fit_again(const std::vector<std::size_t>& rows, FeatureResult& surface) {

@@ -34,10 +34,8 @@ fixture::CalibrationDemand demand_of(const record::RunRecord& record,
 
 void make_void(const core::Phrase& reason, FeatureResult& result) {
   for (CharacteristicResult& characteristic : result.characteristics) {
-    characteristic.verdict = Verdict::kVoid;
+    overrule(characteristic, Verdict::kVoid);
     characteristic.reason = reason;
-    characteristic.outcome.reset();
-    characteristic.risks.reset();
   }
 }
 

@@ -26,8 +26,10 @@ struct BetweenPoints {
 
 /// Why run-out or roundness is only a lower bound: a gap above fit::kWidestGap, points that
 /// do not hold the lobes that matter, or a loss between the points above a tenth of the tolerance.
+/// @param found  As of between_points().
 [[nodiscard]] std::optional<core::Phrase> unseen_because(
-    const WheelResult& facts, const record::Characteristic& characteristic);
+    const WheelResult& facts, const BetweenPoints& found,
+    const record::Characteristic& characteristic);
 
 /// Whether R - R_nom is judged with its sign, between two limits, instead of its amount.
 [[nodiscard]] bool has_signed_limits(const record::Characteristic& characteristic);

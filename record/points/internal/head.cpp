@@ -340,14 +340,17 @@ std::size_t filled_fields(const std::vector<std::string_view>& fields) {
   return out;
 }
 
+std::optional<std::size_t> count_of(std::string_view word) {
+  std::size_t out = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, problem] = std::from_chars(word.data(), end, out);
+  return problem == std::errc() && stop == end ? std::optional(out) : std::nullopt;
+}
+
 std::optional<std::size_t> place_of_column(std::string_view column) {
-  std::size_t number = 0;
-  const char* const end = column.data() + column.size();
-  const auto [stop, problem] = std::from_chars(column.data(), end, number);
-  if (problem != std::errc() || stop != end || number < 1 || number > kMostFields) {
-    return std::nullopt;
-  }
-  return number - 1;
+  const auto number = count_of(column);
+  if (!number || *number < 1 || *number > kMostFields) return std::nullopt;
+  return *number - 1;
 }
 
 std::optional<Head> head_of(const std::vector<std::string_view>& fields,
@@ -468,19 +471,15 @@ core::Error doubtful_unit(std::string_view line) {
 std::optional<std::size_t> points_in_text(std::string_view line) {
   NameWords words = words_in(line);
   if (words.size() < 2) return std::nullopt;
-  std::size_t count = 0;
-  const std::string last = std::move(words.back());
+  const auto count = count_of(words.back());
   words.pop_back();
-  const char* const end = last.data() + last.size();
-  const auto [stop, problem] = std::from_chars(last.data(), end, count);
   const auto speaks_of_points = [](std::string_view word) { return is_one_of(kPointWords, word); };
   const auto counts = [&](std::string_view word) {
     return speaks_of_points(word) || is_one_of(kCountWords, word);
   };
-  const bool stated = problem == std::errc() && stop == end &&
-                      std::ranges::any_of(words, speaks_of_points) &&
-                      std::ranges::all_of(words, counts);
-  return stated ? std::optional(count) : std::nullopt;
+  const bool stated =
+      std::ranges::any_of(words, speaks_of_points) && std::ranges::all_of(words, counts);
+  return stated ? count : std::nullopt;
 }
 
 std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields) {

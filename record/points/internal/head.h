@@ -73,6 +73,8 @@ struct Head {
 /// The unit of a row that holds nothing but units.
 [[nodiscard]] std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields);
 
+/// A word that is a whole number, or nothing.
+[[nodiscard]] std::optional<std::size_t> count_of(std::string_view word);
 /// The place, from 0, that a column named by a number has.
 [[nodiscard]] std::optional<std::size_t> place_of_column(std::string_view column);
 
