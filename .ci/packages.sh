@@ -105,7 +105,9 @@ build() {
     }
   fi
   local start=$SECONDS
-  if ! NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" --target "$@" 2>&1 | tee -a "$log" |
+  # Huge pages for the compiler: 1 to 5 % of its time.
+  if ! GLIBC_TUNABLES=glibc.malloc.hugetlb=1 NINJA_STATUS='[%f/%t] ' \
+    cmake --build --preset "$preset" --target "$@" 2>&1 | tee -a "$log" |
     sed -un '/Re-running CMake/d; s,^\[\([0-9]*\)/\([0-9]*\)\] .*,\1 \2,p' | build_progress "$preset" "$start" |
     show_progress; then
     echo "The build failed. The first error:" >&2

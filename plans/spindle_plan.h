@@ -29,6 +29,8 @@ struct SimulatedSpindlePlan {
   double probe_noise_um = 0.0;
   std::array<double, 3> probe_offset_um = {0.0, 0.0, 0.0};
   std::array<double, 3> probe_gain_error = {0.0, 0.0, 0.0};  ///< Relative error of the gain.
+  /// Distance at which the line of each probe passes the axis; acts with a pin radius.
+  std::array<double, 3> line_error_um = {0.0, 0.0, 0.0};
   double p2_error_deg = 0.0;  ///< Real minus stated angle of P2; the next member, of P3.
   double p3_error_deg = 0.0;
 };
@@ -61,6 +63,10 @@ void describe(Visitor& v, SimulatedSpindlePlan& p) {
   v.numbers("probe_offset_um", p.probe_offset_um, within(10'000.0, "Zero error of each probe."));
   v.numbers("probe_gain_error", p.probe_gain_error,
             within(0.5, "Relative error of each probe's gain."));
+  v.numbers("line_error_um", p.line_error_um,
+            within(10'000.0,
+                   "Distance at which the line of each probe passes the axis; acts with "
+                   "spindle.pin_radius_mm."));
   v.number("p2_error_deg", p.p2_error_deg, within(360.0, "Real minus stated place of probe 2."));
   v.number("p3_error_deg", p.p3_error_deg, within(360.0, "Real minus stated place of probe 3."));
 }

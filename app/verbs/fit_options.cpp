@@ -164,6 +164,10 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
   save->type_name("FILE");
   verb->add_option("--tolerance-um", arguments.tolerance_um,
                    "Limit of the form (with --out or --save-plan)");
+  verb->add_option("--part", arguments.part,
+                   "Number of the part (default: the name of the file; with --out or --save-plan)");
+  verb->add_option("--drawing", arguments.drawing,
+                   "Its drawing with the issue (with --out or --save-plan)");
   verb->add_option("--serial", arguments.serial, "Serial number of the part (with --out)");
   verb->add_option("--operator", arguments.operator_name, "Who measures (with --out)");
   verb->footer(
@@ -184,11 +188,13 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
       if (verb->count(written) > 0 && place->empty())
         throw CLI::ValidationError(written, "is empty; name a place, or leave it out");
     }
-    for (const char* of_page : {"--tolerance-um", "--serial", "--operator"}) {
-      const bool of_plan =
-          std::string_view(of_page) == "--tolerance-um" && !arguments.save_plan.empty();
-      if (verb->count(of_page) > 0 && arguments.out.empty() && !of_plan)
-        throw CLI::RequiresError(of_page, "--out");
+    for (const auto& [of_page, of_plan] :
+         {std::pair("--tolerance-um", true), std::pair("--part", true),
+          std::pair("--drawing", true), std::pair("--serial", false),
+          std::pair("--operator", false)}) {
+      const bool planned = of_plan && !arguments.save_plan.empty();
+      if (verb->count(of_page) > 0 && arguments.out.empty() && !planned)
+        throw CLI::RequiresError(of_page, of_plan ? "--out or --save-plan" : "--out");
     }
     check_fit(arguments);
   });
@@ -199,6 +205,11 @@ void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
       "roundness", "Filters one section and gives RONt, RONp, RONv, RONq and harmonics");
   verb->add_option("FILE", arguments.file, "CSV with the columns theta_deg,r_um or x,y (mm)")
       ->required();
+  add_list(*verb, "--columns", arguments.points.columns,
+           "Columns of x and y: numbers from 1, or names in the head line", "X,Y")
+      ->expected(2);
+  add_words<record::LengthUnit>(*verb, "--unit", arguments.points.unit,
+                                "Unit of x and y (default: as the head says, otherwise mm)");
   add_list(*verb, "--cutoff-upr", arguments.cutoff_upr,
            "Cut-off in undulations per revolution (default: 50); LO,HI for a band", "N[,N]");
   verb->add_option("--filter", arguments.filter, "gaussian (default), 2rc, robust, spline or none")

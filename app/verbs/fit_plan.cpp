@@ -53,13 +53,16 @@ std::string plan_text(const FitArguments& arguments, const fs::path& folder) {
     asked["id"] = fmt::format("{} {:g}", facts.symbol, *arguments.tolerance_um);
     asked["tolerance_um"] = *arguments.tolerance_um;
   }
-  const std::string part = fs::path(arguments.file).stem().string();
+  const std::string part =
+      arguments.part.empty() ? fs::path(arguments.file).stem().string() : arguments.part;
   Json feature = {{"id", arguments.shape}, {"type", arguments.shape}};
   if (arguments.inside) feature["side"] = "inside";
   feature["source"] = source_of(arguments, folder);
   feature["characteristics"] = Json::array({std::move(asked)});
+  Json of_part = {{"id", part}};
+  if (!arguments.drawing.empty()) of_part["drawing"] = arguments.drawing;
   const Json plan = {{"plan", {{"name", arguments.shape + " of " + part}, {"revision", "1"}}},
-                     {"part", {{"id", part}}},
+                     {"part", std::move(of_part)},
                      {"features", Json::array({std::move(feature)})}};
   return plan.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -147,6 +147,10 @@ core::Result<std::string> write_signature(const SignArguments& arguments) {
   TRY(const auto sums, record::read_inside(directory, record::kChecksumsName));
   const auto signature = record::sign(sums, key);
   if (!signature) return core::fail(signature.error().at(arguments.key));
+  const auto before = record::read_inside(directory, record::kSignatureName);
+  if (before && *before != signature->bytes) {
+    tell("rondure: note: this replaces a signature, of another key or of other files\n");
+  }
   TRY_DO(record::write_file(directory / record::kSignatureName, signature->bytes));
   return signature->key_sha256;
 }

@@ -15,6 +15,7 @@
 #include "app/verbs/verbs.h"
 #include "core/numbers.h"
 #include "core/result.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "fit/rotary/axes.h"
 #include "fit/rotary/errors.h"
@@ -434,6 +435,14 @@ core::Result<std::vector<RotaryAxisResult>> identify(const RotaryAxesArguments& 
     declare(arguments, axis.measurement);
     auto study = fit::identify_rotary_axis(axis.measurement, options_of(arguments));
     if (!study) return core::fail(study.error().at(fmt::format("axis {}", axis.name)));
+    const double chi2 = study->s0 * study->s0 * study->dof;
+    if (study->dof > 0 && chi2 < core::chi_square_quantile(0.001, study->dof)) {
+      study->warnings.push_back(
+          {Code::kUnits, fmt::format("the balls agree better than their uncertainty allows (s0 "
+                                     "{:.3f}, 1 is expected): are the centres in mm, and is the "
+                                     "uncertainty of a centre right?",
+                                     study->s0)});
+    }
     RotaryAxisResult result;
     result.name = axis.name;
     result.method = arguments.method;

@@ -223,9 +223,10 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
   return out;
 }
 
-core::Result<record::ProfileTable> load_profile(const std::string& file) {
-  TRY(const auto bytes, record::read_file(file, record::kMostPointsBytes));
-  return record::read_profile(bytes, std::filesystem::path(file).filename().string());
+core::Result<record::ProfileTable> load_profile(const RoundnessArguments& arguments) {
+  TRY(const auto bytes, record::read_file(arguments.file, record::kMostPointsBytes));
+  return record::read_profile(bytes, std::filesystem::path(arguments.file).filename().string(),
+                              arguments.points);
 }
 
 /// Refuses angles that fill one turn in radians and nothing in degrees.
@@ -286,7 +287,7 @@ core::Result<fit::RoundnessEvaluation> evaluate_points(const record::ProfileTabl
 int roundness(const RoundnessArguments& arguments) {
   const auto options = options_of(arguments);
   if (!options) return refuse(options.error());
-  const auto table = load_profile(arguments.file);
+  const auto table = load_profile(arguments);
   if (!table) return refuse(table.error());
   const auto out =
       table->polar ? evaluate_polar(*table, *options) : evaluate_points(*table, *options);

@@ -64,8 +64,12 @@ void say_undeclared(const plans::Plan& plan) {
   }
   if (!surfaces) return;
   if (!plan.uncertainty) return say_line("uncertainty: not declared, no value has an interval");
-  say_undeclared("uncertainty", evaluation::undeclared_influences(
-                                    *plan.uncertainty, plan.part.expansion_per_K, repeated));
+  auto names =
+      evaluation::undeclared_influences(*plan.uncertainty, plan.part.expansion_per_K, repeated);
+  if (!plan.fixture || plans::is_fixed(plan)) {  // as the run, which says nothing of a fixture then
+    std::erase_if(names, [](const std::string& name) { return name.starts_with("fixture-"); });
+  }
+  say_undeclared("uncertainty", names);
 }
 
 }  // namespace

@@ -120,6 +120,8 @@ struct FitArguments {
   std::string out;                     ///< Run directory; empty: no run.
   std::string save_plan;               ///< File for the plan; empty: none.
   std::optional<double> tolerance_um;  ///< Of the form; none: the value is reported, not judged.
+  std::string part;                    ///< Empty: the name of the file.
+  std::string drawing;
   std::string serial;
   std::string operator_name;
 };
@@ -133,6 +135,7 @@ struct FitArguments {
 
 struct RoundnessArguments {
   std::string file;
+  record::PointsOptions points;
   std::string filter = "gaussian";
   std::string pass = "low";
   std::string reference = "all";

@@ -282,6 +282,7 @@ core::Result<FiveAxisResult> evaluate_five_axis(const record::RunRecord& record,
   }
   for (Gate& gate : head_gates(facts)) result.gates.push_back(std::move(gate));
   facts.withheld = voided_by(result.gates);
+  result.warnings = facts.study.warnings;
   for (const AxisFacts& axis : axes_of(facts)) {
     for (const core::Error& warning : axis.study->warnings) {
       result.warnings.push_back(

@@ -356,14 +356,16 @@ void agree_about_datum(const core::Result<DecisionRule>& rule, const Finding& fo
   if (other.verdict == out.verdict) return;
   double play_mm = 0.0;
   for (const DatumResult& datum : found.datums) play_mm = std::max(play_mm, datum.play_mm);
+  const Verdict one_sided = out.verdict;
   overrule(out, Verdict::kUndecided);
   out.reason = core::phrase(
-      "the datum rocks by {:.1f} um: {} {} about the one-sided, {} {} about the equalised datum, "
-      "and the limit lies between; support the datum at both ends, or plan the association that "
-      "the drawing means",
+      "the datum rocks by {:.1f} um: {} {} about the one-sided datum ({}), {} {} about the "
+      "equalised one ({}); support the datum at both ends, or plan the association that the "
+      "drawing means",
       micrometres(play_mm), out.value.in_digits(out.value.value_mm()),
-      core::name_of(out.value.unit()), out.value.in_digits(other_mm),
-      core::name_of(out.value.unit()));
+      core::name_of(out.value.unit()), core::Phrase(std::string(name_of(one_sided))),
+      out.value.in_digits(other_mm), core::name_of(out.value.unit()),
+      core::Phrase(std::string(name_of(other.verdict))));
 }
 
 /// Under JCGM 106 several conditions must hold together with the probability that the rule asks.
@@ -416,6 +418,7 @@ void judge_found(const Circumstances& by, const FeatureResult& result, FoundChar
     }
     judge_value(by.rule, value.limits, judged);
     agree_about_datum(by.rule, *finding, i, judged);
+    out.judged.push_back(judged.value);
     if (!leans && !found.about_nominal_mm.empty())
       leans = lean_fault(result, judged.value, value, asked, found.about_nominal_mm[i]);
     const int more = worst ? severity(judged.verdict) - severity(worst->verdict) : 1;
@@ -457,7 +460,7 @@ double as_value(const FeatureResult& result, const StatedValue& value, double le
 }
 
 /// An interval that is narrower than the probing form that the run itself showed counts only what
-/// was declared: where no probing form is declared, no verdict rests on it.
+/// was declared: where no probing form is declared, or much less of it, no verdict rests on it.
 void hold_against_probe(const Circumstances& by, const FeatureResult& result,
                         CharacteristicResult& out) {
   const bool decided = out.verdict == Verdict::kConforms || out.verdict == Verdict::kDoesNotConform;
@@ -475,10 +478,10 @@ void hold_against_probe(const Circumstances& by, const FeatureResult& result,
   // Rounded up, so that what is pasted is not below what was seen.
   const double limit_um = std::ceil(100.0 * micrometres(span_mm)) / 100.0;
   out.reason = core::phrase(
-      "the qualification of this run shows a probing form of {:.3f} um, the plan declares none, "
-      "and "
-      "the interval, U = {} {}, leaves no room for it: neither verdict is proven; declare {} in "
-      "place of repeatability_um, or the lobes of the probe",
+      "the qualification of this run shows a probing form of {:.3f} um, of which the plan declares "
+      "nothing or less than two thirds, and the interval, U = {} {}, leaves no room for it: "
+      "neither "
+      "verdict is proven; declare {} in place of repeatability_um, or the lobes of the probe",
       micrometres(span_mm), core::um(known->expanded_mm()),
       core::name_of(core::unit_of_difference(out.value->unit())),
       core::as_it_is(

@@ -198,12 +198,7 @@ core::Result<std::vector<fit::LocalSize>> profile_sizes(const fit::ResampledProf
   const auto highest = static_cast<int>((profile.profile.r_mm.size() - 1) / 2);
   TRY(const auto table,
       fit::harmonics(profile.profile, {.highest = highest, .override_sampling = true}));
-  fit::UniformProfile series;
-  for (std::size_t i = 0; i < kSeries; ++i) {
-    series.r_mm.push_back(
-        fit::value_at(table, core::kTwoPi * static_cast<double>(i) / double{kSeries}));
-  }
-  return fit::two_point_sizes(series, material);
+  return fit::two_point_sizes(fit::profile_of(table, kSeries), material);
 }
 
 core::Error no_pairs(const PreparedSurface& surface, const SurfaceSection& section) {

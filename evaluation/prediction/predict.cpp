@@ -382,7 +382,11 @@ std::vector<std::string> undeclared_influences(const record::UncertaintyTask& sa
   const auto declared = declared_for(run, feature, std::nullopt);
   if (!declared) return out;
   for (const InfluenceStatement& line : influence_statements(declared->influences)) {
-    if (!line.covered && line.text == core::phrase("not declared")) out.push_back(line.name);
+    // Declared without the expansion that they need.
+    const bool idle = line.name.starts_with("temperature") && said.thermal;
+    if (!line.covered && (idle || line.text == core::phrase("not declared"))) {
+      out.push_back(line.name);
+    }
   }
   return out;
 }

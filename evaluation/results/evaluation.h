@@ -92,6 +92,8 @@ struct CharacteristicResult {
   std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
   /// How find() came to the value; null for values of other origin.
   std::shared_ptr<const Finding> finding = {};
+  /// Each value that `finding` judged, as stated; `value` is the one that decides.
+  std::vector<StatedValue> judged = {};
   /// What each judged value, or the value, is without errors of measurement at the same touches;
   /// only of a simulation.
   std::vector<double> truths_mm = {};

@@ -84,13 +84,21 @@ core::Result<void> check_fixture(const FixtureInfluences& fixture) {
                        false);
 }
 
+constexpr double kContradicted = 1.5;
+
+core::Phrase taken_as_zero() { return core::phrase("taken as zero"); }
+
 /// Writes the declaration, one line per influence.
 class Declaration {
  public:
   void group(bool declared) { declared_ = declared; }
 
-  void line(std::string name, const core::Phrase& text) {
-    lines.push_back({std::move(name), declared_, declared_ ? text : core::phrase("not declared")});
+  /// @param zero  All its numbers are 0.
+  void line(std::string name, const core::Phrase& text, bool zero = false) {
+    lines.push_back({std::move(name), declared_,
+                     !declared_ ? core::phrase("not declared")
+                     : zero     ? taken_as_zero()
+                                : text});
   }
 
   /// One of two ways to say the same: without a number it is not declared.
@@ -109,6 +117,14 @@ class Declaration {
  private:
   bool declared_ = false;
 };
+
+/// How far the declared probing form may spread over some 25 touches of a sphere.
+double declared_span_mm(const ProbeInfluences& probe) {
+  double lobes_mm = 0.0;
+  for (const cmm::PretravelLobe& lobe : probe.lobes) lobes_mm += lobe.amplitude_mm;
+  return probe.form_limit_mm > 0.0 ? probe.form_limit_mm
+                                   : 2.0 * lobes_mm + 3.93 * probe.repeatability_mm;
+}
 
 void say_probe(const Influences& influences, Declaration& out) {
   const ProbeInfluences probe = influences.probe.value_or(ProbeInfluences{});
@@ -134,22 +150,35 @@ void say_probe(const Influences& influences, Declaration& out) {
         core::phrase("{} lobes of amplitude {:.4g} um", lobe.order, kUm * lobe.amplitude_mm);
     lobes = lobes.empty() ? one : core::phrase("{}, {}", lobes, one);
   }
-  out.limit("probe-lobing", limited || !lobes.empty(),
-            limited ? contained : core::phrase("{}, phase unknown, uniform", lobes));
   const auto& span_mm = influences.probing_span_mm;
+  // A form declared as much less than what the run saw of it is no declaration.
+  const bool contradicted = span_mm && *span_mm > kContradicted * declared_span_mm(probe);
+  const core::Phrase seen =
+      !span_mm ? core::phrase("not declared")
+      : contradicted && (limited || !lobes.empty())
+          ? core::phrase(
+                "declared are {:.3f} um, the qualification of this run shows a probing "
+                "form of {:.3f} um",
+                kUm * declared_span_mm(probe), kUm * *span_mm)
+          : core::phrase(
+                "not declared; the qualification of this run shows a probing form of "
+                "{:.3f} um",
+                kUm * *span_mm);
+  out.limit("probe-lobing", (limited || !lobes.empty()) && !contradicted,
+            limited ? contained : core::phrase("{}, phase unknown, uniform", lobes),
+            contradicted ? seen : core::phrase("not declared"));
   // Repeatability and lobes state the same form in two parts.
   const bool in_parts = probe.repeatability_known && !probe.lobes.empty();
-  out.limit("probing-form-limit", limited || in_parts,
+  out.limit("probing-form-limit", (limited || in_parts) && !contradicted,
             limited ? core::phrase("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation "
                                    "P / 3.93",
                                    kUm * probe.form_limit_mm)
                     : core::phrase("declared as repeatability and lobes"),
-            span_mm ? core::phrase("not declared; the qualification of this run shows a probing "
-                                   "form of {:.3f} um",
-                                   kUm * *span_mm)
-                    : core::phrase("not declared"));
-  out.line("tip-qualification", core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
-                                             kUm * probe.tip_radius_mm));
+            seen);
+  out.line("tip-qualification",
+           core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
+                        kUm * probe.tip_radius_mm),
+           probe.tip_radius_mm == 0.0);
   if (probe.reference_sphere_mm > 0.0) {
     out.line("reference-sphere",
              core::phrase("radius {:.4g} um, normal; shifts radii, not the form",
@@ -177,30 +206,40 @@ void say_machine(const std::optional<MachineInfluences>& declared, Declaration& 
       rotation = rotation || says(machine.terms.axes[axis].rotation[i]);
     }
   }
-  const auto said = [&](bool any, const char* names) {
-    return any ? core::phrase("{} ({})", terms, names) : core::phrase("declared as zero");
-  };
-  out.line("machine-position", said(position, "EXX, EYY, EZZ"));
-  out.line("machine-straightness", said(straightness, "EYX ... EYZ"));
-  out.line("machine-rotation", said(rotation, "EAX ... ECZ"));
+  out.line("machine-position", core::phrase("{} ({})", terms, "EXX, EYY, EZZ"), !position);
+  out.line("machine-straightness", core::phrase("{} ({})", terms, "EYX ... EYZ"), !straightness);
+  out.line("machine-rotation", core::phrase("{} ({})", terms, "EAX ... ECZ"), !rotation);
+  const auto& square = machine.terms;
+  const bool is_square = square.squareness_xy_rad == 0.0 && square.squareness_xz_rad == 0.0 &&
+                         square.squareness_yz_rad == 0.0;
   out.line("machine-squareness",
            core::phrase("standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
-                        1e6 * std::abs(machine.terms.squareness_xy_rad),
-                        1e6 * std::abs(machine.terms.squareness_xz_rad),
-                        1e6 * std::abs(machine.terms.squareness_yz_rad)));
-  out.limit("machine-length-limit", machine.length_limit_mm + machine.length_limit_slope > 0.0,
-            core::phrase("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
-                         kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope));
+                        1e6 * std::abs(square.squareness_xy_rad),
+                        1e6 * std::abs(square.squareness_xz_rad),
+                        1e6 * std::abs(square.squareness_yz_rad)),
+           is_square);
+  // Errors of the axes state the same lengths in parts.
+  const bool limited = machine.length_limit_mm + machine.length_limit_slope > 0.0;
+  out.limit("machine-length-limit", limited || (position && !is_square),
+            limited ? core::phrase("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
+                                   kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope)
+                    : core::phrase("declared as errors of the axes"));
 }
 
 void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& out) {
   const ThermalInfluences thermal = declared.value_or(ThermalInfluences{});
   out.group(declared.has_value());
-  out.line(
-      "temperature",
-      core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; shifts radii, "
-                   "not the form",
-                   thermal.temperature_K, thermal.expansion_uncertainty_1_K));
+  if (declared && thermal.expansion_1_K == 0.0) {
+    out.never("temperature", core::phrase("no expansion of the part is stated; shifts "
+                                          "radii, not the form"));
+  } else {
+    out.line(
+        "temperature",
+        core::phrase("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; shifts radii, "
+                     "not the form",
+                     thermal.temperature_K, thermal.expansion_uncertainty_1_K),
+        thermal.temperature_K == 0.0 && thermal.expansion_uncertainty_1_K == 0.0);
+  }
   if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
     out.never("temperature-drift",
               core::phrase("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",
@@ -208,13 +247,15 @@ void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& 
   } else {
     out.line("temperature-drift",
              core::phrase("at most {:.4g} K from the first to the last touch, rectangular",
-                          thermal.drift_K));
+                          thermal.drift_K),
+             thermal.drift_K == 0.0);
   }
   out.line("machine-drift",
            core::phrase("at most {:.4g}, {:.4g}, {:.4g} um from the first to the last touch, "
                         "rectangular",
                         kUm * thermal.machine_drift_mm.x(), kUm * thermal.machine_drift_mm.y(),
-                        kUm * thermal.machine_drift_mm.z()));
+                        kUm * thermal.machine_drift_mm.z()),
+           thermal.machine_drift_mm.isZero(0.0));
 }
 
 void say_fixture(const std::optional<FixtureInfluences>& declared, Declaration& out) {
@@ -223,10 +264,12 @@ void say_fixture(const std::optional<FixtureInfluences>& declared, Declaration& 
   out.line(
       "fixture-calibration",
       core::phrase("pose {:.4g} urad, {:.4g} um, normal, each pose anew; one pose moves no form",
-                   1e6 * fixture.angle_rad, kUm * fixture.position_mm));
+                   1e6 * fixture.angle_rad, kUm * fixture.position_mm),
+      fixture.angle_rad == 0.0 && fixture.position_mm == 0.0);
   out.line("fixture-creep",
            core::phrase("at most {:.4g} urad from the first to the last touch, rectangular",
-                        1e6 * fixture.creep_rad));
+                        1e6 * fixture.creep_rad),
+           fixture.creep_rad == 0.0);
 }
 
 void say_calibration(const std::optional<CalibrationInfluences>& used, Declaration& out) {
@@ -308,6 +351,8 @@ std::vector<InfluenceStatement> influence_statements(const Influences& influence
             core::phrase("round-off; held by the certificates of the fits, not by this interval"));
   return std::move(out.lines);
 }
+
+bool is_taken_as_zero(const InfluenceStatement& line) { return line.text == taken_as_zero(); }
 
 bool covers_probing_form(const std::vector<InfluenceStatement>& declaration) {
   return std::ranges::any_of(declaration, [](const InfluenceStatement& line) {

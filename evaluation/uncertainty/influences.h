@@ -119,6 +119,9 @@ struct InfluenceStatement {
 /// Every influence of a form measurement, covered or not, in a fixed order.
 [[nodiscard]] std::vector<InfluenceStatement> influence_statements(const Influences& influences);
 
+/// Whether its group is declared, with zero for it: the interval contains nothing of it.
+[[nodiscard]] bool is_taken_as_zero(const InfluenceStatement& line);
+
 /// Whether the declaration of an interval covers how the pre-travel changes with the direction:
 /// lobes, or a limit of the probing form.
 [[nodiscard]] bool covers_probing_form(const std::vector<InfluenceStatement>& declaration);

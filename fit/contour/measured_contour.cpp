@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/internal/dft.h"
@@ -173,6 +174,22 @@ void warn_of_rows(MeasuredContour& out, const AngularProfile& profile) {
   }
 }
 
+/// A gauge that drifts over the turn leaves a step between its last row and its first.
+void measure_seam(std::span<const double> angle_rad, std::span<const double> rows_mm,
+                  MeasuredContour& out) {
+  const std::size_t n = rows_mm.size();
+  std::vector<double> bends(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    bends[i] = rows_mm[(i + 1) % n] - 2.0 * rows_mm[i] + rows_mm[(i + n - 1) % n];
+  }
+  const double apart = std::abs(std::remainder(angle_rad[0] - angle_rad[n - 1], core::kTwoPi)) *
+                       static_cast<double>(n) / core::kTwoPi;
+  if (apart < 0.1) out.seam_mm = std::abs(rows_mm[0] - rows_mm[n - 1]);  // the turn is closed
+  if (std::abs(apart - 1.0) < 0.5) out.seam_mm = 0.5 * std::abs(bends[n - 1] - bends[0]);
+  for (double& bend : bends) bend = std::abs(bend);
+  out.rough_mm = core::kSigmaPerMedianDeviation * core::median(std::move(bends));
+}
+
 }  // namespace
 
 core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad,
@@ -195,6 +212,7 @@ core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad
   out.contour = std::move(contour);
   out.rows = angle_rad.size();
   out.largest_gap_rad = profile.largest_gap_rad;
+  measure_seam(angle_rad, deviation_mm, out);
   // A filter of the gauge shows in all rows; fewer samples would hide the upper harmonics.
   const std::vector<double> all_rows =
       even_samples(profile.theta_rad, profile.r_mm, std::max(options.samples, profile.r_mm.size()));

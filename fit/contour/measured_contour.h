@@ -41,6 +41,9 @@ struct MeasuredContour {
   ContourError contour;
   std::size_t rows = 0;
   double largest_gap_rad = 0.0;
+  /// Step from the last row to the first, the slope taken off; 0 where their angles lie apart.
+  double seam_mm = 0.0;
+  double rough_mm = 0.0;  ///< Standard deviation of such steps elsewhere, by their median.
   FilterTrace filter;
   std::vector<core::Error> warnings;
 };

@@ -120,15 +120,6 @@ std::vector<double> difference(std::span<const double> a, std::span<const double
   return out;
 }
 
-/// Whether another f fits t better than the given one by more than chance explains.
-bool fits_better(const CurvePair& pair, std::span<const double> other_mm) {
-  const std::vector<double> change = difference(other_mm, pair.following_mm);
-  const std::vector<double> rest = difference(pair.total_mm, other_mm);
-  // All three curves have the power of f: the mean squares differ by 2 mean(t change).
-  const double gain = 2.0 * mean_product(pair.total_mm, change);
-  return gain > 2.0 * kCoverage95 * product_by_chance(rest, change) && gain > 0.0;
-}
-
 }  // namespace
 
 double correlation_of(std::span<const double> a, std::span<const double> b) {
@@ -181,6 +172,14 @@ CorrelationOffset correlation_offset(std::span<const CurvePair> pairs, double wi
 
 bool CorrelationOffset::alignment_suspect() const {
   return std::abs(angle_rad) > kLargeOffset && std::abs(angle_rad) > 3.0 * u_rad;
+}
+
+bool fits_better(const CurvePair& pair, std::span<const double> other_mm) {
+  const std::vector<double> change = difference(other_mm, pair.following_mm);
+  const std::vector<double> rest = difference(pair.total_mm, other_mm);
+  const double gain = 2.0 * mean_product(pair.total_mm, change) - mean_product(other_mm, other_mm) +
+                      mean_product(pair.following_mm, pair.following_mm);
+  return gain > 2.0 * kCoverage95 * product_by_chance(rest, change) && gain > 0.0;
 }
 
 SenseEvidence sense_evidence(std::span<const CurvePair> pairs) {

@@ -81,6 +81,9 @@ struct SenseEvidence {
 };
 [[nodiscard]] SenseEvidence sense_evidence(std::span<const CurvePair> pairs);
 
+/// Whether another f fits t better than the given one, as SenseEvidence counts it.
+[[nodiscard]] bool fits_better(const CurvePair& pair, std::span<const double> other_mm);
+
 /// Slope of t over f through the origin: 1 where gauge and axes have the same scale.
 struct GainEvidence {
   double slope = 1.0;

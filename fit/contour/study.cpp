@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -149,6 +150,50 @@ void collect_warnings(ContourStudy& study) {
   }
 }
 
+/// f with the errors of the axes taken so many times, in the mean of the parts; empty where one has
+/// no such contour.
+std::vector<double> mean_following_of(const ContourStudy& study, double x_times, double c_times,
+                                      const ContourStudyOptions& options) {
+  std::vector<double> out(options.samples, 0.0);
+  for (const ContourPartResult& part : study.parts) {
+    AxisErrors errors = part.axes.errors;
+    for (double& x : errors.x_mm) x *= x_times;
+    for (double& c : errors.c_rad) c *= c_times;
+    const auto found = following_contour(errors, options);
+    if (!found) return {};
+    for (std::size_t m = 0; m < out.size(); ++m) {
+      out[m] += found->error.error_mm[m] / static_cast<double>(study.parts.size());
+    }
+  }
+  return out;
+}
+
+/// One axis alone may be read with the wrong sign, or C in the wrong unit. The mean of the parts
+/// shows it best: f repeats from part to part more than the rest does.
+std::optional<AxisDoubt> axis_doubt(const ContourStudy& study, const ContourStudyOptions& options) {
+  using Kind = AxisDoubt::Kind;
+  std::vector<double> total(options.samples, 0.0);
+  for (const ContourPartResult& part : study.parts) {
+    for (std::size_t m = 0; m < total.size(); ++m) {
+      total[m] += part.pin.contour.error_mm[m] / static_cast<double>(study.parts.size());
+    }
+  }
+  const std::vector<double> given = mean_following_of(study, 1.0, 1.0, options);
+  if (given.empty()) return std::nullopt;
+  std::optional<AxisDoubt> likeliest;
+  for (const auto& [kind, x, c] : {std::tuple{Kind::kSignOfX, -1.0, 1.0},
+                                   {Kind::kSignOfC, 1.0, -1.0},
+                                   {Kind::kRadiansAsDegrees, 1.0, 1.0 / core::kDegree}}) {
+    const std::vector<double> other = mean_following_of(study, x, c, options);
+    if (other.empty() || !fits_better({total, given}, other)) continue;
+    const double rms_mm = std::sqrt(separate_contour(total, other).rest_mm2);
+    if (!likeliest || rms_mm < likeliest->rms_mm) {
+      likeliest = {kind, std::sqrt(separate_contour(total, given).rest_mm2), rms_mm};
+    }
+  }
+  return likeliest;
+}
+
 /// Adds warnings for settings that the data of all parts contradict.
 void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
   std::vector<CurvePair> pairs;
@@ -156,6 +201,7 @@ void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
     pairs.push_back({part.pin.contour.error_mm, part.following.error_mm});
   }
   study.sense = sense_evidence(pairs);
+  study.axis = axis_doubt(study, options);
   study.offset = correlation_offset(pairs);
   const SenseEvidence& sense = study.sense;
   const auto warn = [&](core::Code code, std::string what) {

@@ -96,6 +96,14 @@ struct ContourPartResult {
   CorrelationOffset offset;  ///< Angle by which correlation would turn f; diagnosis.
 };
 
+/// What may be wrong with the errors of one axis, and f without that mistake.
+struct AxisDoubt {
+  enum class Kind { kSignOfX, kSignOfC, kRadiansAsDegrees };
+  Kind kind = Kind::kSignOfX;
+  double given_mm = 0.0;  ///< rms(t - f) of the mean of all parts, as given.
+  double rms_mm = 0.0;    ///< The same without that mistake.
+};
+
 /// All parts side by side. The comparisons need two parts and are absent otherwise.
 struct ContourStudy {
   std::vector<ContourPartResult> parts;
@@ -108,6 +116,7 @@ struct ContourStudy {
   double amplitude_ratio = 0.0;          ///< rms(f) / rms(n) over all parts; 0 when n is zero.
   CorrelationOffset offset;              ///< Common offset of all parts, a diagnosis.
   SenseEvidence sense;
+  std::optional<AxisDoubt> axis;  ///< The likeliest that fits better, beyond chance.
   std::vector<core::Error> warnings;  ///< `where` is "parts/i/..." for warnings about one part.
 
   /// false: no part has traces, all f are by the main journals.

@@ -1,6 +1,7 @@
 #include "fit/profiles/harmonics.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <complex>
 
@@ -140,12 +141,16 @@ core::Result<HarmonicTable> harmonic_fit(const AngularProfile& profile,
   return out;
 }
 
-double value_at(const HarmonicTable& table, double theta_rad) {
-  double sum = table.mean_mm;
+UniformProfile profile_of(const HarmonicTable& table, std::size_t samples) {
+  const auto count = static_cast<double>(samples);
+  Spectrum half(samples / 2 + 1);
+  half[0] = count * table.mean_mm;
   for (const Harmonic& h : table.harmonics) {
-    if (h.phase_rad) sum += h.amplitude_mm * std::cos(h.number * theta_rad - *h.phase_rad);
+    const auto k = static_cast<std::size_t>(h.number);
+    assert(2 * k < samples);
+    if (h.phase_rad) half[k] = std::polar(0.5 * count * h.amplitude_mm, -*h.phase_rad);
   }
-  return sum;
+  return {0.0, series_of(half, samples)};
 }
 
 }  // namespace rondure::fit

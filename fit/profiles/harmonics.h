@@ -48,7 +48,8 @@ struct HarmonicOptions {
 [[nodiscard]] core::Result<HarmonicTable> harmonic_fit(const AngularProfile& profile,
                                                        const HarmonicOptions& options);
 
-/// Sum of the harmonics of a table at an angle, including harmonic 0 (the mean) [mm].
-[[nodiscard]] double value_at(const HarmonicTable& table, double theta_rad);
+/// The sum of mean and harmonics at uniform angles from 0. @pre samples above twice the number of
+/// the highest harmonic. O(samples log samples).
+[[nodiscard]] UniformProfile profile_of(const HarmonicTable& table, std::size_t samples);
 
 }  // namespace rondure::fit

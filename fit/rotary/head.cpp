@@ -9,6 +9,7 @@
 
 #include "core/decompositions.h"
 #include "core/numbers.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "fit/rotary/errors.h"
 
@@ -230,6 +231,48 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> HeadStudy::modes_at(const RotaryAxis& a
   return out;
 }
 
+namespace {
+
+/// Two places of the ball whose readings differ by no more than noise: the ball may not have been
+/// moved between them, or the head has no errors of rotation.
+void warn_of_unmoved(const HeadMeasurement& m, const References& references, HeadStudy& study) {
+  constexpr double kChance = 0.001;
+  constexpr int kLeastPoses = 4;
+  for (std::size_t i = 0; i < m.balls.size(); ++i) {
+    for (std::size_t k = i + 1; k < m.balls.size(); ++k) {
+      double square_mm2 = 0.0;
+      int poses = 0;
+      for (const HeadReading& one : m.readings) {
+        if (one.ball != i || at_reference(one)) continue;
+        const auto other = std::ranges::find_if(m.readings, [&](const HeadReading& reading) {
+          return reading.ball == k && reading.step == one.step &&
+                 std::abs(reading.pose.c_rad - one.pose.c_rad) <= kZero_rad &&
+                 std::abs(reading.pose.a_rad - one.pose.a_rad) <= kZero_rad;
+        });
+        if (other == m.readings.end()) continue;
+        const Vector3d from_i = one.d_mm - references.mean_mm[i];
+        const Vector3d from_k = other->d_mm - references.mean_mm[k];
+        square_mm2 += (from_i - from_k).squaredNorm();
+        ++poses;
+      }
+      const double variance_mm2 =
+          m.u_mm * m.u_mm * (2.0 + 1.0 / references.counts[i] + 1.0 / references.counts[k]);
+      if (poses < kLeastPoses ||
+          square_mm2 > variance_mm2 * core::chi_square_quantile(1.0 - kChance, 3.0 * poses)) {
+        continue;
+      }
+      study.warnings.push_back(
+          {Code::kInconsistent,
+           fmt::format(
+               "{} and {} read alike in all {} poses, within noise: was the ball moved from "
+               "the one place to the other? If not, move it and read again",
+               m.balls[i].ball, m.balls[k].ball, poses)});
+    }
+  }
+}
+
+}  // namespace
+
 core::Result<HeadStudy> identify_head(const HeadMeasurement& measurement) {
   HeadStudy out;
   if (measurement.balls.size() < 3) {
@@ -248,6 +291,7 @@ core::Result<HeadStudy> identify_head(const HeadMeasurement& measurement) {
     (step == HeadStep::kC ? out.c : out.a) = *std::move(study);
   }
   TRY_DO(verify(measurement, references, out));
+  warn_of_unmoved(measurement, references, out);
   return out;
 }
 

@@ -66,6 +66,7 @@ struct HeadStudy {
   RotaryStudy c;
   RotaryStudy a;
   std::vector<HeadVerification> poses;
+  std::vector<core::Error> warnings;  ///< kInconsistent: two places of the ball read alike.
   HeadRms before;
   HeadRms left;
   double expected_mm = 0.0;  ///< What noise and covariances explain of left.rms_mm.

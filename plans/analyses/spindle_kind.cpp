@@ -101,6 +101,16 @@ void check_spindle(const FeaturePlan& feature, const std::string& where, Finding
   } else if (const auto arm = fit::check_swing_arm(arm_of(plan)); !arm) {
     findings.meaning(arm.error().code, where, arm.error().what);
   }
+  const auto refuse_idle = [&](const char* key, const char* why) {
+    if (!findings.is_given(where + key)) return;
+    findings.meaning(Code::kMeaning, where + key, fmt::format("has no effect: {}; remove it", why));
+  };
+  if (!arm_of(plan).swings() && !plan.wheel_radius_from) {
+    refuse_idle("/wheel_radius_mm", "the probes stand still, as there is no crank_radius_mm");
+  }
+  if (plan.filter == SpindleTask::Filter::kNone) {
+    refuse_idle("/cutoff_upr", "the filter is \"none\"");
+  }
   if (plan.samples < 2 * plan.highest_order + 2) {
     findings.meaning(Code::kSampling, where + "/samples",
                      fmt::format("{} samples a revolution do not carry {} undulations; at least {} "
@@ -143,8 +153,8 @@ struct ProbedWorld {
     const double direction = places_rad[i] + beta;
     const double along =
         motion_y_um(alpha) * std::cos(direction) + motion_x_um(alpha) * std::sin(direction);
-    const double across =
-        motion_x_um(alpha) * std::cos(direction) - motion_y_um(alpha) * std::sin(direction);
+    const double across = motion_x_um(alpha) * std::cos(direction) -
+                          motion_y_um(alpha) * std::sin(direction) - hidden.line_error_um[i];
     const double at = alpha + beta + places_rad[i];
     const double radius_um = arm.pin_radius_mm / core::kMicrometre;
     double reading = profile_um(at) + along;
@@ -200,7 +210,7 @@ core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
   SimulatedSpindlePlan hidden = *plan.simulation->spindle;
   if (!errors) {
     hidden.probe_noise_um = hidden.p2_error_deg = hidden.p3_error_deg = 0.0;
-    hidden.probe_offset_um = hidden.probe_gain_error = {};
+    hidden.probe_offset_um = hidden.probe_gain_error = hidden.line_error_um = {};
   }
   TRY(const auto layout, layout_of(asked));
   ProbedWorld world{hidden, arm_of(asked), layout.angles_rad()};

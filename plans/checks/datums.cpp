@@ -106,7 +106,10 @@ std::string why_in_other_poses(const FeaturePlan& a, const FeaturePlan& b) {
 /// Why a feature is no datum, or part of no common datum; empty where it is.
 std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum) {
   const FeaturePlan& feature = plan.features[datum];
-  if (datum == owner) return "a feature is no datum of itself; name another";
+  if (datum == owner) {
+    return "a feature is no datum of itself; name another, or ask this of a second feature on the "
+           "same surface, without a letter";
+  }
   if (same_rows(feature, plan.features[owner])) {
     return fmt::format(
         "{} and {} take the same rows of one file, and a feature is no datum of itself; name "

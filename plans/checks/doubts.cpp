@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "plans/analyses/features.h"
 #include "plans/path/solid_mesh.h"
@@ -84,6 +85,24 @@ std::optional<core::Error> doubt(const Plan& plan, const std::vector<std::string
       item_pointer(where, static_cast<std::size_t>(second - datums.begin()))};
 }
 
+/// A surface of a file in an unlikely unit: paths would pass through the real one.
+std::optional<core::Error> doubt(const BodyPlan& body, const std::string& where) {
+  constexpr double kSmallest_mm = 15.0;
+  constexpr double kGreatest_mm = 1000.0;
+  if (body.file.empty()) return std::nullopt;
+  Eigen::AlignedBox3d all;
+  for (const Eigen::Vector3d& point : body.mesh->points_mm()) all.extend(point);
+  const double size_mm = all.sizes().maxCoeff();
+  const bool in_inches = body.unit == record::LengthUnit::kInch;
+  if (in_inches ? size_mm <= kGreatest_mm : size_mm >= kSmallest_mm) return std::nullopt;
+  const double other_mm = in_inches ? size_mm / 25.4 : size_mm * 25.4;
+  return core::Error{
+      core::Code::kUnits,
+      fmt::format("{} is {:.4g} mm across; were {} meant? Then it is {:.4g} mm", body.file, size_mm,
+                  in_inches ? "millimetres" : "inches", other_mm),
+      where};
+}
+
 }  // namespace
 
 std::vector<core::Error> doubts_of(const Plan& plan) {
@@ -124,7 +143,9 @@ std::vector<core::Error> doubts_of(const Plan& plan) {
   const std::size_t bodies = plan.fixture ? plan.fixture->bodies.size() : 0;
   for (std::size_t i = 0; i < bodies; ++i) {
     const BodyPlan& body = plan.fixture->bodies[i];
-    if (!body.mesh || body.mesh->is_closed()) continue;
+    if (!body.mesh) continue;
+    add(doubt(body, item_pointer("/fixture/bodies", i) + "/unit"));
+    if (body.mesh->is_closed()) continue;
     out.push_back({core::Code::kMeaning,
                    fmt::format("{} has gaps: paths keep away from its surface, but a tool that is "
                                "inside is not seen; was a closed solid meant?",

@@ -514,6 +514,10 @@ void check_of_analysis(const Asked& asked) {
         key, axis_key ? fmt::format("{} has no {}", with_article(name_of(asked.task.form)), key)
                       : std::string("the feature is no surface"));
   }
+  if (!record::takes(asked.task.form, "reference")) {
+    asked.refuse_idle("reference",
+                      fmt::format("{} has no reference", with_article(name_of(asked.task.form))));
+  }
   check_error_keys(asked);
   check_limits_of(asked);
 }

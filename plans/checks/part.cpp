@@ -233,6 +233,33 @@ std::vector<std::string_view> without_effect(Shape type) {
 
 }  // namespace
 
+void check_overlaps(const Plan& plan, Findings& findings) {
+  const auto is_cylinder = [](const FeaturePlan& feature) {
+    return is_touched(feature) && feature.type == Shape::kCylinder &&
+           feature.nominal.diameter_mm > 0.0;
+  };
+  for (std::size_t k = 0; k < plan.features.size(); ++k) {
+    const FeaturePlan& one = plan.features[k];
+    for (std::size_t i = 0; is_cylinder(one) && i < k; ++i) {
+      const FeaturePlan& other = plan.features[i];
+      const double common_mm = std::min(one.nominal.to_mm, other.nominal.to_mm) -
+                               std::max(one.nominal.from_mm, other.nominal.from_mm);
+      if (!is_cylinder(other) || one.side != other.side || !(common_mm > 0.0) ||
+          one.nominal.diameter_mm == other.nominal.diameter_mm) {
+        continue;
+      }
+      findings.meaning(
+          Code::kMeaning, feature_pointer(k) + "/nominal/from_mm",
+          fmt::format(
+              "{} and {} overlap by {:g} mm along the part, with diameters of {:g} and {:g} mm: "
+              "a part has one of them there; correct from_mm, to_mm or diameter_mm",
+              in_quotes(one.id), in_quotes(other.id), common_mm, one.nominal.diameter_mm,
+              other.nominal.diameter_mm));
+      break;
+    }
+  }
+}
+
 void check_simulated_part(const Plan& plan, Findings& findings) {
   if (!plan.simulation || !findings.sound("/simulation/features")) return;
   const auto& entries = plan.simulation->features;

@@ -104,8 +104,8 @@ struct ProfileTable {
 };
 
 /// Reads a section from text: a head line names the columns `theta_deg` and `r_um`, or x and y.
-/// Otherwise as read_points().
-[[nodiscard]] core::Result<ProfileTable> read_profile(std::string_view bytes,
-                                                      std::string_view name);
+/// Otherwise as read_points(); a unit is that of x and y, layers have no part in it.
+[[nodiscard]] core::Result<ProfileTable> read_profile(std::string_view bytes, std::string_view name,
+                                                      const PointsOptions& options = {});
 
 }  // namespace rondure::record

@@ -268,17 +268,23 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
   return out;
 }
 
-core::Result<ProfileTable> read_profile(std::string_view bytes, std::string_view name) {
+core::Result<ProfileTable> read_profile(std::string_view bytes, std::string_view name,
+                                        const PointsOptions& options) {
   TRY(const auto decoded, decode_text(bytes, name));
   const std::string_view all = decoded.text(bytes);
-  const bool polar = all.find(kPolar.names[0]) != std::string_view::npos;
-  TRY(auto text, read_text_table(all, name, {}, polar ? kPolar : kSection));
+  const bool polar = options.columns.empty() && all.find(kPolar.names[0]) != std::string_view::npos;
+  if (polar && options.unit) {
+    return core::fail(core::Code::kBadOption,
+                      "theta_deg and r_um have their units; --unit is that of x and y",
+                      std::string(name));
+  }
+  TRY(auto text, read_text_table(all, name, options, polar ? kPolar : kSection));
   if (!polar && text.dimensions == 3) {
     return core::fail(core::Code::kSyntax,
                       "the file has x, y and z; a section has theta_deg,r_um or x,y",
                       fmt::format("{}:1", name));
   }
-  if (!polar) TRY_DO(scale(text.unit, text.rows));
+  if (!polar) TRY_DO(scale(options.unit ? options.unit : text.unit, text.rows));
   ProfileTable table{polar, {}};
   table.rows.reserve(text.rows.size());
   for (const Eigen::Vector3d& values : text.rows) table.rows.emplace_back(values.head<2>());

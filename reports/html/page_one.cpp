@@ -272,15 +272,37 @@ std::string callout_in_html(const Callout& callout) {
   return trf("{0} of {1}", escaped(callout.symbol), isolated(callout.feature->feature.id));
 }
 
+/// Moves the section of a row into the zone of its own circle, where its roundness is.
+/// @return  The width of that zone; none where the row is in no section that has one.
+std::optional<double> into_own_circle(std::optional<std::size_t> row,
+                                      evaluation::FeatureResult& feature) {
+  for (const evaluation::LayerResult& layer : feature.layers) {
+    if (!row || std::ranges::find(layer.rows, *row) == layer.rows.end()) continue;
+    if (!layer.mz || layer.points_mm.size() != layer.rows.size()) return std::nullopt;
+    const double middle_mm = 0.5 * (layer.mz->inner_radius_mm + layer.mz->outer_radius_mm);
+    for (std::size_t i = 0; i < layer.rows.size(); ++i) {
+      evaluation::CloudPoint& point = feature.cloud[layer.rows[i]];
+      point.deviation_mm = (layer.points_mm[i] - layer.mz->center_mm).norm() - middle_mm;
+      const auto touches = [i](const fit::Contact& contact) { return contact.index == i; };
+      point.outer_contact = std::ranges::any_of(layer.mz->outer, touches);
+      point.inner_contact = std::ranges::any_of(layer.mz->inner, touches);
+    }
+    return layer.mz->width_mm();
+  }
+  return std::nullopt;
+}
+
 /// The worst call-out: the lines that its value was found on, or the section where it is worst and
 /// the whole surface beside it.
 std::string worst_drawing(const Callout* callout) {
   if (callout == nullptr) return {};
   const evaluation::FeatureResult& feature = *callout->feature;
   const DrawnFeature drawn = drawn_of(feature, callout->worst_row);
-  const std::string title = fmt::format(
-      "<h3>{}</h3>",
-      trf("{} of {}: where it is worst", escaped(callout->symbol), isolated(feature.feature.id)));
+  const std::string title =
+      fmt::format("<h3>{}</h3>", callout->worst_row
+                                     ? trf("{} of {}: where it is worst", escaped(callout->symbol),
+                                           isolated(feature.feature.id))
+                                     : callout_in_html(*callout));
   if (feature.mz_plane) return title + face_map(drawn.feature);
   if (const std::string lines = line_plots(*callout->result); !lines.empty())
     return fmt::format(R"({}<div class="views">{}</div>)", title, lines);
@@ -289,8 +311,13 @@ std::string worst_drawing(const Callout* callout) {
   std::vector<std::string> words;
   if (const auto& finding = callout->result->finding)
     words = {in_words(finding->filter).value_or(finding->filter.english())};
+  evaluation::FeatureResult section = drawn.feature;
+  evaluation::Zone zone = *drawn.zone;
+  if (callout->result->characteristic.form == record::Form::kRoundness) {
+    zone.deviation_mm = into_own_circle(drawn.places.worst, section).value_or(zone.deviation_mm);
+  }
   return fmt::format(R"({}<div class="worst-one">{}<div>{}</div></div>)", title,
-                     worst_section(drawn.feature, *drawn.zone, feature, drawn.places, words),
+                     worst_section(section, zone, feature, drawn.places, words),
                      map.substr(map.find("<figure")));  // one heading is enough
 }
 
@@ -311,10 +338,14 @@ std::string measured_in_words(const record::RunRecord& record,
   std::string html;
   for (const auto& [sampling, names] : groups)
     html += fmt::format("{}{} ({})", html.empty() ? "" : tr("; "), sampling, names);
+  for (const record::Feature& feature : record.features) {
+    if (feature.strategy != record::Strategy::kPointsFile) continue;
+    html += tr("; ") + trf("points of {} from a file", isolated(feature.id));
+  }
   const auto qualifying = static_cast<std::size_t>(std::ranges::count(
       record.touches, record::Touch::Purpose::kQualification, &record::Touch::purpose));
   if (qualifying < record.touches.size() && record.touches.back().time_s > 0.0) {
-    html += tr("; ") +
+    html += (html.empty() ? "" : tr("; ")) +
             trf("{} in {} min", count(record.touches.size(), "touch", "touches"),
                 fixed((record.touches.back().time_s - record.touches.front().time_s) / 60.0, 0));
   }
@@ -399,7 +430,9 @@ std::string probe_in_words(const record::RunRecord& record,
                fixed(1e3 * evaluation.probe->form_mm, 2));
   }
   for (const evaluation::FeatureResult& feature : evaluation.features) {
-    if (feature.tip_radius_mm) return trf("tip {:g} mm", 2.0 * *feature.tip_radius_mm);
+    if (!feature.tip_radius_mm) continue;
+    return *feature.tip_radius_mm == 0.0 ? tr("points of the surface")
+                                         : trf("tip {:g} mm", 2.0 * *feature.tip_radius_mm);
   }
   return {};
 }
@@ -448,6 +481,9 @@ std::string head_section(const record::RunRecord& record, const std::string& kin
           field(tr("Order"), text(people.order.value_or(""))) +
           field(tr("Customer"), text(people.customer.value_or(""))));
   const bool calibrated = evaluation != nullptr && evaluation->fixture;
+  const bool of_files = std::ranges::all_of(record.features, [](const record::Feature& feature) {
+    return feature.strategy == record::Strategy::kPointsFile;
+  });
   html += fmt::format(
       R"(<dl>{}</dl><dl>{}</dl></div>)",
       field(tr("Machine"), header.machine.empty() ? "" : worded(core::Phrase(header.machine))) +
@@ -456,7 +492,8 @@ std::string head_section(const record::RunRecord& record, const std::string& kin
                 calibrated ? trf("{}, valid until {}", isolated(evaluation->fixture->id),
                                  escaped(evaluation->fixture->expires_utc.substr(0, 10)))
                            : ""),
-      field(tr("Operator"), text(header.operator_name)) + field(tr("Time"), text(started)) +
+      field(tr("Operator"), text(header.operator_name)) +
+          field(of_files ? tr("Evaluated") : tr("Time"), text(started)) +
           field(tr("Temperature"), evaluation != nullptr ? temperature_in_words(*evaluation) : ""));
   return html + "</header>";
 }
@@ -468,6 +505,19 @@ const Callout* drawn_callout(const std::vector<Callout>& callouts) {
   return found == callouts.end() ? nullptr : &*found;
 }
 
+namespace {
+
+/// Why the first call-out has no verdict; empty where it has one.
+std::string why_undecided(const std::vector<Callout>& callouts) {
+  if (callouts.empty()) return {};
+  const evaluation::CharacteristicResult& first = *callouts.front().result;
+  const bool open = first.verdict == evaluation::Verdict::kVoid ||
+                    first.verdict == evaluation::Verdict::kUndecided;
+  return open ? "<br/>" + opening_sentence(first.reason) : std::string();
+}
+
+}  // namespace
+
 std::string verdict_section(const record::RunRecord& record,
                             const evaluation::Evaluation& evaluation,
                             const std::vector<Callout>& callouts) {
@@ -478,7 +528,7 @@ std::string verdict_section(const record::RunRecord& record,
       "</div></div>",
       verdict_mark(verdict, 48), css_name(verdict),
       incomplete_headline(record, evaluation).value_or(capitalised(tr(name_of(verdict)))),
-      answer_in_words(callouts, callout_in_html));
+      answer_in_words(callouts, callout_in_html) + why_undecided(callouts));
   for (const auto& [word, text] : remarks_on(record, callouts))
     html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", word, text);
   html += results_table(callouts) + worst_drawing(drawn_callout(callouts));

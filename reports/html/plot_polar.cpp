@@ -245,10 +245,12 @@ std::string worst_section(const evaluation::FeatureResult& feature, const evalua
   const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5), kMean};
   Svg svg = section_drawing(feature, section, view, half_zone_mm, all);
   std::vector<std::string> lines = {height_of(feature, section, drawn)};
-  if (lines.front().empty()) lines.front() = title_of(section);
+  if (lines.front().empty())
+    lines.front() = section.projected ? tr("All points") : title_of(section);
   lines.push_back(count(section.rows.size(), "point", "points"));
   lines.insert(lines.end(), words.begin(), words.end());
   lines.push_back(roundness_of(feature, section));
+  if (lines.back().starts_with("RONt")) lines.push_back(tr("as read"));  // the value may be an estimate
   std::erase(lines, "");
   constexpr double kLine = 16.0;
   double y = kSectionCentre + 4.0 - 0.5 * kLine * static_cast<double>(lines.size() - 1);

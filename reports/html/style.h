@@ -154,7 +154,7 @@ footer{max-width:1024px;margin:0 auto 48px;padding:12px 0 0;border-top:1px solid
 table.results,table.results tbody{display:block}table.results thead{display:none}
 table.results tr{display:flex;flex-wrap:wrap;align-items:center;gap:2px 16px;padding:8px 0;border-bottom:1px solid var(--line)}
 table.results td,table.results td.n{border:0;padding:0;text-align:left;white-space:normal}table.results td:empty{display:none}
-table.results td[data-l]:before{content:attr(data-l) " ";color:var(--soft);font-size:12.5px;font-weight:400}
+table.results td[data-l]:before{content:attr(data-l) " ";margin-right:3px;color:var(--soft);font-size:12.5px;font-weight:400}
 }
 @media screen and (max-width:640px){
 main{padding:14px 16px 32px}.top{padding:12px 16px 0}footer{margin:0 16px 40px}.ident,.worst-one,.foot{grid-template-columns:minmax(0,1fr)}

@@ -30,8 +30,15 @@ std::string with_sign(std::string number) {
   return number.front() == '-' ? number : number.insert(0, 1, '+');
 }
 
-/// The judged values with the quoted one in its place; of a value without a finding, itself with
-/// the limits of its characteristic.
+/// Which of the judged values decides.
+std::size_t deciding(const CharacteristicResult& result) {
+  const auto found = std::ranges::find(result.judged, result.value->value_mm(),
+                                       [](const auto& value) { return value.value_mm(); });
+  return found == result.judged.end() ? 0 : static_cast<std::size_t>(found - result.judged.begin());
+}
+
+/// The judged values as they are quoted; of a value without a finding, itself with the limits of
+/// its characteristic.
 std::vector<JudgedValue> judged_values(const CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   std::vector<JudgedValue> judged;
@@ -40,10 +47,9 @@ std::vector<JudgedValue> judged_values(const CharacteristicResult& result) {
     const double value_mm = result.value->value_mm();
     judged = {{evaluation::symbol_of(asked), value_mm, {asked.lower_mm, asked.tolerance_mm}}};
   }
-  for (JudgedValue& value : judged) {
-    if (judged.size() == 1 || value.value_mm == result.value->value_mm())
-      value.value_mm = result.value->quoted_mm();
-  }
+  if (judged.size() == 1) judged.front().value_mm = result.value->quoted_mm();
+  for (std::size_t i = 0; judged.size() > 1 && i < result.judged.size(); ++i)
+    judged[i].value_mm = result.judged[i].quoted_mm();
   return judged;
 }
 
@@ -93,8 +99,9 @@ std::optional<std::size_t> worst_row(const FeatureResult& feature,
   if (feature.cloud.empty()) return std::nullopt;
   if (result.finding) {
     const auto& rows = result.finding->rows;
-    return rows.empty() || rows.front() >= feature.cloud.size() ? std::nullopt
-                                                                : std::optional(rows.front());
+    if (rows.empty()) return std::nullopt;
+    const std::size_t row = deciding(result) == 0 ? rows.front() : rows.back();  // of a least size
+    return row >= feature.cloud.size() ? std::nullopt : std::optional(row);
   }
   const record::Form form = result.characteristic.form;
   if (form == record::Form::kCylindricity && feature.mz_cylinder) {
@@ -179,7 +186,7 @@ void add_value(Callout& out) {
     if (const auto share = share_of(asked, value.value_mm))
       out.share_1 = std::max(out.share_1.value_or(0.0), *share);
   }
-  const double quoted_mm = judged.front().value_mm;
+  const double quoted_mm = judged.at(deciding(result)).value_mm;
   const double nominal_mm = out.feature->feature.nominal_diameter_mm;
   if (asked.form == record::Form::kDiameter) {
     if (nominal_mm > 0.0) out.deviation = with_sign(number(quoted_mm - nominal_mm));
@@ -266,6 +273,8 @@ std::string answer_in_words(const std::vector<Callout>& callouts,
     }
   }
   if (toleranced == 0) return tr("No characteristic has a tolerance.");
+  if (const std::size_t more = toleranced - conforming; more > kMostNamed)
+    failing += tr("; ") + trf("{} more", more - kMostNamed);
   const std::string number = conforming == 1 ? trf("{} of {} conforms", conforming, toleranced)
                                              : trf("{} of {} conform", conforming, toleranced);
   const Callout& nearest = callouts.front();
@@ -290,6 +299,7 @@ std::vector<std::pair<std::string, std::string>> remarks_on(const record::RunRec
 std::string uncertainty_in_words(const std::vector<Callout>& callouts,
                                  std::string (*say)(const core::Phrase&)) {
   std::vector<std::string> in;
+  std::vector<std::string> zero;
   std::vector<std::string> out;
   std::string why;
   bool all = true;
@@ -305,10 +315,19 @@ std::string uncertainty_in_words(const std::vector<Callout>& callouts,
       continue;
     }
     for (const evaluation::InfluenceStatement& one : status.result()->declaration)
-      add(one.covered ? in : out, say(core::Phrase(one.name)));
+      add(evaluation::is_taken_as_zero(one) ? zero
+          : one.covered                     ? in
+                                            : out,
+          say(core::Phrase(one.name)));
   }
-  std::erase_if(in,
-                [&](const std::string& name) { return std::ranges::find(out, name) != out.end(); });
+  const auto leave_out = [](std::vector<std::string>& from, const std::vector<std::string>& those) {
+    std::erase_if(from, [&](const std::string& name) {
+      return std::ranges::find(those, name) != those.end();
+    });
+  };
+  leave_out(in, out);
+  leave_out(zero, out);
+  leave_out(zero, in);
   const auto listed = [](const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : tr(", ")) + name;
@@ -316,6 +335,7 @@ std::string uncertainty_in_words(const std::vector<Callout>& callouts,
   };
   std::string text;
   if (!in.empty()) text += trf("In U: {}.", listed(in)) + " ";
+  if (!zero.empty()) text += trf("Taken as zero: {}.", listed(zero)) + " ";
   if (!out.empty()) text += trf("Not in U: {}.", listed(out)) + " ";
   if (all && !text.empty()) return text;
   return text + (why.empty() ? tr("Without U: no uncertainty is stated.")

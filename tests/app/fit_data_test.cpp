@@ -327,6 +327,47 @@ TEST(FitData, AFileWithEveryRowTwiceHasTheIntervalOfTheSingleFile) {
               ElementsAre("row 48 repeats row 0 and takes no part; 48 rows do (rows from 0)"));
 }
 
+// Points of the surface were corrected by a tip whose radius has an uncertainty, of either sign.
+TEST(FitData, ASizeOfSurfacePointsIsAt20DegreesWithTipAndTemperatureInItsInterval) {
+  const std::vector<std::string> rows = rows_of_shaft();
+  const auto size_of = [&](const nlohmann::json& environment) {
+    const Scratch folder;
+    write(folder / "shaft.csv", shaft_file(rows));
+    nlohmann::json plan = {
+        {"plan", {{"name", "Shaft"}, {"revision", "A"}}},
+        {"part", {{"id", "S-1"}, {"expansion_per_K", 23e-6}}},
+        {"uncertainty",
+         {{"probe",
+           {{"repeatability_um", 0.2}, {"tip_radius_um", 0.2}, {"reference_sphere_um", 0.05}}},
+          {"budget_trials", 0}}},
+        {"features",
+         {{{"id", "shaft"},
+           {"type", "cylinder"},
+           {"nominal", {{"diameter_mm", 40}}},
+           {"source", {{"file", "shaft.csv"}, {"points", "surface"}}},
+           {"characteristics",
+            {{{"id", "GG"}, {"form", "diameter"}, {"size", "GG"}, {"upper_um", 20}},
+             {{"id", "LP"}, {"form", "diameter"}, {"size", "LP"}, {"upper_um", 20}}}}}}}};
+    if (!environment.is_null()) plan["environment"] = environment;
+    return report_of(folder, plan)["features"][0]["characteristics"];
+  };
+  const auto as_read = size_of(nullptr);
+  const auto at_20 = size_of({{"assumed_degC", 22}, {"temperature_uncertainty_K", 0.5}});
+  for (std::size_t k = 0; k < 2; ++k) {
+    SCOPED_TRACE(k);
+    const double read_um = as_read[k]["value_um"];
+    EXPECT_NEAR(at_20[k]["value_um"], read_um / (1.0 + 2.0 * 23e-6), 1e-6);
+    ASSERT_FALSE(as_read[k]["uncertainty"].is_null()) << as_read[k];
+    ASSERT_FALSE(at_20[k]["uncertainty"].is_null()) << at_20[k];
+    // 0.2 and 0.05 um of the radius, and 23e-6 x 0.5 K of 40 mm, beside the noise.
+    const auto& u = as_read[k]["uncertainty"]["sampled_points"];
+    EXPECT_GT(u["high_um"].get<double>() - u["low_um"].get<double>(), 4 * 1.9 * 0.206);
+    const auto& warm = at_20[k]["uncertainty"]["sampled_points"];
+    EXPECT_GT(warm["high_um"].get<double>() - warm["low_um"].get<double>(),
+              2 * 1.9 * std::hypot(2 * 0.206, 0.46));
+  }
+}
+
 TEST(FitData, WhatIsNoFileIsRefused) {
   const Scratch folder;
   write(folder / "locked.csv", "x,y\n");

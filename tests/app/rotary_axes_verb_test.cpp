@@ -1,7 +1,11 @@
 // rondure fit rotary-axes: the worked example, a two-axis fixture, refusals.
 #include <array>
 #include <cmath>
+#include <random>
+#include <sstream>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::string rotary_data(const char* name) {
   return (fs::path(RONDURE_SOURCE_DIR) / "tests/data/spec_rotary" / name).string();
@@ -100,6 +105,32 @@ TEST(FitRotaryAxes, SaysWhyThereIsNoIntervalAndWhichPlanGivesIt) {
   EXPECT_THAT(text.out, HasSubstr("no interval is stated: "));
   EXPECT_THAT(found_in({rotary_data("c_axis.csv")}).at("no_interval_because").get<std::string>(),
               HasSubstr("rotary_axes.uncertainty"));
+}
+
+TEST(FitRotaryAxes, WarnsWhereTheBallsAgreeBetterThanTheirUncertaintyAllows) {
+  const Scratch folder;
+  // The centres of the worked example are exact: with noise of their u, in mm and in inches.
+  const auto warnings_of = [&](double mm_per_unit) {
+    std::istringstream lines(read(rotary_data("c_axis.csv")));
+    std::string out;
+    std::mt19937 bits(3);
+    for (std::string line; std::getline(lines, line); out += line + "\n") {
+      if (!line.starts_with("C,")) continue;
+      std::vector<std::string> cells;
+      std::istringstream row(line);
+      for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+      for (std::size_t i = 3; i < 6; ++i) {
+        const double uniform = 2.0 * static_cast<double>(bits()) / 4294967296.0 - 1.0;
+        const double read_mm = std::stod(cells[i]) + 0.5e-3 * std::sqrt(3.0) * uniform;
+        cells[i] = fmt::format("{}", read_mm / mm_per_unit);
+      }
+      line = fmt::format("{}", fmt::join(cells, ","));
+    }
+    write(folder / "in.csv", out);
+    return found_in({(folder / "in.csv").string()}).at("axes").at(0).at("warnings").dump();
+  };
+  EXPECT_THAT(warnings_of(25.4), HasSubstr("are the centres in mm"));
+  EXPECT_THAT(warnings_of(1.0), Not(HasSubstr("are the centres in mm")));
 }
 
 TEST(FitRotaryAxes, TableFitsATerminal) {

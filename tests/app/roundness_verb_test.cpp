@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -117,6 +118,26 @@ TEST_F(RoundnessVerb, EvaluatesPointsToo) {
   const auto json = nlohmann::json::parse(out.text);
   EXPECT_NEAR(json["ls"]["RONt_um"], 4.0 * std::exp2(-0.04), 0.01);  // six decimals of a mm
   EXPECT_NEAR(json["ls"]["center_mm"][0], 100.0, 1e-6);
+}
+
+TEST_F(RoundnessVerb, TakesColumnsAndUnitOfASection) {
+  std::string text = "Punkt;E;N\n";
+  for (int i = 0; i < 120; ++i) {
+    const double theta = 3.0 * i * std::numbers::pi / 180.0;
+    const double r = (20.0 + 3e-3 * std::cos(2.0 * theta)) / 25.4;
+    text += fmt::format("{};{:.9f};{:.9f}\n", i + 1, r * std::cos(theta), r * std::sin(theta));
+  }
+  const std::string name = file(text);
+  EXPECT_THAT(rondure("fit roundness " + name).text, HasSubstr("--columns"));
+  const Outcome out = rondure("fit roundness " + name +
+                              " --columns E,N --unit inch --filter none --reference ls --json");
+  ASSERT_EQ(out.status, 0) << out.text;
+  const auto value = nlohmann::json::parse(out.text).at("ls");
+  EXPECT_NEAR(value.at("RONt_um"), 6.0, 1e-3);
+  EXPECT_NEAR(value.at("radius_mm"), 20.0, 1e-4);
+  const Outcome polar = rondure("fit roundness " + kProfile + " --unit inch");
+  EXPECT_EQ(polar.status, 2);
+  EXPECT_THAT(polar.text, HasSubstr("--unit is that of x and y"));
 }
 
 TEST_F(RoundnessVerb, NamesTheLineOfWhatIsNotANumber) {

@@ -62,8 +62,11 @@ TEST_F(SignedRun, VerifiesWithTheKeyOfItsSignerOnly) {
   EXPECT_THAT(without.out, HasSubstr("signed, the signature was not checked (--key PUBLIC.pem"));
 }
 
-TEST_F(SignedRun, APrivateKeyThatOthersCanReadIsNoted) {
+TEST_F(SignedRun, AnotherSignatureAndAKeyThatOthersCanReadAreNoted) {
   EXPECT_EQ(sign().err, "");
+  EXPECT_THAT(rondure({"sign", run_, "--key", folder_ / "another.pem"}).err,
+              HasSubstr("this replaces a signature, of another key or of other files"));
+  EXPECT_THAT(sign().err, HasSubstr("this replaces a signature"));
   for (const fs::perms readers : {fs::perms::group_read, fs::perms::others_read}) {
     fs::permissions(folder_ / "mine.pem", fs::perms::owner_read | readers);
     const Outcome outcome = sign();

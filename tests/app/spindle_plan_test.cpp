@@ -1,9 +1,11 @@
 // Spindle plans with data from a file, and rondure design-probes.
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,6 +55,57 @@ class SpindlePlan : public ::testing::Test {
   }
   Scratch folder_;
 };
+
+// Lines that miss the axis by 20 um move 2 um of motion by 0.13 um, and the form by 0.07 um.
+TEST_F(SpindlePlan, HoldsTheTruthWhereLinesThatMissTheAxisAreDeclared) {
+  const auto found = [&](double line_um) {
+    const auto wave = [](int order, double um, double deg) {
+      return json{{"order", order}, {"amplitude_um", um}, {"phase_deg", deg}};
+    };
+    const json plan = {
+        {"plan", {{"name", "Lines"}, {"revision", "A"}}},
+        {"part", {{"id", "P"}}},
+        {"features",
+         {{{"id", "s"},
+           {"type", "spindle"},
+           {"spindle",
+            {{"layout", "reference"},
+             {"pin_radius_mm", 25},
+             {"highest_order", 40},
+             {"samples", 512},
+             {"filter", "none"},
+             {"uncertainty", {{"line_um", line_um}, {"gain_1", 1e-4}, {"angle_deg", 1e-3}}}}},
+           {"characteristics",
+            {{{"id", "RONt"}, {"form", "roundness"}, {"reference", "ls"}},
+             {{"id", "RONq"}, {"form", "roundness-rms"}},
+             {{"id", "sync"}, {"form", "motion-synchronous"}}}}}}},
+        {"simulation",
+         {{"seed", 5},
+          {"spindle",
+           {{"turns", 3},
+            {"samples_per_turn", 512},
+            {"probe_noise_um", 0.02},
+            {"eccentricity_um", 5},
+            {"line_error_um", {20, -20, 10}},
+            {"profile", {wave(2, 3, 0), wave(15, 2, 40), wave(23, 1, 80)}},
+            {"motion_x", {wave(2, 1, 0)}},
+            {"motion_y", {wave(3, 1, 0)}}}}}}};
+    write(folder_ / "lines.json", plan.dump());
+    const std::string out = fmt::format("lines {}", line_um);
+    const Outcome ran = rondure({"run", folder_ / "lines.json", "--out", folder_ / out, "--archive",
+                                 "none", "--format", "json"});
+    EXPECT_LE(ran.status, 1) << ran.err;
+    return json::parse(read(folder_ / out / "report.json"))["features"][0]["characteristics"];
+  };
+  for (const json& one : found(20.0)) {
+    EXPECT_EQ(one["verdict"], "not toleranced");
+    EXPECT_LT(std::abs(one["simulation"][0]["difference_over_u"].get<double>()), 3.0) << one["id"];
+  }
+  for (const json& one : found(1e-6)) {
+    EXPECT_EQ(one["verdict"], "void");
+    EXPECT_GT(std::abs(one["simulation"][0]["difference_over_u"].get<double>()), 10.0);
+  }
+}
 
 TEST_F(SpindlePlan, JudgesVerifiesAndTellsEveryChange) {
   const Outcome ran = run(

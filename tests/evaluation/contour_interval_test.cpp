@@ -369,6 +369,25 @@ TEST(ContourGates, NegatedTracesVoidTheRest) {
   }
 }
 
+TEST(ContourGates, OneAxisNegatedOrInRadiansVoidsTheRest) {
+  const auto judged = [](double x_times, double c_times) {
+    Pins pins;
+    for (fit::AxisTrace& trace : pins.traces) {
+      for (double& x : trace.x_error_mm) x *= x_times;
+      for (double& c : trace.c_error_rad) c *= c_times;
+    }
+    return pins.judged();
+  };
+  for (const auto& [x, c, words] : {std::tuple{1.0, -1.0, "errors of C negated"},
+                                    {-1.0, 1.0, "errors of X negated"},
+                                    {1.0, kDegree, "errors of C in radians"}}) {
+    SCOPED_TRACE(words);
+    const auto result = judged(x, c);
+    expect_rest_void(result, "sense", true);
+    EXPECT_THAT(contour_gate(result, "sense").reason.english(), testing::HasSubstr(words));
+  }
+}
+
 TEST(ContourGates, AMirroredContourVoidsTheRest) {
   Pins pins;
   pins.task.gauge = ContourTask::Gauge::kClockwise;
@@ -440,6 +459,40 @@ TEST(ContourGates, AGaugeThatHasFilteredAtAnotherCutOffVoidsTheContour) {
     EXPECT_NEAR(found.found.value(), cutoff_upr, 0.25 * cutoff_upr);
     EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
     EXPECT_THAT(result.characteristics[0].reason.english(), testing::HasSubstr("at 50 UPR"));
+  }
+}
+
+TEST(ContourGates, AGaugeThatDriftsOverItsTurnVoidsTheContour) {
+  for (const double drift_um : {0.5, 2.0}) {
+    SCOPED_TRACE(drift_um);
+    Pins pins;
+    auto& read = pins.pins[1];
+    for (std::size_t m = 0; m < read.size(); ++m) {
+      read[m] += drift_um * kMicrometre * static_cast<double>(m) / static_cast<double>(read.size());
+    }
+    const auto result = pins.judged();
+    const bool large = drift_um > 15.0 / 20.0;
+    const Gate& gate = contour_gate(result, "seam");
+    EXPECT_NEAR(gate.found.value(), drift_um, 0.01);
+    EXPECT_EQ(gate.outcome, large ? Gate::Outcome::kVoids : Gate::Outcome::kPassed);
+    EXPECT_EQ(result.characteristics[0].verdict, large ? Verdict::kVoid : Verdict::kConforms);
+  }
+}
+
+TEST(ContourGates, AGaugeReadInTheWrongUnitVoidsTheContour) {
+  for (const bool traced : {true, false}) {
+    SCOPED_TRACE(traced);
+    Pins pins;
+    for (std::size_t i = 0; !traced && i < 4; ++i) pins.mains.push_back(test::spec_rest(i));
+    if (!traced) pins.traces.clear();
+    for (auto* const curves : {&pins.pins, &pins.mains}) {
+      for (auto& curve : *curves) {
+        for (double& r : curve) r *= 1e-3;
+      }
+    }
+    const auto result = pins.judged();
+    EXPECT_EQ(contour_gate(result, "gauge-unit").outcome, Gate::Outcome::kVoids);
+    EXPECT_EQ(result.characteristics[0].verdict, Verdict::kVoid);
   }
 }
 

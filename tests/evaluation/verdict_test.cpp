@@ -167,7 +167,19 @@ TEST(Verdict, OfAnIntervalThatLeavesOutTheProbingFormIsUndecided) {
     // Pasted in place of the repeatability, the block is what was asked for.
     run.settings[5] = {"uncertainty/probe/form_limit_um", std::ceil(100.0 * seen_um) / 100.0, ""};
     EXPECT_EQ(result_of(run).verdict, decided);
+    // Lobes of 0.1 um are no declaration of these, lobes of 1.4 um are.
     run.settings[5] = {"uncertainty/probe/repeatability_um", 0.05, ""};
+    for (const double lobes_um : {0.1, 1.4}) {
+      RunRecord said = run;
+      said.settings.push_back({"uncertainty/probe/lobes/order", 3, ""});
+      said.settings.push_back({"uncertainty/probe/lobes/amplitude_um", lobes_um, ""});
+      const bool enough = lobes_um > 1.0;
+      const CharacteristicResult with_lobes = result_of(said);
+      EXPECT_EQ(with_lobes.reason.english().find("shows a probing form") == std::string::npos,
+                enough)
+          << with_lobes.reason.english();
+      EXPECT_EQ(with_lobes.verdict, enough ? decided : Verdict::kUndecided);
+    }
     run.features[0].strategy = record::Strategy::kPointsFile;  // another probe touched those
     EXPECT_EQ(result_of(run).verdict, decided);
     run.features[0].strategy = record::Strategy::kGuided;

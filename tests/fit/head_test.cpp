@@ -347,6 +347,23 @@ TEST(Head, RefusesWhatDoesNotShowTheErrors) {
   EXPECT_THAT(wrong.error().what, HasSubstr("exchanged"));
 }
 
+TEST(Head, ABallThatWasNotMovedIsNamed) {
+  World world;
+  world.noisy = true;
+  HeadMeasurement m = world.read();
+  EXPECT_TRUE(identify_head(m).value().warnings.empty());
+  const std::size_t each = m.readings.size() / m.balls.size();
+  core::KeyedNoise noise(world.seed, {8});
+  for (std::size_t r = 0; r < each; ++r) {
+    const Vector3d again(noise.normal(), noise.normal(), noise.normal());
+    m.readings[each + r].d_mm = m.readings[r].d_mm + world.u_mm * std::sqrt(2.0) * again;
+  }
+  const auto study = identify_head(m);
+  ASSERT_TRUE(study) << study.error().what;
+  ASSERT_EQ(study->warnings.size(), 1U);
+  EXPECT_THAT(study->warnings[0].what, HasSubstr("B1 and B2 read alike"));
+}
+
 TEST(Head, ReadingsThatTurnTheOtherWayAreNamed) {
   // As if the control had not followed: the ball stands where the reversed angle puts it.
   World world;

@@ -354,7 +354,7 @@ TEST_F(NextPins, WithTheCorrectionOfTheOtherSignAreVoid) {
   EXPECT_GT(fit::peak_to_valley(fit::mean_following(bad.study)), 1.8 * good.gain->before_mm);
   const auto& gates = wrong.features[1].gates;
   EXPECT_TRUE(std::ranges::any_of(gates, [](const evaluation::Gate& gate) {
-    return gate.code == "gain" && gate.outcome == evaluation::Gate::Outcome::kVoids;
+    return gate.code == "sense" && gate.outcome == evaluation::Gate::Outcome::kVoids;
   }));
 }
 

@@ -1,11 +1,14 @@
 // What a valid plan hardly means is said, with the likely meaning; what people do mean is not.
 
 #include <string>
+#include <string_view>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "plans/checks/doubts.h"
+#include "plans/path/solid_mesh.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -88,6 +91,21 @@ TEST(Doubts, ASeatThatCannotShowItsFormIsNamed) {
   plan.fixture->datum->seat.pop_back();
   ASSERT_EQ(doubts_of(plan).size(), 1U);
   EXPECT_EQ(doubts_of(plan).front().where, "/fixture/datum/seat");
+  plan.fixture->datum.reset();
+  BodyPlan body;
+  body.file = "clamp.stl";
+  for (const auto& [size_mm, unit, meant] : {std::tuple{4.7, record::LengthUnit::kMm, "inches"},
+                                             {3048.0, record::LengthUnit::kInch, "millimetres"},
+                                             {120.0, record::LengthUnit::kMm, ""}}) {
+    body.mesh = SolidMesh::box({1.0, size_mm, 2.0}).value();
+    body.unit = unit;
+    plan.fixture->bodies = {body};
+    const auto doubts = doubts_of(plan);
+    ASSERT_EQ(doubts.empty(), std::string_view(meant).empty());
+    if (doubts.empty()) continue;
+    EXPECT_EQ(doubts.front().where, "/fixture/bodies/0/unit");
+    EXPECT_NE(doubts.front().what.find(meant), std::string::npos) << doubts.front().what;
+  }
 }
 
 }  // namespace

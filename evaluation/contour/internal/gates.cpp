@@ -51,6 +51,37 @@ Gate stroke_unchecked(const ContourResult& facts) {
   return out;
 }
 
+std::optional<double> least_tolerance(std::span<const record::Characteristic> asked) {
+  std::optional<double> out;
+  for (const record::Characteristic& one : asked) {
+    if (one.form != record::Form::kContourDeviation || !one.tolerance_mm) continue;
+    out = std::min(out.value_or(*one.tolerance_mm), *one.tolerance_mm);
+  }
+  return out;
+}
+
+/// A gauge that drifts over its turn: the step where the rows close, beside roughness and noise.
+Gate seam(std::span<const record::Characteristic> asked, ContourResult& facts) {
+  constexpr double kRough = 8.0;
+  double step_mm = 0.0;
+  double limit_mm = kShareOfTolerance * least_tolerance(asked).value_or(0.0);
+  for (const fit::ContourPartResult& part : facts.study.parts) {
+    for (const fit::MeasuredContour* one : {&part.pin, part.main ? &*part.main : &part.pin}) {
+      if (one->seam_mm > kRough * one->rough_mm) step_mm = std::max(step_mm, one->seam_mm);
+    }
+  }
+  Gate out{"seam", core::phrase("step between last and first row of a gauge, limit T/20"),
+           step_mm / kMicrometre, limit_mm / kMicrometre, "um"};
+  if (limit_mm == 0.0 || step_mm <= limit_mm) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = core::phrase(
+      "the gauge does not come back: its last row stands {:.3g} um beside the first, more than a "
+      "twentieth of the tolerance, {:.3g} um: let it warm up, or look for play",
+      step_mm / kMicrometre, limit_mm / kMicrometre);
+  void_total(facts, out.reason);
+  return out;
+}
+
 /// The eccentricity of the pin on the gauge: e^2/(2 r) of it stays in t.
 std::vector<Gate> eccentric_gauge(std::span<const record::Characteristic> asked,
                                   ContourResult& facts) {
@@ -71,11 +102,7 @@ std::vector<Gate> eccentric_gauge(std::span<const record::Characteristic> asked,
     void_total(facts, place.reason);
   }
   out.push_back(std::move(place));
-  std::optional<double> tolerance_mm;
-  for (const record::Characteristic& one : asked) {
-    if (one.form != record::Form::kContourDeviation || !one.tolerance_mm) continue;
-    tolerance_mm = std::min(tolerance_mm.value_or(*one.tolerance_mm), *one.tolerance_mm);
-  }
+  const std::optional<double> tolerance_mm = least_tolerance(asked);
   if (!tolerance_mm) return out;
   const double error_mm =
       exact ? 0.0 : largest_mm * largest_mm / (2.0 * facts.options.geometry.pin_radius_mm);
@@ -137,6 +164,19 @@ Gate filter_of_gauge(ContourResult& facts) {
   return out;
 }
 
+/// A gauge that reads less than any pin has, or more, was read in the wrong unit.
+Gate gauge_unit(ContourResult& facts) {
+  Gate out{"gauge-unit", core::phrase("contours of more than 0.05 um and less than 1 mm")};
+  const auto doubt = std::ranges::find_if(facts.study.warnings, [](const core::Error& one) {
+    return one.code == Code::kUnits && !one.where.ends_with("/axes");
+  });
+  if (doubt == facts.study.warnings.end()) return out;
+  out.outcome = Outcome::kVoids;
+  out.reason = core::Phrase(doubt->what);
+  void_total(facts, out.reason);
+  return out;
+}
+
 Gate trace_sampling(ContourResult& facts) {
   double least = facts.study.parts.front().axes.samples_per_turn;
   for (const fit::ContourPartResult& part : facts.study.parts) {
@@ -179,15 +219,36 @@ Gate trace_skew(ContourResult& facts) {
   return out;
 }
 
+core::Phrase doubted(fit::AxisDoubt::Kind kind) {
+  using Kind = fit::AxisDoubt::Kind;
+  if (kind == Kind::kSignOfX) return core::phrase("f with the errors of X negated");
+  if (kind == Kind::kSignOfC) return core::phrase("f with the errors of C negated");
+  return core::phrase("f with the errors of C in radians, not degrees,");
+}
+
 Gate sense(ContourResult& facts) {
   const fit::SenseEvidence& found = facts.study.sense;
   const auto parts = static_cast<double>(found.parts);
   Gate out{"sense",
-           core::phrase("parts whose contour fits the negated or mirrored f better, at most half"),
+           core::phrase("parts whose contour fits another f better (negated, mirrored, one axis "
+                        "negated or in radians), at most half"),
            static_cast<double>(std::max(found.negated_better, found.mirrored_better)), 0.5 * parts};
+  const double given_um = found.rms_difference_mm / kMicrometre;
+  const double rest_mm = found.sign_suspect()    ? found.rms_sum_mm
+                         : found.sense_suspect() ? found.rms_mirrored_mm
+                                                 : found.rms_difference_mm;
+  if (const auto& axis = facts.study.axis; axis && axis->rms_mm < rest_mm) {
+    out.found = parts;
+    out.outcome = Outcome::kVoids;
+    out.reason = core::phrase(
+        "{} fits the mean of the parts better: rest {:.3g} um rms as given, {:.3g} um so: check "
+        "the sign and unit of its columns, and of a table that was loaded",
+        doubted(axis->kind), axis->given_mm / kMicrometre, axis->rms_mm / kMicrometre);
+    void_following(facts, out.reason);
+    return out;
+  }
   if (!found.sign_suspect() && !found.sense_suspect()) return out;
   out.outcome = Outcome::kVoids;
-  const double given_um = found.rms_difference_mm / kMicrometre;
   out.reason =
       found.sign_suspect()
           ? core::phrase(
@@ -232,7 +293,9 @@ Gate gain(ContourResult& facts) {
            {},
            kDeviations,
            ""};
-  if (facts.study.parts.size() < 2 || facts.study.sense.sense_suspect()) return out;
+  if (facts.study.parts.size() < 2 || facts.study.sense.sense_suspect() || facts.study.axis) {
+    return out;
+  }
   const double sign = facts.study.sense.sign_suspect() ? -1.0 : 1.0;  // "sense" says so
   const double declared = facts.influences ? record::u_of(facts.influences->gauge_gain_1) : 0.0;
   double least = 0.0;
@@ -355,7 +418,9 @@ std::vector<Gate> contour_gates(std::span<const record::Characteristic> asked,
   std::vector<Gate> out;
   if (facts.study.traced()) out.push_back(stroke_unchecked(facts));
   for (Gate& gate : eccentric_gauge(asked, facts)) out.push_back(std::move(gate));
+  out.push_back(seam(asked, facts));
   out.push_back(filter_of_gauge(facts));
+  out.push_back(gauge_unit(facts));
   if (!facts.study.traced()) {
     out.push_back(like_main(facts));
     return out;
@@ -376,6 +441,8 @@ bool is_gate(const core::Error& warning, const fit::ContourStudyOptions& options
       return true;
     case Code::kUndersampled:
       return warning.where.ends_with("/axes");
+    case Code::kUnits:  // gauge_unit()
+      return !warning.where.ends_with("/axes");
     case Code::kFilteredTwice:
       return warning.where.ends_with("/pin") && filters(options);
     case Code::kInconsistent:  // filter_of_gauge()

@@ -195,7 +195,8 @@ std::optional<Declared> declared_for(const record::RunRecord& record, const Feat
     out.influences.thermal =
         thermal_influences(*said.thermal, (*recorded)->expansion_per_K, result);
   }
-  out.influences.no_fixture = stands_still(result.feature);
+  const bool of_file = result.feature.strategy == record::Strategy::kPointsFile;
+  out.influences.no_fixture = stands_still(result.feature) || (of_file && !said.fixture);
   if (said.fixture && !out.influences.no_fixture) {
     out.influences.fixture = influences_of(*said.fixture);
     const auto merged = record::task_of<record::MergedPosesSettings>(result.feature.settings);

@@ -155,6 +155,9 @@ void check_contour(const FeaturePlan& feature, const std::string& where, Finding
     if (!sampling) {
       findings.meaning(sampling.error().code, where + "/cutoff_upr", sampling.error().what);
     }
+  } else if (findings.is_given(where + "/cutoff_upr")) {
+    findings.meaning(Code::kMeaning, where + "/cutoff_upr",
+                     "has no effect: the filter is \"none\"; remove it");
   }
 }
 

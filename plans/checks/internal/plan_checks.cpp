@@ -142,7 +142,7 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
     findings.meaning(
         Code::kMissingKey, "/simulation",
         "this key is missing: the driver is \"simulated\"; say what is simulated, {} is "
-        "a part and a machine without errors");
+        "a typical part on a typical machine");
   }
 }
 
@@ -359,6 +359,7 @@ void check_plan(const Plan& plan, Findings& findings) {
   }
   check_uncertainty(plan, findings);
   check_simulated_part(plan, findings);
+  check_overlaps(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
     if (is_touched(plan, i, findings)) {

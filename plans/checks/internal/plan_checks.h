@@ -90,6 +90,10 @@ void check_uncertainty(const Plan& plan, Findings& findings);
 /// its type.
 void check_simulated_part(const Plan& plan, Findings& findings);
 
+/// Refuses touched cylinders of two diameters at one place of the part: a path to the one would
+/// meet the other.
+void check_overlaps(const Plan& plan, Findings& findings);
+
 /// Whether a feature is touched by the machine: neither read from a file nor an analysis of series.
 [[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);
 

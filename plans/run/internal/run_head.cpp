@@ -21,20 +21,23 @@ void append(std::vector<record::Setting> more, std::vector<record::Setting>& out
   for (record::Setting& setting : more) out.push_back(std::move(setting));
 }
 
-/// How the evaluation brings a touched surface to 20 degC.
-record::ExpansionSettings expansion_of(const Plan& plan) {
+/// How the evaluation brings a surface to 20 degC: points of a file by the declared temperature,
+/// where there is one; their scales were those of another machine.
+record::ExpansionSettings expansion_of(const Plan& plan, const FeaturePlan& feature) {
+  const auto environment = plan.environment.value_or(EnvironmentPlan());
   record::ExpansionSettings out;
-  out.part_expansion_per_K = plan.part.expansion_per_K;
+  if (is_touched(feature) || environment.assumed_degC) {
+    out.part_expansion_per_K = plan.part.expansion_per_K;
+  }
   if (out.part_expansion_per_K) {
     out.part_expansion_uncertainty_per_K = plan.part.expansion_uncertainty_per_K;
   }
-  out.scale_expansion_per_K = plan.machine->scale_expansion_per_K;
+  if (is_touched(feature)) out.scale_expansion_per_K = plan.machine->scale_expansion_per_K;
   if (out.scale_expansion_per_K) {
     out.scale_expansion_uncertainty_per_K = plan.machine->scale_expansion_uncertainty_per_K;
   }
   if (out.part_expansion_per_K || out.scale_expansion_per_K) {
-    out.temperature_uncertainty_K =
-        plan.environment.value_or(EnvironmentPlan()).temperature_uncertainty_K;
+    out.temperature_uncertainty_K = environment.temperature_uncertainty_K;
   }
   return out;
 }
@@ -102,6 +105,9 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
         {}, feature.source->valid_for_days, feature.source->plane, {}, {}};
     if (!feature.source->measured_utc.empty()) source.measured_utc = feature.source->measured_utc;
     append(record::settings_of_task(source, "source/"), out);
+    if (analysis_kind(feature.type) == nullptr) {
+      append(record::settings_of_task(expansion_of(plan, feature)), out);
+    }
   }
   if (!is_touched(feature) || !plan.machine) return out;
   if (feature.sampling.method == record::SamplingMethod::kScan) {
@@ -113,7 +119,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
                plan.fixture->axis_point_mm, plan.fixture->axis_offset_mm}),
            out);
   }
-  append(record::settings_of_task(expansion_of(plan)), out);
+  append(record::settings_of_task(expansion_of(plan, feature)), out);
   return out;
 }
 

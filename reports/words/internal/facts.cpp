@@ -22,7 +22,7 @@ std::vector<HeldAgainstTruth> held_against_truth(const evaluation::Characteristi
     if (result.finding) {
       const auto& judged = result.finding->judged;
       if (judged.size() > 1) one.name += " " + judged[k].symbol;
-      one.found = result.value->moved_to(judged[k].value_mm);
+      one.found = result.judged[k];
     }
     if (const auto* stated = one.found.statement()) one.u_mm = stated->standard_uncertainty_mm;
     out.push_back(std::move(one));

@@ -32,10 +32,11 @@ struct HeldAgainstTruth {
   double truth_mm = 0.0;  ///< As all numbers of `found`.
   std::optional<double> u_mm = {};
 
-  /// The quoted value; where that is only a bound, the value as read.
+  /// The estimate, which `u` belongs to, without one the quoted value; where that is only a bound,
+  /// the value as read.
   [[nodiscard]] double found_mm() const {
-    return found.bound() == evaluation::StatedValue::Bound::kNone ? found.quoted_mm()
-                                                                  : found.value_mm();
+    if (found.bound() != evaluation::StatedValue::Bound::kNone) return found.value_mm();
+    return u_mm && found.statement() ? found.statement()->estimate_mm : found.quoted_mm();
   }
   [[nodiscard]] double difference_mm() const { return found_mm() - truth_mm; }
   /// Nothing without an uncertainty.
