@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/correction/corrections.h"
+#include "evaluation/handed_calibration.h"
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/data/analyses.h"
@@ -82,11 +83,13 @@ std::string interval_of(const evaluation::UncertaintyStatement& gain) {
 struct Handed {
   std::vector<CorrectionTable> tables;
   std::string line;
+  core::Phrase none = {};
 };
 
-Handed none_because(const core::Error& why) {
-  return {{}, fmt::format("none: {}", printable(why.said().english()))};
+Handed none_because(const core::Phrase& why) {
+  return {{}, fmt::format("none: {}", printable(why.english())), why};
 }
+Handed none_because(const core::Error& why) { return none_because(why.said()); }
 
 Handed contour_tables(const record::RunRecord& record, int index, const FeatureResult& result,
                       const std::string& name) {
@@ -118,7 +121,7 @@ Handed contour_tables(const record::RunRecord& record, int index, const FeatureR
                         shortest(found->u_mm[i] / kMicrometre));
   }
   const std::string file = fmt::format("{}/{}-x-of-c.csv", kCorrectionsFolder, name);
-  return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
+  return {{{head.kind, file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
 /// @param rounded  To 1e-6 um or urad: the digits of a table, not those of binary numbers.
@@ -163,8 +166,9 @@ Handed axis_tables(const record::RunRecord& record, int index, const FeatureResu
         "axis, in the frame that carries it, from the zero pose; location: included";
     head.gain = said;
     const std::string file = fmt::format("{}/{}-{}-table.csv", kCorrectionsFolder, name, axis.key);
-    out.tables.push_back({file, head_of(record, index, result, head) +
-                                    axis_rows(axis.key, axis.motion->stations(), false)});
+    out.tables.push_back({head.kind, file,
+                          head_of(record, index, result, head) +
+                              axis_rows(axis.key, axis.motion->stations(), false)});
     out.line += (out.line.empty() ? "" : ", ") + file;
   }
   out.line += ": " + said;
@@ -176,8 +180,10 @@ Handed head_table(const record::RunRecord& record, int index, const FeatureResul
                   const std::string& name) {
   if (result.failure) return none_because(*result.failure);
   const auto& facts = std::get<evaluation::FiveAxisResult>(result.analysis->found);
-  if (facts.gain) return {{}, "none: this run has the table of another feature loaded"};
-  if (facts.withheld) return none_because(core::Error{core::Code::kMeaning, *facts.withheld, {}});
+  if (facts.gain) {
+    return none_because(core::phrase("this run has the table of another feature loaded"));
+  }
+  if (facts.withheld) return none_because(*facts.withheld);
   Head head;
   head.kind = "axis-table";
   head.sense =
@@ -201,7 +207,7 @@ Handed head_table(const record::RunRecord& record, int index, const FeatureResul
                         record::is_angle(one.error) ? "urad" : "um");
   }
   const std::string file = fmt::format("{}/{}-head-table.csv", kCorrectionsFolder, name);
-  return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
+  return {{{head.kind, file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
 /// Part and motion over the work angle, of three probes.
@@ -244,7 +250,7 @@ Handed spindle_rows(const record::RunRecord& record, int index, const FeatureRes
     text += pin ? fmt::format(",{}\n", in_um(*row.command_mm)) : "\n";
   }
   const std::string file = fmt::format("{}/{}-spindle-table.csv", kCorrectionsFolder, name);
-  return {{{file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
+  return {{{head.kind, file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};
 }
 
 /// The path of a wheel over its surface: a table, and the program where the plan asks for one.
@@ -269,13 +275,15 @@ Handed wheel_path(const record::RunRecord& record, int index, const FeatureResul
   }
   Handed out;
   const std::string file = fmt::format("{}/{}-wheel-path.csv", kCorrectionsFolder, name);
-  out.tables.push_back({file, head_of(record, index, result, head) + wheel_path_csv(*found.path)});
+  out.tables.push_back(
+      {head.kind, file, head_of(record, index, result, head) + wheel_path_csv(*found.path)});
   out.line = file;
   const auto task = record::task_of<record::WheelTask>(result.feature.settings);
   if (task && task->program) {
     const std::string program = fmt::format("{}/{}-wheel-path.nc", kCorrectionsFolder, name);
-    out.tables.push_back({program, wheel_gcode(*found.path, {task->program->feed_mm_min,
-                                                             task->program->retract_mm})});
+    out.tables.push_back(
+        {"program", program,
+         wheel_gcode(*found.path, {task->program->feed_mm_min, task->program->retract_mm})});
     out.line += ", " + program;
   }
   out.line += ": " + head.gain;
@@ -290,27 +298,49 @@ Handed tables_of(const record::RunRecord& record, int index, const FeatureResult
   if (result.feature.shape == Shape::kFiveAxis) return head_table(record, index, result, name);
   if (result.feature.shape == Shape::kSpindle) return spindle_rows(record, index, result, name);
   if (result.feature.shape == Shape::kWheel) return wheel_path(record, index, result, name);
-  return {{}, "none: points of a surface give no correction for a machine"};
+  return none_because(core::phrase("points of a surface give no correction for a machine"));
 }
 
 }  // namespace
+
+const FeatureResult* calibrated_fixture(const evaluation::Evaluation& evaluation) {
+  const FeatureResult* source = nullptr;
+  for (const FeatureResult& feature : evaluation.features) {
+    const bool later = source != nullptr && source->analysis;
+    if (feature.feature.shape == Shape::kRotaryAxes && !later) source = &feature;
+  }
+  return source;
+}
 
 Corrections write_corrections(const record::RunRecord& record,
                               const evaluation::Evaluation& evaluation) {
   Corrections out;
   out.summary = fmt::format("# rondure corrections, run {}\n", printable(record.header.run_id));
   std::set<std::string> taken;
+  const FeatureResult* calibration = calibrated_fixture(evaluation);
+  if (calibration != nullptr && evaluation::handed_calibration(*calibration).void_because) {
+    calibration = nullptr;
+  }
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     const FeatureResult& result = evaluation.features[i];
     Handed handed = tables_of(record, static_cast<int>(i), result);
     for (const CorrectionTable& table : handed.tables) {
       if (taken.insert(table.file).second) continue;
       // A control would take the table of another feature. `validate` refuses such names.
-      handed = {{}, fmt::format("none: {} is of another feature; rename one", table.file)};
+      handed = none_because(core::phrase("{} is of another feature; rename one", table.file));
       break;
     }
     out.summary += fmt::format("{}: {}\n", printable(result.feature.id), handed.line);
-    for (CorrectionTable& table : handed.tables) out.tables.push_back(std::move(table));
+    FeatureCorrections named;
+    named.none_because = std::move(handed.none);
+    if (&result == calibration) {
+      named.files.push_back({"fixture-calibration", kCalibrationFile, record::Format::kJson});
+    }
+    for (CorrectionTable& table : handed.tables) {
+      named.files.push_back({table.kind, table.file});
+      out.tables.push_back(std::move(table));
+    }
+    out.of_features.push_back(std::move(named));
   }
   return out;
 }

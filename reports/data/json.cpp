@@ -406,7 +406,25 @@ void add_rows(const evaluation::FeatureResult& feature, std::string& out) {
   if (!feature.cloud.empty()) out += "\n" + std::string(kIndent * (kDepthOfRow - 1), ' ');
 }
 
-Json document_of(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
+Json correction_json(const CorrectionFile& one) {
+  return {{"file", one.file}, {"kind", one.kind}, {"format", record::name_of(one.format)}};
+}
+
+/// Adds to the analyses what they hand on to machines. The results in the journal lack it: a table
+/// is no result.
+void add_corrections(const evaluation::Evaluation& evaluation,
+                     const std::vector<FeatureCorrections>& corrections, Json& features) {
+  for (std::size_t i = 0; i < corrections.size(); ++i) {
+    if (!record::is_analysis(evaluation.features[i].feature.shape)) continue;
+    const FeatureCorrections& one = corrections[i];
+    features[i]["corrections"] = list_json(one.files, correction_json);
+    features[i]["no_correction_because"] =
+        one.none_because.empty() ? Json(nullptr) : Json(one.none_because.english());
+  }
+}
+
+Json document_of(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                 const std::vector<FeatureCorrections>& corrections) {
   Json json;
   json["schema_version"] = 1;
   json["header"] = header_json(record);
@@ -418,6 +436,7 @@ Json document_of(const record::RunRecord& record, const evaluation::Evaluation& 
   json["probe"] = std::move(results["probe"]);
   json["fixture_calibration"] = fixture_json(evaluation.fixture);
   json["features"] = std::move(results["features"]);
+  add_corrections(evaluation, corrections, json["features"]);
   json["decisions"] = list_json(record.decisions, event_json);
   json["simulation"] = Json::array();
   for (const record::TruthValue& truth : record.truth_values) {
@@ -433,9 +452,10 @@ Json results_json(const evaluation::Evaluation& evaluation) {
           {"features", list_json(evaluation.features, feature_json)}};
 }
 
-std::string write_json(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
+std::string write_json(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+                       const std::vector<FeatureCorrections>& corrections) {
   // The rows are text one by one: as a document, those of a million points take a gigabyte.
-  const std::string rest = dumped(document_of(record, evaluation)) + "\n";
+  const std::string rest = dumped(document_of(record, evaluation, corrections)) + "\n";
   const std::string empty = "\n" + std::string(kIndent * (kDepthOfRow - 1), ' ') + "\"cloud\": []";
   std::string out;
   std::size_t done = 0;

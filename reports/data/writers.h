@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
+#include "reports/data/corrections.h"
 
 namespace rondure::reports {
 
@@ -28,7 +30,9 @@ namespace rondure::reports {
 /// report.json: every number of the evaluation, in um and deg where the key says so; keys in their
 /// published order (docs/report.md); numbers in the shortest form that reads back to the same
 /// double, null where they are not finite.
+/// @param corrections  What each feature hands on to machines; empty: no entry names any.
 [[nodiscard]] std::string write_json(const record::RunRecord& record,
-                                     const evaluation::Evaluation& evaluation);
+                                     const evaluation::Evaluation& evaluation,
+                                     const std::vector<FeatureCorrections>& corrections = {});
 
 }  // namespace rondure::reports

@@ -10,7 +10,6 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/data/corrections.h"
 #include "reports/data/qif/internal/parts.h"
 #include "reports/data/qif/report.h"
 #include "reports/data/writers.h"
@@ -23,15 +22,10 @@ namespace {
 using record::Format;
 
 constexpr const char* kSeriesFile = "series.csv";
-constexpr const char* kCalibrationFile = "fixture-calibration.json";
 
 /// The calibration of the fixture; after a failed calibration, a text that no run accepts.
 std::string calibration_of(const evaluation::Evaluation& evaluation) {
-  const evaluation::FeatureResult* source = nullptr;
-  for (const evaluation::FeatureResult& feature : evaluation.features) {
-    const bool later = source != nullptr && source->analysis;
-    if (feature.feature.shape == record::Shape::kRotaryAxes && !later) source = &feature;
-  }
+  const evaluation::FeatureResult* source = calibrated_fixture(evaluation);
   return evaluation::handed_calibration(source ? *source : evaluation::FeatureResult()).text;
 }
 
@@ -138,36 +132,51 @@ bool applies(const Export& what, const record::RunRecord& record) {
          });
 }
 
+Corrections corrections_of(const record::RunRecord& record,
+                           const evaluation::Evaluation& evaluation) {
+  return record.ending == "finished" ? write_corrections(record, evaluation) : Corrections();
+}
+
 std::string render(const Export& what, const record::RunRecord& record,
                    const evaluation::Evaluation& evaluation, Edition edition,
                    const EarlierResults& earlier) {
+  return render_all(what, record, evaluation, corrections_of(record, evaluation), edition, earlier)
+      .front()
+      .bytes;
+}
+
+namespace {
+
+std::string bytes_of(const Export& what, const record::RunRecord& record,
+                     const evaluation::Evaluation& evaluation, const Corrections& corrections,
+                     Edition edition, const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
   if (what.format == Format::kHtml || what.format == Format::kPdf) {
-    return write_html(record, evaluation, edition, earlier);
+    return write_html(record, evaluation, edition, earlier, corrections.of_features);
   }
-  if (what.format == Format::kJson) return write_json(record, evaluation);
+  if (what.format == Format::kJson) {
+    return write_json(record, evaluation, corrections.of_features);
+  }
   if (what.format == Format::kQif) return write_qif(record, evaluation);
   if (what.format == Format::kDmis) return write_dmis(record, evaluation);
-  if (what.format == Format::kCorrections) return write_corrections(record, evaluation).summary;
+  if (what.format == Format::kCorrections) return corrections.summary;
   if (what.file == kSeriesFile) return write_series_csv(record);
   if (what.file == kResultsFile) return write_results_csv(record, evaluation);
   if (what.file == kSectionsFile) return write_sections_csv(record, evaluation);
   return write_touches_csv(record);
 }
 
+}  // namespace
+
 std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
-                                 const evaluation::Evaluation& evaluation, Edition edition,
+                                 const evaluation::Evaluation& evaluation,
+                                 const Corrections& corrections, Edition edition,
                                  const EarlierResults& earlier) {
-  std::vector<Rendered> out;
-  if (what.format != Format::kCorrections) {
-    out.push_back({what, render(what, record, evaluation, edition, earlier)});
-    return out;
-  }
-  Corrections made = write_corrections(record, evaluation);
-  out.push_back({what, std::move(made.summary)});
-  for (CorrectionTable& table : made.tables) {
-    out.push_back({{what.format, std::move(table.file)}, std::move(table.text)});
-  }
+  std::vector<Rendered> out = {
+      {what, bytes_of(what, record, evaluation, corrections, edition, earlier)}};
+  if (what.format != Format::kCorrections) return out;
+  for (const CorrectionTable& table : corrections.tables)
+    out.push_back({{what.format, table.file}, table.text});
   return out;
 }
 
@@ -187,10 +196,11 @@ bool exports_are_current(const std::filesystem::path& directory,
                          const evaluation::Evaluation& evaluation, Edition edition, Paper paper) {
   const auto earlier = read_earlier(directory);
   if (!earlier) return false;
+  const Corrections corrections = corrections_of(record, evaluation);
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) return true;
-    const auto files = render_all(e, record, evaluation, edition, *earlier);
+    const auto files = render_all(e, record, evaluation, corrections, edition, *earlier);
     return std::all_of(files.begin(), files.end(), [&](const Rendered& made) {
       const auto bytes = record::read_inside(directory, made.what.file, most_bytes_of(made));
       return bytes && (e.format == Format::kPdf ? is_printed_from(made.bytes, *bytes, paper)
@@ -211,6 +221,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     }
   }
   TRY(const auto earlier, read_earlier(directory));
+  const Corrections corrections = corrections_of(record, evaluation);
   std::vector<std::filesystem::path> written;
   std::vector<record::Checksum> sums;
   std::vector<std::string> gone;
@@ -218,7 +229,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), name_of(e.format)) == formats.end()) continue;
-    std::vector<Rendered> files = render_all(e, record, evaluation, edition, earlier);
+    std::vector<Rendered> files = render_all(e, record, evaluation, corrections, edition, earlier);
     if (e.format == Format::kCorrections) {
       auto removed = remove_old_tables(directory, files);
       if (!removed) {

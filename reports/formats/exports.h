@@ -8,6 +8,7 @@
 #include "core/result.h"
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
+#include "reports/data/corrections.h"
 #include "reports/history/earlier_results.h"
 #include "reports/html/pdf.h"
 #include "reports/words/language.h"
@@ -36,10 +37,16 @@ struct Rendered {
   std::string bytes;
 };
 
+/// The corrections of a finished run; of any other none. All exports of a run name them: they are
+/// computed once.
+[[nodiscard]] Corrections corrections_of(const record::RunRecord& record,
+                                         const evaluation::Evaluation& evaluation);
+
 /// An export with the files that come with it: of corrections.txt the tables that it names.
+/// @param corrections  From corrections_of().
 [[nodiscard]] std::vector<Rendered> render_all(const Export& what, const record::RunRecord& record,
                                                const evaluation::Evaluation& evaluation,
-                                               Edition edition = {},
+                                               const Corrections& corrections, Edition edition = {},
                                                const EarlierResults& earlier = {});
 
 /// The bytes of one export as this program would write it; for report.pdf, the page that it is

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -282,9 +284,36 @@ std::string key_numbers(const evaluation::FeatureResult& feature,
   return html + "</dl>";
 }
 
+/// A kind of file for a machine in words.
+std::string kind_in_words(const std::string& kind) {
+  static const std::map<std::string, const char*> words = {
+      {"x-of-c", translatable("X over C")},
+      {"axis-table", translatable("errors over the angle")},
+      {"spindle-table", translatable("form and motion over the angle")},
+      {"wheel-path", translatable("path of the wheel")},
+      {"program", translatable("program of the path")},
+      {"fixture-calibration", translatable("calibration of the fixture")}};
+  return tr(words.at(kind));
+}
+
+/// The files for machines by name, or why there is no table. It holds whichever formats are
+/// written: a page does not know them.
+std::string corrections_note(const FeatureCorrections& corrections) {
+  std::string html;
+  for (const CorrectionFile& one : corrections.files) {
+    html += note(trf("Correction: {} ({}), written by --format {}.",
+                     fmt::format(R"(<span class="mono">{}</span>)", escaped(one.file)),
+                     kind_in_words(one.kind), record::name_of(one.format)));
+  }
+  if (!corrections.none_because.empty())
+    html += note(trf("No correction for a machine: {}.", in_sentence(corrections.none_because)));
+  return html;
+}
+
 /// Section of an analysed feature.
 std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                             const evaluation::FeatureResult& feature, bool detail) {
+                             const evaluation::FeatureResult& feature, bool detail,
+                             const FeatureCorrections& corrections) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
       R"(<section><h2>{}</h2><p class="note">{}</p>)", feature_title(asked),
@@ -324,6 +353,7 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
   const std::string gates = gates_section(feature);
   return html + (quiet ? std::string() : drawings) + (passed ? std::string() : gates) +
          truth_box(truth_text(record, index)) + truth_table(feature) +
+         corrections_note(corrections) +
          folded(quiet ? tr("Drawings, call-outs that conform, conditions")
                       : tr("Call-outs that conform, conditions"),
                 callouts_section(feature, record, false) + (quiet ? drawings : std::string()) +
@@ -413,8 +443,10 @@ DrawnFeature drawn_of(const evaluation::FeatureResult& all, std::optional<std::s
 }
 
 std::string feature_section(const record::RunRecord& record, std::size_t index,
-                            const evaluation::FeatureResult& all, bool detail, bool drawn_above) {
-  if (record::is_analysis(all.feature.shape)) return analysis_section(record, index, all, detail);
+                            const evaluation::FeatureResult& all, bool detail, bool drawn_above,
+                            const FeatureCorrections& corrections) {
+  if (record::is_analysis(all.feature.shape))
+    return analysis_section(record, index, all, detail, corrections);
   const auto outside = evaluation::outside_windows(all);
   const evaluation::FeatureResult& feature = outside ? *outside : all;
   const auto zone = zone_of(feature);

@@ -105,7 +105,8 @@ std::string top_of(const std::vector<PagePart>& parts) {
 /// The parts of the page in their order; empty ones are omitted.
 std::vector<PagePart> parts_of(const record::RunRecord& record,
                                const evaluation::Evaluation& evaluation,
-                               const EarlierResults& earlier, bool detail) {
+                               const EarlierResults& earlier,
+                               const std::vector<FeatureCorrections>& corrections, bool detail) {
   const std::vector<Callout> callouts = callouts_of(evaluation);
   const Callout* drawn = drawn_callout(callouts);
   std::vector<PagePart> parts;
@@ -116,7 +117,8 @@ std::vector<PagePart> parts_of(const record::RunRecord& record,
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     add(fmt::format("feature-{}", i + 1), feature_title(evaluation.features[i].feature),
         feature_section(record, i, evaluation.features[i], detail,
-                        drawn != nullptr && drawn->feature == &evaluation.features[i]));
+                        drawn != nullptr && drawn->feature == &evaluation.features[i],
+                        i < corrections.size() ? corrections[i] : FeatureCorrections()));
   }
   add("uncertainty", tr("Uncertainty"), uncertainties_section(evaluation, callouts));
   add("history", tr("Earlier runs"), history_section(record, evaluation, earlier));
@@ -158,10 +160,12 @@ std::string kind_of_page(const evaluation::Evaluation& evaluation, bool of_drawi
 }  // namespace
 
 std::string write_html(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
-                       Edition edition, const EarlierResults& earlier) {
+                       Edition edition, const EarlierResults& earlier,
+                       const std::vector<FeatureCorrections>& corrections) {
   const LanguageScope scope(edition.language);
   const bool of_drawing = has_findings(evaluation);
-  const std::vector<PagePart> parts = parts_of(record, evaluation, earlier, edition.detail);
+  const std::vector<PagePart> parts =
+      parts_of(record, evaluation, earlier, corrections, edition.detail);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{}\"{}>\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"

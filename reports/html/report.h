@@ -2,9 +2,11 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
+#include "reports/data/corrections.h"
 #include "reports/history/earlier_results.h"
 #include "reports/words/language.h"
 
@@ -22,10 +24,12 @@ struct Edition {
 };
 
 /// report.html: one self-contained page (needs no network, and no script to be read).
-/// @param earlier  Results of earlier runs, for its run charts.
+/// @param earlier      Results of earlier runs, for its run charts.
+/// @param corrections  What each feature hands on to machines; empty: the page names none.
 [[nodiscard]] std::string write_html(const record::RunRecord& record,
                                      const evaluation::Evaluation& evaluation, Edition edition = {},
-                                     const EarlierResults& earlier = {});
+                                     const EarlierResults& earlier = {},
+                                     const std::vector<FeatureCorrections>& corrections = {});
 /// How a page from write_html() was written, as the page itself states it; for anything else
 /// English and without detail.
 [[nodiscard]] Edition edition_of_page(std::string_view page);

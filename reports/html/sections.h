@@ -7,6 +7,7 @@
 
 #include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
+#include "reports/data/corrections.h"
 #include "reports/history/earlier_results.h"
 #include "reports/words/callouts.h"
 
@@ -36,7 +37,7 @@ namespace rondure::reports {
 /// @param drawn   Page one has drawn the feature: its map is not drawn again.
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const evaluation::FeatureResult& feature, bool detail,
-                                          bool drawn);
+                                          bool drawn, const FeatureCorrections& corrections);
 /// The body of an analysed feature: the drawing that shows the matter, key numbers with their words
 /// explained, other drawings, tables. `record` gives the hidden truth of a simulation.
 [[nodiscard]] std::string analysis_part(const evaluation::SpindleResult& facts,

@@ -193,6 +193,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
       absent += (absent.empty() ? "; not there: " : ", ") + e.file;
     return false;
   };
+  const Corrections corrections = corrections_of(record, evaluation);
   for (const Export& e : exports()) {
     // A table for a machine is checked also where the text that names it was taken away.
     const bool has_tables = e.format == Format::kCorrections && !tables.empty();
@@ -203,7 +204,8 @@ core::Result<std::string> compare_exports(const fs::path& directory,
       TRY(const auto page, record::read_inside(directory, e.file, record::kMostPointsBytes));
       edition = edition_of(e, page);
     }
-    for (const Rendered& rendered : render_all(e, record, evaluation, edition, *earlier)) {
+    for (const Rendered& rendered :
+         render_all(e, record, evaluation, corrections, edition, *earlier)) {
       const auto& [file, made] = rendered;
       tables.erase(file.file);
       if (file.file == e.file ? !there : !is_there(file)) continue;

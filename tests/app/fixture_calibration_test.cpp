@@ -52,6 +52,10 @@ TEST_F(CalibratedFixture, LeavesAtMostNineTenthsOfAMicrometre) {
     EXPECT_GT(held.at("truth_um"), 0.5 * held.at("found_um").get<double>());
     EXPECT_LT(held.at("truth_um"), held.at("found_um"));
   }
+  // It is named as what it hands on; tables for a control need influences.
+  EXPECT_EQ(report.at("/features/0/corrections/0/file"_json_pointer), kFile);
+  EXPECT_THAT(report.at("/features/0/no_correction_because"_json_pointer).get<std::string>(),
+              HasSubstr("no influence is declared"));
   const Outcome verified = rondure({"verify", run()});
   EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr(kFile));

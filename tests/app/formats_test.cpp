@@ -185,6 +185,12 @@ TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
   std::filesystem::remove(run / "corrections.txt");
   ASSERT_EQ(rondure({"report", run}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(run / "corrections.txt"));
+  // The page and report.json name the file also where it was not written, and how to have it.
+  EXPECT_THAT(read(run / "report.html"),
+              HasSubstr(R"(<span class="mono">corrections/pin-x-of-c.csv</span> (X over C), )"
+                        "written by --format corrections."));
+  EXPECT_THAT(read(run / "report.json"), HasSubstr("\"file\": \"corrections/pin-x-of-c.csv\""));
+  EXPECT_EQ(rondure({"verify", run}).status, 0);
 }
 
 TEST_F(Formats, CorrectionsSayWhichFeaturesHaveNoneAndWhy) {
