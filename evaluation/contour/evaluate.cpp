@@ -136,6 +136,8 @@ core::Result<AnalysisValue> mask_value(const ContourResult& facts,
         worst = share;
         out.value_mm = h.amplitude_mm;
         out.limit_mm = line.amplitude_mm;
+        out.harmonic = h.number;
+        out.part = i;
         out.detail = core::phrase("harmonic {} of part {} is nearest to its limit", h.number,
                                   facts.names[i]);
       }

@@ -7,7 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
+#include "evaluation/harmonic_mask.h"
 #include "evaluation/results/finding.h"
 #include "evaluation/rotary/internal/combined_field.h"
 #include "record/tasks/surface.h"
@@ -97,16 +99,47 @@ bool knows_truth(const RunRecord& record, std::size_t feature) {
 }
 
 /// The values of a characteristic that are judged; of one that find() does not compute, the value.
-/// Of a mask none: the harmonic nearest to its limit may be another one without errors.
 std::vector<double> compared_values(const CharacteristicResult& result) {
   std::vector<double> out;
   if (result.finding) {
     for (const JudgedValue& judged : result.finding->judged) out.push_back(judged.value_mm);
-  } else if (const auto value = result.value_mm();
-             value && result.characteristic.form != record::Form::kHarmonicLimits) {
+  } else if (const auto value = result.value_mm()) {
     out.push_back(*value);
   }
   return out;
+}
+
+/// The amplitude of an order among others; nothing where it is not there.
+template <class Harmonics, class Order>
+std::vector<double> amplitude_of(const Harmonics& all, int number, Order order) {
+  const auto found = std::ranges::find(all, number, order);
+  return found == all.end() ? std::vector<double>() : std::vector<double>{found->amplitude_mm};
+}
+
+/// Of a mask: the harmonic that was judged, without errors. There another one may be nearest to its
+/// limit.
+std::vector<double> same_harmonic(const FeatureResult& measured, const FeatureResult& exact,
+                                  const record::Characteristic& asked) {
+  if (!measured.analysis) {
+    const auto judged = nearest_to_mask(measured, asked);
+    for (const LayerResult& layer : exact.layers) {
+      if (!judged || layer.layer != judged->harmonic.layer || !layer.filtered) continue;
+      return amplitude_of(layer.filtered->harmonics.harmonics, judged->harmonic.number,
+                          &fit::Harmonic::number);
+    }
+    return {};
+  }
+  const auto judged = value_of(*measured.analysis, asked);
+  if (!judged || !exact.analysis) return {};
+  if (const auto* const spindle = std::get_if<SpindleResult>(&exact.analysis->found)) {
+    return amplitude_of(spindle->separation.harmonics, judged->harmonic,
+                        &fit::RecoveredHarmonic::order);
+  }
+  const auto* const pins = std::get_if<ContourResult>(&exact.analysis->found);
+  if (pins == nullptr || judged->part >= pins->study.parts.size()) return {};
+  return amplitude_of(fit::contour_harmonics(pins->study.parts[judged->part].pin.contour.error_mm,
+                                             judged->harmonic),
+                      judged->harmonic, &fit::Harmonic::number);
 }
 
 bool calibrates(const FeatureResult& feature) {
@@ -157,6 +190,8 @@ void hold_against_truth(const RunRecord& measured, const ValuesOf& values_of, Ev
       if (!all_known || c >= there.characteristics.size()) continue;
       std::vector<double> values = compared_values(there.characteristics[c]);
       if (left && !values.empty()) values = left_values(there, result.characteristic.form);
+      if (result.characteristic.form == record::Form::kHarmonicLimits)
+        values = same_harmonic(here, there, result.characteristic);
       if (values.size() == compared_values(result).size()) result.truths_mm = std::move(values);
     }
   }

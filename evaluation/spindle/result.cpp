@@ -108,6 +108,7 @@ core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
       worst = h.amplitude_mm / line.amplitude_mm;
       out.value_mm = h.amplitude_mm;
       out.limit_mm = line.amplitude_mm;
+      out.harmonic = h.order;
       out.detail = core::phrase("harmonic {} is nearest to its limit", h.order);
     }
     const int highest = facts.separation.harmonics.back().order;

@@ -206,6 +206,26 @@ TEST(Examples, TheTruthOfARoundnessIsFilteredAsItsValue) {
   EXPECT_EQ(compared, 2) << "RONt and RONq";
 }
 
+// Of the harmonic that was judged, and of the same part.
+TEST(Examples, AMaskStandsBesideTheTruthOfItsHarmonic) {
+  struct Mask {
+    const char* example;
+    double planted_um;  // harmonic 16 of the part; harmonic 2 of the third pin, by its axes too
+    double within_um;
+  };
+  for (const Mask& mask :
+       {Mask{"05_spindle_three_probe", 0.5, 0.001}, Mask{"07_crank_pin", 2.595, 0.01}}) {
+    SCOPED_TRACE(mask.example);
+    const json report = json::parse(read(example_runs() / mask.example / "report.json"));
+    const json& asked = report.at("/features/0/characteristics/2"_json_pointer);
+    ASSERT_EQ(asked.at("form"), "harmonic-limits");
+    ASSERT_EQ(asked.at("simulation").size(), 1U);
+    const double truth_um = asked["simulation"][0]["truth_um"];
+    EXPECT_NEAR(truth_um, mask.planted_um, mask.within_um);
+    EXPECT_NE(truth_um, asked.at("value_um").get<double>());
+  }
+}
+
 TEST(Examples, ValidateNamesWhatIsNotDeclared) {
   EXPECT_THAT(rondure({"validate", example("01_spool_simulated.json")}).out,
               HasSubstr("uncertainty: not declared, so in no interval: machine-length-limit"));

@@ -95,6 +95,23 @@ TEST(Scanning, ALobeThatFewTouchesMissIsSeen) {
   }
 }
 
+TEST(Scanning, AMaskIsHeldAgainstTheTruthOfItsHarmonic) {
+  Plan plan = perfect_plan("scan");
+  plan.simulation->part.lobes = {{14, 2.0, 90.0, 0.0}};
+  plan.simulation->probe.repeatability_um = 0.3;
+  plan.features.front().sampling.points_per_layer = 360;
+  record::CharacteristicTask asked;
+  asked.id = "mask";
+  asked.form = record::Form::kHarmonicLimits;
+  asked.harmonic_limits = {{10, 20, 3.0}};
+  plan.features.front().characteristics = {asked};
+  const auto scanned = test::inspect(plan);
+  const auto& found = scanned.evaluation.features.front().characteristics.front();
+  ASSERT_EQ(found.truths_mm.size(), 1U) << found.reason;
+  EXPECT_NEAR(found.truths_mm.front(), 2e-3, 1e-6);
+  EXPECT_NE(found.truths_mm.front(), found.value_mm());
+}
+
 TEST(Scanning, TypicalErrorsShowAsSomeMicrometres) {
   Plan plan = perfect_plan("scan");
   plan.features.front().sampling.points_per_layer = 72;
