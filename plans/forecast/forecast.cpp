@@ -326,6 +326,7 @@ core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally&
 core::Result<Forecast> forecast(const Plan& plan) {
   Forecast out;
   if (!touches_anything(plan)) return out;
+  const Questions before = questions_of_thread();
   Tally tally(*plan.machine, out);
   using Kind = ForecastStage::Kind;
   if (auto added = add_spheres(qualification_steps(plan), stage_of(Kind::kQualification), tally);
@@ -356,6 +357,9 @@ core::Result<Forecast> forecast(const Plan& plan) {
     out.path_mm += stage.path_mm;
     out.time_s += stage.time_s;
   }
+  out.questions = questions_of_thread();
+  out.questions.asked -= before.asked;
+  out.questions.on_meshes -= before.on_meshes;
   return out;
 }
 

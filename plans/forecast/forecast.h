@@ -50,6 +50,7 @@ struct Forecast {
   int poses = 0;  ///< Number of turns of the fixture.
   double path_mm = 0.0;
   double time_s = 0.0;  ///< By the machine clock, without turns of the fixture.
+  Questions questions;  ///< Of its paths: the same in every forecast of this plan.
 };
 
 /// Simulates the steps of a run, with the same pose search and the same planner, on a part without

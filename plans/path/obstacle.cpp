@@ -186,6 +186,7 @@ const RevolvedMesh& Obstacle::mesh() const {
 }
 
 bool Obstacle::meets(const Sweep& sweep) const {
+  ++questions_of_thread().asked;
   const Corners c = corners_of(sweep);
   const double room_mm = grown_mm_ - kGraze_mm;
   if (surely_apart(solid_, room_mm, c)) return false;
@@ -193,6 +194,7 @@ bool Obstacle::meets(const Sweep& sweep) const {
     if (distance_mm(solid_, corner) < room_mm) return true;
   }
   if (sweep.along_mm.cross(sweep.up_mm).norm() > kFlat_mm2) {
+    ++questions_of_thread().on_meshes;
     return mesh().meets(c[0], c[1], c[2]) || mesh().meets(c[0], c[2], c[3]);
   }
   // Flat: the longest of the spans between two corners contains the others.
@@ -206,7 +208,9 @@ bool Obstacle::meets(const Sweep& sweep) const {
       }
     }
   }
-  return far_a != far_b && mesh().meets(c[far_a], c[far_b]);
+  if (far_a == far_b) return false;
+  ++questions_of_thread().on_meshes;
+  return mesh().meets(c[far_a], c[far_b]);
 }
 
 }  // namespace rondure::plans

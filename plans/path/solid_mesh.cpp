@@ -157,6 +157,11 @@ struct SolidMesh::Impl {
 SolidMesh::SolidMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SolidMesh::~SolidMesh() = default;
 
+Questions& questions_of_thread() {
+  thread_local Questions out;
+  return out;
+}
+
 core::Result<std::shared_ptr<const SolidMesh>> SolidMesh::build(
     std::span<const Vector3d> points_mm, std::span<const std::array<std::size_t, 3>> corners) {
   namespace pmp = CGAL::Polygon_mesh_processing;
@@ -251,9 +256,12 @@ double SolidMesh::distance_mm(const Vector3d& point_mm) const {
 }
 
 bool SolidMesh::meets(const Sweep& sweep, double room_mm) const {
+  ++questions_of_thread().asked;
   try {
     int asked = 0;
-    if (impl_->nearer(sweep, room_mm, asked)) return true;
+    const bool near = impl_->nearer(sweep, room_mm, asked);
+    if (asked > 0) ++questions_of_thread().on_meshes;
+    if (near) return true;
     const bool within = (sweep.start_mm.array() >= impl_->low_mm.array()).all() &&
                         (sweep.start_mm.array() <= impl_->high_mm.array()).all();
     return within && impl_->inside &&

@@ -21,6 +21,16 @@ struct Sweep {
   Eigen::Vector3d up_mm = Eigen::Vector3d::Zero();
 };
 
+/// Questions whether a sweep comes too near to a solid.
+struct Questions {
+  std::size_t asked = 0;
+  std::size_t on_meshes = 0;  ///< Answered by the tree of a mesh; the others in closed form.
+};
+
+/// Those of this thread since it began: differences count. They stand for the thread, since they
+/// change no path, and every signature of the planner would carry them otherwise.
+[[nodiscard]] Questions& questions_of_thread();
+
 /// A surface of triangles of any shape, as CAD writes it: a soup whose triangles share no corners,
 /// look to either side, and may leave gaps. Corners within a millionth of its size are joined, the
 /// triangles are turned to look to one side, and borders that meet are stitched.

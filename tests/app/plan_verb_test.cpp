@@ -1,13 +1,19 @@
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iostream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/files.h"
 #include "tests/app/program.h"
+#include "tests/plans/stl_files.h"
 
 namespace rondure::app::testing {
 namespace {
@@ -122,6 +128,57 @@ TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
   const Outcome told = rondure({"plan", example("09_axle_points_file.json")});
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(told.out, HasSubstr("nothing would move"));
+}
+
+TEST(PlanVerb, SaysHowManyQuestionsOfTheClearanceMeshesAnswered) {
+  const auto asked = [](const std::filesystem::path& plan) {
+    const Outcome told = rondure({"plan", plan, "--json"});
+    return nlohmann::json::parse(told.out).at("clearance");
+  };
+  const auto found = asked(example("18_calibrate_and_inspect.json"));
+  const auto questions = found.at("questions").get<double>();
+  const auto on_meshes = found.at("on_meshes").get<double>();
+  std::cout << found << "\n";
+  EXPECT_GT(questions, 10'000.0);
+  EXPECT_GT(on_meshes, 0.0);
+  EXPECT_LT(on_meshes, 0.5 * questions) << "closed forms answer most";
+  EXPECT_EQ(asked(example("18_calibrate_and_inspect.json")), found);
+  EXPECT_THAT(rondure({"plan", example("18_calibrate_and_inspect.json")}).out,
+              HasSubstr(fmt::format("\nClearance: {} questions, {:.2g} % answered on meshes\n",
+                                    questions, 100.0 * on_meshes / questions)));
+  EXPECT_THAT(rondure({"plan", example("01_spool_simulated.json")}).out,
+              Not(HasSubstr("Clearance:")));
+}
+
+// As near to the spool as its touches allow, and higher.
+TEST(PlanVerb, ABodyOfTwentyThousandTrianglesTakesLessThanTwoSeconds) {
+  const Scratch folder;
+  const auto used_s = [] {
+    rusage used = {};
+    ::getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+  };
+  const test::Soup stand = test::cylinder_soup(20.0, 0.0, 300.0, 100, 99);
+  ASSERT_EQ(stand.corners.size(), 20'000U);
+  write(folder / "stand.stl", test::stl_text(stand));
+  write_plan(folder / "plan.json", {{"/fixture/bodies",
+                                     {{{"id", "stand"},
+                                       {"shape", "mesh"},
+                                       {"file", "stand.stl"},
+                                       {"unit", "mm"},
+                                       {"facets", "round"},
+                                       {"position_mm", {45, 45, 0}}}}}});
+  const double before_s = used_s();
+  const Outcome told = rondure({"plan", folder / "plan.json", "--json"});
+  const double took_s = used_s() - before_s;
+  ASSERT_EQ(told.status, 0) << told.out << told.err;
+  const auto found = nlohmann::json::parse(told.out).at("clearance");
+  std::cout << found << ", " << took_s << " s\n";
+  EXPECT_GT(found.at("on_meshes"), 200);
+#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
+  EXPECT_LT(took_s, 2.0);
+#endif
 }
 
 TEST(PlanVerb, PredictsTheIntervalInEightyColumns) {
