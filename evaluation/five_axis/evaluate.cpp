@@ -30,6 +30,7 @@ constexpr double kLeastReading_mm = 1e-6;  // of the digits of readings
 constexpr double kMostDeviation_mm = 5.0;  // the control holds the ball: no more is left
 constexpr double kHeadSigmas = 4.0;
 constexpr double kHeadPoses = 5.0;
+constexpr double kMostOfBefore_1 = 1.5;  // a table of the other sign leaves twice as much
 
 /// Pooled standard deviation of the readings at C = A = 0.
 double reference_scatter_mm(const fit::HeadMeasurement& m) {
@@ -99,7 +100,7 @@ core::Result<fit::HeadMeasurement> measurement_of(const record::Series& series,
 }
 
 /// Refuses deviations that no head under its control leaves.
-/// @param loaded  A simulated repeat: a table may leave less than a reading is uncertain by.
+/// @param loaded  A repeat: a table may leave less than a reading is uncertain by.
 core::Result<void> check_deviations(const fit::HeadMeasurement& m, bool loaded) {
   double largest = 0.0;
   for (const fit::HeadReading& r : m.readings) largest = std::max(largest, r.d_mm.norm());
@@ -195,8 +196,29 @@ CombinedPose combined_of(const fit::HeadVerification& pose, bool loaded) {
   return out;
 }
 
+/// Controls differ in the sign of the errors that they expect.
+Gate sign_of_table(const HeadGain& gain, double loaded_mm) {
+  const double times = loaded_mm / gain.before.rms_mm;
+  Gate out{
+      "sense", core::phrase("rms at combined poses with the table loaded over that without it"),
+      times,   kMostOfBefore_1,
+      {},      Gate::Outcome::kPassed,
+      {}};
+  if (times <= kMostOfBefore_1) return out;
+  out.outcome = Gate::Outcome::kVoids;
+  out.reason = core::phrase(
+      "with the table of {} loaded the balls deviate by {} um rms, {:.1f} times the {} um without "
+      "it: the control takes it with the other sign; negate its errors, load it and read again",
+      gain.with, core::um(loaded_mm), times, core::um(gain.before.rms_mm));
+  return out;
+}
+
 std::vector<Gate> head_gates(const FiveAxisResult& facts) {
-  std::vector<Gate> out = station_gates(axes_of(facts), facts.condition);
+  std::vector<Gate> out;
+  if (facts.gain && facts.gain->before.rms_mm > 0.0) {  // before those that it explains
+    out.push_back(sign_of_table(*facts.gain, facts.study.before.rms_mm));
+  }
+  for (Gate& gate : station_gates(axes_of(facts), facts.condition)) out.push_back(std::move(gate));
   const double sigmas = facts.study.reference_step_mm / (std::sqrt(2.0) * facts.u_mm);
   Gate references{"references",
                   core::phrase("difference of two readings of a ball at C = A = 0 over its "

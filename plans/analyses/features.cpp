@@ -127,13 +127,17 @@ std::string why_no_radius(const FeaturePlan& producer) {
              : fmt::format("feature {} has no nominal_radius_mm", in_quotes(producer.id));
 }
 
+/// @param files  Whether readings of a file follow: theirs were taken before.
+template <bool files>
 std::string why_no_table(const FeaturePlan& producer) {
-  if (!producer.five_axis || producer.source) {
-    return fmt::format("feature {} is no simulated head", in_quotes(producer.id));
+  if (!producer.five_axis) return fmt::format("feature {} is no head", in_quotes(producer.id));
+  if (producer.five_axis->repeat) {
+    return fmt::format("feature {} has a table loaded itself", in_quotes(producer.id));
   }
-  return producer.five_axis->repeat
-             ? fmt::format("feature {} has a table loaded itself", in_quotes(producer.id))
-             : std::string();
+  return producer.source.has_value() == files
+             ? std::string()
+             : fmt::format("the readings of feature {} are {}, those of this one are not",
+                           in_quotes(producer.id), files ? "simulated" : "of a file");
 }
 
 /// @param files  Whether parts of files follow: theirs were ground before.
@@ -171,7 +175,8 @@ std::vector<TakenValue> references_of(const FeaturePlan& feature) {
   }
   if (feature.five_axis && feature.five_axis->repeat) {
     out.push_back({"/five_axis/repeat/with/feature", feature.five_axis->repeat->with.feature,
-                   "the table is that of a simulated feature of type five_axis", why_no_table});
+                   "the table is that of a feature of type five_axis",
+                   feature.source ? why_no_table<true> : why_no_table<false>});
   }
   if (feature.wheel && feature.wheel->axis_from) {
     out.push_back({"/wheel/axis_from/feature", feature.wheel->axis_from->feature,

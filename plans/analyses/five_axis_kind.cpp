@@ -105,7 +105,7 @@ void check_five_axis(const FeaturePlan& feature, const std::string& where, Findi
   check_balls(plan, where + "/balls", findings);
   if (feature.source) {
     for (const std::string_view key :
-         {"/c_stations_deg", "/a_stations_deg", "/verification", "/references", "/repeat"}) {
+         {"/c_stations_deg", "/a_stations_deg", "/verification", "/references"}) {
       if (!findings.is_given(where + std::string(key))) continue;
       findings.meaning(Code::kMeaning, where + std::string(key),
                        "has no effect: the file says where the ball was read; remove it");

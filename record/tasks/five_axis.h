@@ -124,7 +124,7 @@ void describe(Visitor& v, FiveAxisTask& p) {
   v.object("uncertainty", p.uncertainty,
            {.meaning = "Declared influences; an interval needs all three."});
   v.object("repeat", p.repeat,
-           {.meaning = "The table of an earlier feature is loaded; simulated only."});
+           {.meaning = "The table of an earlier feature is loaded."});
 }
 
 }  // namespace rondure::record

@@ -197,6 +197,38 @@ TEST(FiveAxis, TableOfAReversedCircleIsThatOfTheWholeCircleOfTheControl) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].first, std::to_string(5 * i));
 }
 
+// A control that expects the other sign doubles the errors.
+TEST(FiveAxis, TableLoadedWithTheOtherSignIsVoidAndSaysWhatToDo) {
+  const auto record = journal_of(example_runs() / "19_five_axis_head");
+  for (const double times : {0.1, 2.0}) {
+    SCOPED_TRACE(times);
+    const Scratch folder;
+    ordered_json plan = plan_of_file(folder, record, [times](std::vector<double>& row) {
+      for (std::size_t k = 4; k < 7; ++k) row[k] *= times;
+    });
+    std::filesystem::rename(folder / "nest.csv", folder / "loaded.csv");
+    ordered_json loaded = plan["features"][0];
+    plan = plan_of_file(folder, record);
+    loaded["id"] = "loaded";
+    loaded["source"]["file"] = "loaded.csv";
+    loaded["five_axis"]["repeat"]["with"]["feature"] = plan["features"][0]["id"];
+    plan["features"].push_back(loaded);
+    const json report = report_of(folder, plan, "repeat");
+    const json& gates = report.at("features").at(1).at("gates");
+    const auto gate =
+        std::ranges::find_if(gates, [](const json& one) { return one.at("code") == "sense"; });
+    ASSERT_NE(gate, gates.end());
+    EXPECT_NEAR(gate->at("found"), times, 0.01);
+    EXPECT_EQ(gate->at("outcome"), times > 1.5 ? "voids" : "passed");
+    const json& left = report.at("features").at(1).at("characteristics").at(0);
+    EXPECT_EQ(left.at("verdict") == "void", times > 1.5) << left.at("reason");
+    if (times <= 1.5) continue;
+    EXPECT_THAT(left.at("reason").get<std::string>(),
+                HasSubstr("2.0 times the 41.244 um without it: the control takes it with the other "
+                          "sign; negate its errors, load it and read again"));
+  }
+}
+
 /// The code and the sentence of a feature without a result.
 void expect_refused(const std::function<void(std::vector<double>&)>& change, const char* code,
                     const char* words) {
