@@ -244,16 +244,6 @@ core::Result<void> check_end(Body& body, std::size_t points) {
                                               points));
 }
 
-/// Takes the unit that a line of a head states, or the line where its unit is in doubt.
-void take_unit(std::string_view line, Cloud& head) {
-  const auto unit = unit_in_text(line);
-  if (unit && !head.unit) head.doubtful.clear();
-  const bool doubtful =
-      unit ? head.unit.value_or(*unit) != unit : !head.unit && may_state_unit(line);
-  if (doubtful) head.doubtful = line;
-  if (unit) head.unit = unit;
-}
-
 std::optional<std::size_t> axis_named(std::string_view name) {
   const bool known = name.size() == 1 && name[0] >= 'x' && name[0] <= 'z';
   return known ? std::optional(static_cast<std::size_t>(name[0] - 'x')) : std::nullopt;
@@ -263,7 +253,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
   Body body{bytes, name};
   std::vector<std::pair<std::string, Block>> blocks;
   std::optional<Coding> form;
-  Cloud head;
+  UnitLines units;
   for (bool ended = false; !ended;) {
     if (body.rest.empty()) return body.fail(Code::kSyntax, "the head of the PLY file has no end");
     ++body.line;
@@ -293,7 +283,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
     } else if (word == "end_header") {
       ended = true;
     } else if (word == "comment" || word == "obj_info") {
-      take_unit(line, head);
+      units.take(line.substr(word.size()), name, body.line);
     }  // other lines mean nothing: "Created by ..."
   }
   if (!form) return body.fail(Code::kSyntax, "the head of the PLY file names no format");
@@ -314,8 +304,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
   if (!out) return body.fail(Code::kSyntax, "the PLY file has no element vertex");
   if (!more) TRY_DO(check_end(body, out->points.size()));
   out->mesh = faces;
-  out->unit = head.unit;
-  out->doubtful = std::move(head.doubtful);
+  out->units = std::move(units);
   return *std::move(out);
 }
 
@@ -327,13 +316,13 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   std::vector<std::size_t> sizes;
   std::vector<std::size_t> counts;
   std::string_view data;
-  Cloud head;
+  UnitLines units;
   while (data.empty()) {
     if (body.rest.empty()) return body.fail(Code::kSyntax, "the head of the PCD file has no end");
     ++body.line;
     const std::string_view line = take_line(body.rest);
     const auto words = fields_of(line, ' ');
-    if (words[0].starts_with('#')) take_unit(line, head);
+    if (words[0].starts_with('#')) units.take(line, name, body.line);
     for (std::size_t i = 1; i < words.size(); ++i) {
       if (words[0] == "FIELDS") names.push_back(words[i]);
       if (words[0] == "TYPE") types.push_back(words[i]);
@@ -364,8 +353,7 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   body.form = data == "ascii" ? Coding::kText : Coding::kLittle;
   TRY(auto out, take_points(body, block, "PCD"));
   TRY_DO(check_end(body, out.points.size()));
-  out.unit = head.unit;
-  out.doubtful = std::move(head.doubtful);
+  out.units = std::move(units);
   return out;
 }
 
@@ -400,6 +388,8 @@ core::Result<Cloud> read_binary_stl(std::string_view bytes, std::string_view nam
   Cloud out;
   out.mesh = out.single = true;
   out.read = "STL, binary, vertices";
+  const std::string_view head = bytes.substr(0, kStlHead - 4);
+  out.units.take(head.substr(0, head.find('\0')), name, 1);
   Vertices vertices;
   if (3 * ((bytes.size() - kStlHead) / kFacetBytes) > kMostRows) {
     return core::fail(too_many_rows().at(std::string(name)));
@@ -427,6 +417,7 @@ core::Result<Cloud> read_text_stl(std::string_view bytes, std::string_view name)
     const std::string_view line = take_line(body.rest);
     const auto words = fields_of(line, ' ');
     ended = words[0] == "endsolid" || (ended && filled_fields(words) == 0);
+    if (words[0] == "solid") out.units.take(line.substr(line.find("solid") + 5), name, body.line);
     if (words[0] != "vertex") continue;
     Eigen::Vector3d vertex;
     for (std::size_t k = 0; k < 3; ++k) {

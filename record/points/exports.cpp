@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "record/csv/internal/lines.h"
 #include "record/points/internal/cloud.h"
 #include "record/points/internal/head.h"
+#include "record/points/internal/units.h"
 
 namespace rondure::record {
 namespace {
@@ -71,6 +73,8 @@ class Parts {
 /// feature. Points after PTMEAS are targets.
 core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
   Cloud out;
+  out.units.doubtful =
+      unit_error("the DMIS file states no UNITS of its points").at(std::string(name));
   Parts features("features", name);
   out.read = "DMIS, x y z of points";
   std::string statement;
@@ -87,13 +91,18 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
     }
     const std::string_view whole = statement;
     if (whole.starts_with("UNITS/")) {
-      for (const auto& [word, unit] :
-           std::to_array<std::pair<std::string_view, LengthUnit>>({{"INCH", LengthUnit::kInch},
-                                                                   {"CM", LengthUnit::kCm},
-                                                                   {"MM", LengthUnit::kMm},
-                                                                   {"M", LengthUnit::kM}})) {
-        if (fields_of(whole.substr(6), ',').front() == word) out.unit = unit;
+      const auto unit = unit_of_field(fields_of(whole.substr(6), ',').front());
+      if (unit && unit != out.units.unit.value_or(*unit)) {
+        return core::fail(Code::kUnits,
+                          fmt::format("UNITS changes from {} to {}; bring each part in a file of "
+                                      "its own",
+                                      name_of(*out.units.unit), name_of(*unit)),
+                          fmt::format("{}:{}", name, begin));
       }
+      out.units.unit = unit;
+      if (!unit)
+        out.units.doubtful = unit_error(fmt::format("the DMIS file says {}", quoted_text(whole)))
+                                 .at(fmt::format("{}:{}", name, begin));
     }
     const std::size_t feature = whole.find("=FEAT/POINT,");
     const bool raw = whole.starts_with("RAWDAT/");
@@ -219,11 +228,17 @@ core::Result<Cloud> read_qif(std::string_view text, std::string_view name) {
   const auto lengths = elements_below(units.empty() ? document : units.front(), "LinearUnit");
   const std::string_view word =
       units.empty() || lengths.empty() ? "" : text_of(lengths.front(), "UnitName");
-  if (!word.empty()) {
-    out.unit = unit_in_text(fmt::format("unit {}", word));
-    if (!out.unit) {
-      return fail(Code::kUnits, fmt::format("the unit {} is unknown", quoted_text(word)));
-    }
+  const auto metres = core::parse_number(lengths.empty() ? "" : text_of(lengths.front(), "Factor"));
+  for (const LengthUnit unit :
+       {LengthUnit::kMm, LengthUnit::kUm, LengthUnit::kCm, LengthUnit::kM, LengthUnit::kInch}) {
+    const bool same = metres && std::abs(1e3 * *metres / mm_in(unit) - 1.0) < 1e-9;
+    if (same || unit_of_field(lower_case(word)) == unit) out.units.state(unit, std::string(name));
+  }
+  if (!out.units.unit) {
+    out.units.doubtful =
+        unit_error(word.empty() ? std::string("the QIF document states no unit of length")
+                                : fmt::format("the unit {} is unknown", quoted_text(word)))
+            .at(std::string(name));
   }
   if (sets.empty()) {
     out.read = "QIF, points of a measured feature";

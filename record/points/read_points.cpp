@@ -17,6 +17,7 @@
 #include "record/points/internal/cloud.h"
 #include "record/points/internal/head.h"
 #include "record/points/internal/text_table.h"
+#include "record/points/internal/units.h"
 #include "record/points/triangles.h"
 
 namespace rondure::record {
@@ -26,22 +27,6 @@ constexpr WantedColumns kPoints;
 constexpr std::string_view kProfileList = "theta_deg,r_um or x,y";
 constexpr WantedColumns kSection = {{"x", "y", "z"}, {"mm", "mm", "mm"}, false, kProfileList};
 constexpr WantedColumns kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, true, kProfileList};
-
-double mm_in(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::kMm:
-      return 1.0;
-    case LengthUnit::kUm:
-      return 1e-3;
-    case LengthUnit::kCm:
-      return 10.0;
-    case LengthUnit::kM:
-      return 1e3;
-    case LengthUnit::kInch:
-      return 25.4;
-  }
-  return 1.0;
-}
 
 /// How many points each layer has, layer 0 first.
 std::vector<int> points_of_layers(const std::vector<int>& layers) {
@@ -231,10 +216,8 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
     out.mesh = found.mesh;
     how = found.read + (found.mesh ? " of a mesh" : "");
     if (found.single) how += ", stored with 32 bits";
-    if (!unit && !found.doubtful.empty()) {
-      return core::fail(doubtful_unit(found.doubtful).at(std::string(name)));
-    }
-    if (!unit) unit = found.unit;
+    if (const auto fault = found.units.fault(); !unit && fault) return core::fail(*fault);
+    if (!unit) unit = found.units.unit;
   } else {
     PointsOptions said = options;  // a name may be in the encoding of the file
     TRY(const auto feature, decode_text(options.feature, name));

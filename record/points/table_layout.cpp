@@ -151,25 +151,33 @@ class Finder {
     for (std::size_t k = 0; k < end; ++k) {
       layout.at_least = std::max(layout.at_least, points_in_text(lines_[k].text));
     }
-    std::string_view before;
-    const Line* doubtful = nullptr;
-    for (std::size_t k = 0; k < end && !options_.unit && !wanted_.polar; ++k) {
-      const std::string_view line = lines_[k].text;  // "Units:" may stand on the line before
-      const std::string whole =
-          before.ends_with(':') ? fmt::format("{} {}", before, line) : std::string(line);
-      const auto unit = unit_in_text(whole);
-      before = line;
-      if (!unit && may_state_unit(whole)) doubtful = &lines_[k];
-      if (!unit) continue;
-      if (layout.unit && layout.unit != unit) {
-        return core::fail(at_line(unit_error(fmt::format("the file says {} and {}",
-                                                         name_of(*layout.unit), name_of(*unit))),
-                                  name_, lines_[k].number));
+    if (options_.unit || wanted_.polar) return {};
+    for (std::size_t k = 0; k < end; ++k)
+      layout.units.take(lines_[k].text, name_, lines_[k].number);
+    const auto fault = layout.units.fault();
+    if (!fault || (layout.has(Role::kUnit) && !layout.units.contradiction)) return {};
+    return core::fail(*fault);
+  }
+
+  /// Takes the units of x, y and z from a row that holds units: ";mm;mm;mm".
+  /// @return  Whether the row is one; kUnits where they differ.
+  core::Result<bool> take_unit_row(TableLayout& layout, const Cells& fields,
+                                   std::size_t number) const {
+    std::optional<LengthUnit> found;
+    const bool alone = filled_fields(fields) == 1;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const bool coordinate = i < layout.roles.size() && layout.roles[i] <= Role::kZ;
+      if (fields[i].empty() || !(coordinate || alone)) continue;
+      const auto unit = unit_of_field(fields[i]);
+      if (!unit) return false;
+      const LengthUnit other = found.value_or(layout.units.unit.value_or(*unit));
+      if (unit != other) {
+        return core::fail(at_line({Code::kUnits, columns_differ(other, *unit), {}}, name_, number));
       }
-      layout.unit = unit;
+      found = unit;
     }
-    if (layout.unit || layout.has(Role::kUnit) || doubtful == nullptr) return {};
-    return core::fail(at_line(doubtful_unit(doubtful->text), name_, doubtful->number));
+    if (found) layout.units.unit = found;
+    return found.has_value();
   }
 
   /// Whether a column called "Element" names features: most rows have the name of another one, or
@@ -210,12 +218,13 @@ class Finder {
   core::Result<std::vector<TableLayout>> below(const Head& head, std::size_t k,
                                                char separator) const {
     if (head.fault) return core::fail(at_line(*head.fault, name_, lines_[k].number));
-    TableLayout layout{{separator, '.'}, head.roles, head.names, head.unit};
+    TableLayout layout{{separator, '.'}, head.roles, head.names, {head.unit}};
     std::size_t first = next(k + 1);
     const auto text = [&] { return first < lines_.size() ? lines_[first].text : ""; };
-    if (const auto unit = unit_of_row(fields_of(text(), separator))) {
-      if (!layout.unit) layout.unit = unit;
-      first = next(first + 1);
+    if (first < lines_.size()) {
+      TRY(const bool units,
+          take_unit_row(layout, fields_of(text(), separator), lines_[first].number));
+      if (units) first = next(first + 1);
     }
     if (next(first + 1) < lines_.size()) layout.announced = announced_by(text());
     if (layout.announced) first = next(first + 1);

@@ -82,7 +82,7 @@ class RowReader {
   RowReader(const TableLayout& layout, std::string_view name, const PointsOptions& options,
             const WantedColumns& wanted)
       : layout_(layout), name_(name), options_(options), wanted_(wanted) {
-    table_.unit = layout.unit;
+    table_.unit = layout.units.unit;
   }
 
   core::Result<TextTable> read() {
@@ -90,7 +90,10 @@ class RowReader {
     std::size_t bytes = 0;
     while (!lines.rest.empty()) {
       const std::string_view line = lines.take();
-      if (holds_no_row(line)) continue;
+      if (holds_no_row(line)) {
+        text(line, lines.number);
+        continue;
+      }
       if (row(line)) {
         if (table_.rows.empty()) bytes = line.size() + 1;
         if (auto full = keep(lines, bytes)) return core::fail(*std::move(full));
@@ -107,6 +110,11 @@ class RowReader {
   }
 
  private:
+  /// Takes the unit that a line of text among the rows states.
+  void text(std::string_view line, std::size_t number) {
+    if (!wanted_.polar) units_.take(line, name_, number, true);
+  }
+
   /// Reads one row; false when it has an error, which explain() then describes.
   bool row(std::string_view line) {
     const char separator = layout_.notation.separator;
@@ -162,7 +170,7 @@ class RowReader {
     }
     if (role == Role::kUnit) {
       if (field.empty()) return true;
-      const auto unit = unit_of_row({field});
+      const auto unit = unit_of_field(field);
       const bool one = unit && unit == unit_.value_or(*unit);
       unit_ = unit;
       return one;
@@ -263,6 +271,9 @@ class RowReader {
   }
 
   core::Result<TextTable> finish(const Lines& lines) {
+    const auto fault = units_.fault();
+    if (fault && !options_.unit && !has_unit_) return core::fail(*fault);
+    if (!has_unit_) table_.unit = units_.unit;
     const std::size_t all = count_ + table_.left_out;
     // a few lost points are dirt, more are another kind of file
     if (table_.left_out * 100 > all) return core::fail(*first_without_);
@@ -323,6 +334,8 @@ class RowReader {
   const WantedColumns& wanted_;
   bool has_layer_ = layout_.has(Role::kLayer);
   bool has_feature_ = layout_.has(Role::kFeature);
+  bool has_unit_ = layout_.has(Role::kUnit);
+  UnitLines units_ = layout_.units;
   TextTable table_;
   std::size_t count_ = 0;
   std::map<std::string_view, std::size_t> others_;

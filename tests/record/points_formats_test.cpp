@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -195,20 +196,54 @@ TEST(PointsFormats, AUnitInDoubtInTheHeadIsRefusedUntilItIsGiven) {
         "POINTS 2\nDATA ascii\n1 2 3\n4 5 6\n",
         comment);
   };
-  const std::array files = {std::pair(ply("comment all in inch\n"), "a.ply"),
-                            std::pair(ply("comment unit mm\ncomment unit inch\n"), "a.ply"),
-                            std::pair(pcd("# all in inch\n"), "a.pcd")};
-  for (const auto& [bytes, name] : files) {
+  const std::string_view unclear = "inch\" seems to state a unit";
+  const std::array files = {std::tuple(ply("comment all in inch\n"), "a.ply", unclear),
+                            std::tuple(ply("comment unit mm\ncomment unit inch\n"), "a.ply",
+                                       std::string_view("says mm and inch")),
+                            std::tuple(pcd("# all in inch\n"), "a.pcd", unclear)};
+  for (const auto& [bytes, name, what] : files) {
     SCOPED_TRACE(bytes);
     const auto refused = read_points(bytes, name);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, core::Code::kUnits);
-    EXPECT_THAT(refused.error().what, HasSubstr("inch\" seems to state a unit"));
+    EXPECT_THAT(refused.error().what, HasSubstr(std::string(what)));
     EXPECT_TRUE(read_points(bytes, name, {.feature = "", .unit = LengthUnit::kMm}));
   }
+  std::string binary = stl(false);
+  binary.replace(0, 20, "units: inches       ");
+  EXPECT_EQ(read_points(binary, "a.stl")->points_mm.at(0)[2], 101.0 * 25.4);
+  std::string text = stl(true);
+  text.replace(6, 9, "all inch ");
+  EXPECT_FALSE(read_points(text, "a.stl"));
   EXPECT_EQ(read_points(pcd("# units: inch\n"), "a.pcd")->points_mm.at(0)[0], 25.4);
   EXPECT_EQ(read_points(ply("comment all in inch\ncomment unit mm\n"), "a.ply")->points_mm.at(0)[0],
             1.0);
+}
+
+TEST(PointsFormats, WithoutOneUnitAreRefused) {
+  const auto replaced = [](std::string text, const std::string& old, std::string_view by) {
+    return text.replace(text.find(old), old.size(), by);
+  };
+  const std::string unit_name = "<UnitName>mm</UnitName>";
+  const auto with_factor = [](std::string_view unit) {
+    return fmt::format("<UnitName>{}</UnitName><Factor>0.0254</Factor>", unit);
+  };
+  const std::array files = {
+      std::pair(replaced(kDmis, "UNITS/MM", "$$"), "states no UNITS of its points: give --unit"),
+      std::pair(replaced(kDmis, "UNITS/MM", "UNITS/FEET"), "says \"UNITS/FEET,ANGDEC\": give"),
+      std::pair(replaced(kDmis, "RAWDAT", "UNITS/INCH\r\nRAWDAT"), "changes from mm to inch"),
+      std::pair(replaced(kQif, unit_name, ""), "states no unit of length: give --unit"),
+      std::pair(replaced(kQif, unit_name, with_factor("mm")), "says mm and inch")};
+  for (const auto& [bytes, what] : files) {
+    SCOPED_TRACE(what);
+    const auto refused = read_points(bytes, "a.dmo");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, core::Code::kUnits);
+    EXPECT_THAT(refused.error().what, HasSubstr(what));
+  }
+  EXPECT_TRUE(read_points(files[0].first, "a.dmo", {.feature = "", .unit = LengthUnit::kMm}));
+  const auto inches = replaced(kQif, unit_name, with_factor("in_us"));
+  EXPECT_EQ(read_points(inches, "a.qif")->points_mm.at(0)[2], 101.0 * 25.4);
 }
 
 TEST(PointsFormats, AMeshIsSaidToBeOne) {

@@ -132,6 +132,9 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"# x[ft] y[ft] z[ft]\n1 2 3\n", kUnits, "pin.csv:1", "unknown unit \"ft\""},
       {"x [mm];y [inch];z [mm]\n1;2;3\n", kUnits, "pin.csv:1", "in mm and in inch"},
       {"Units: inch\nx [mm];y [mm]\n1;2\n", kUnits, "pin.csv:1", "says mm and inch"},
+      {"x,y,z,t\nmm,mm,um,s\n1,2,3,4\n", kUnits, "pin.csv:2", "in mm and in um"},
+      {"x,y\n1,2\n# Units: inch\n3,4\n", kUnits, "pin.csv:3", "says inch below points"},
+      {"// Unit: mm\nx y\n1 2\n// Units: Inches\n3 4\n", kUnits, "pin.csv:4", "says mm and inch"},
       {"//X Y Z I\n3\n1 2 3 4\n5 6 7 8\n", kSyntax, "pin.csv:4", "announces 3 of them, 2 follow"},
       {"# cloud\nNOFF\n3 0 0\n\n1.5 2 3\n4 5 6\n7 8 9\n", kSyntax, "pin.csv:2", "an OFF mesh"},
       {"axis0,axis1,min0,max0,num0\nX,Y,5.00,275.00,5\n0.1,0.2,0.3,0.4,0.5\n", kSyntax, "pin.csv:1",
@@ -426,6 +429,11 @@ TEST(PointsText, TakesTheUnitThatTheTextAboveStates) {
       {"Unité : pouce", kInch},
       {"单位: 毫米", kMm},
       {"Units of measure: inch", kInch},
+      {"Unit: \"", kInch},
+      {"LengthUnit = IN", kInch},
+      {"in,in,in", kInch},
+      {"XYZIJK METRIC", kMm},
+      {"\"Unit\" \"3\"", std::nullopt},
       {"Masseinheit: Zoll", kInch},
       {"Unit under test: block 7, clamped in the vice", std::nullopt},
       {"Unit: 3", std::nullopt},
@@ -448,7 +456,8 @@ TEST(PointsText, RefusesALineThatMayStateAUnitWhereNoneIsUnderstood) {
   };
   for (const std::string_view line :
        {"Measured in inches", "MODE INCH", "# [inch]", "G20", "Maße in Zoll", "System: imperial",
-        "Units: thousandths", "Units = English", "Units: tenths of mm", "単位: インチ"}) {
+        "Units: thousandths", "Units = English", "English units", "# in", "measured in in",
+        "XYZIJK", "Units: tenths of mm", "単位: インチ"}) {
     SCOPED_TRACE(line);
     const auto table = read_points(text(line, "x,y,z"), "pin.csv");
     ASSERT_FALSE(table);
@@ -469,6 +478,8 @@ TEST(PointsText, TakesTheUnitOfAColumn) {
   EXPECT_EQ(read("1;2;3;inch\n4;5;6;inch\n")->points_mm.at(0),
             Eigen::Vector3d(25.4, 50.8, 25.4 * 3));
   EXPECT_THAT(read_points("x;y;Einheit\n1;2;Zoll\n", "pin.csv")->read, HasSubstr("in inch;"));
+  EXPECT_THAT(read_points("X (\"),Y (\")\n1,2\n", "pin.csv")->read, HasSubstr("in inch;"));
+  EXPECT_THAT(read_points("d;x;y\num;mm;mm\n1;2;3\n", "pin.csv")->read, HasSubstr("x y in mm;"));
   EXPECT_THAT(read("1;2;3;mm\n4;5;6;inch\n").error().what, HasSubstr("another unit than above"));
   EXPECT_THAT(read("1;2;3;thou\n").error().what, HasSubstr("column of units says \"thou\": give"));
   std::string rows;

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "record/points/internal/units.h"
 #include "record/points/points.h"
 
 namespace rondure::record {
@@ -23,8 +24,7 @@ struct Cloud {
   std::string read;                                        ///< "PLY, little endian, double x y z".
   bool mesh = false;                                       ///< They are the vertices of triangles.
   bool single = false;                                     ///< Stored with 32 bits.
-  std::optional<LengthUnit> unit;                          ///< As the file states it.
-  std::string doubtful = {};  ///< A line of the head that may state a unit.
+  UnitLines units = {};                                    ///< As the file states it.
 };
 
 /// Hash of a place; a coordinate of -0.0 must have become 0.0.

@@ -12,6 +12,7 @@
 #include "core/encodings.h"
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
+#include "record/points/internal/units.h"
 
 namespace rondure::record {
 namespace {
@@ -120,32 +121,7 @@ core::Result<DecodedText> decode_text(std::string_view bytes, std::string_view n
 
 namespace {
 
-using NameWords = std::vector<std::string>;
-
 constexpr std::size_t kMostFields = 1000;
-constexpr auto kUnitWords = std::to_array<std::pair<std::string_view, LengthUnit>>(
-    {{"mm", LengthUnit::kMm},          {"millimeter", LengthUnit::kMm},
-     {"millimetre", LengthUnit::kMm},  {"millimeters", LengthUnit::kMm},
-     {"millimetres", LengthUnit::kMm}, {"um", LengthUnit::kUm},
-     {"\u00b5m", LengthUnit::kUm},     {"\u03bcm", LengthUnit::kUm},
-     {"micron", LengthUnit::kUm},      {"microns", LengthUnit::kUm},
-     {"micrometer", LengthUnit::kUm},  {"mikrometer", LengthUnit::kUm},
-     {"cm", LengthUnit::kCm},          {"m", LengthUnit::kM},
-     {"meter", LengthUnit::kM},        {"metre", LengthUnit::kM},
-     {"meters", LengthUnit::kM},       {"inch", LengthUnit::kInch},
-     {"inches", LengthUnit::kInch},    {"zoll", LengthUnit::kInch},
-     {"in", LengthUnit::kInch},        {"pulgada", LengthUnit::kInch},
-     {"pulgadas", LengthUnit::kInch},  {"polegada", LengthUnit::kInch},
-     {"polegadas", LengthUnit::kInch}, {"pouce", LengthUnit::kInch},
-     {"pouces", LengthUnit::kInch},    {"pollice", LengthUnit::kInch},
-     {"pollici", LengthUnit::kInch},   {"cal", LengthUnit::kInch},
-     {"cale", LengthUnit::kInch},      {"tum", LengthUnit::kInch},
-     {"英寸", LengthUnit::kInch},      {"毫米", LengthUnit::kMm},
-     {"微米", LengthUnit::kUm},        {"厘米", LengthUnit::kCm},
-     {"milímetro", LengthUnit::kMm},   {"milímetros", LengthUnit::kMm},
-     {"millimètre", LengthUnit::kMm},  {"millimètres", LengthUnit::kMm},
-     {"millimetro", LengthUnit::kMm},  {"millimetri", LengthUnit::kMm},
-     {"milimetr", LengthUnit::kMm},    {"milimetry", LengthUnit::kMm}});
 /// NameWords beside x, y and z that say: as measured. One that says nominal or deviation is another
 /// column.
 constexpr auto kMeasuredWords = std::to_array<std::string_view>(
@@ -157,70 +133,10 @@ constexpr auto kMeasuredWords = std::to_array<std::string_view>(
 constexpr auto kLayerWords =
     std::to_array<std::string_view>({"layer", "layers", "schicht", "ebene", "schnitt", "section",
                                      "couche", "strato", "capa", "层"});
-/// NameWords that announce a unit in the text above a table, those that may stand between, and
-/// those that show that "in" was the unit: "Units: in, deg".
-constexpr auto kUnitNames = std::to_array<std::string_view>(
-    {"unit", "units", "einheit", "einheiten", "maßeinheit", "masseinheit", "längeneinheit", "单位",
-     "unidad", "unidades", "unidade", "unité", "unités", "unità", "jednostka", "jednostki", "enhet",
-     "eenheid"});
-constexpr auto kMeasures = std::to_array<std::string_view>({"dimensions", "coordinates", "values"});
-constexpr auto kBetween = std::to_array<std::string_view>(
-    {"in", "is", "are", "of", "for", "all", "ist", "sind", "length", "linear", "used", "system",
-     "measure", "measurement", "measurements"});
-/// Words that speak of inches wherever they stand: "Measured in inches", "G20".
-constexpr auto kInchWords = std::to_array<std::string_view>(
-    {"inch", "inches", "zoll", "imperial", "g20", "pouce", "pouces", "pulgada", "pulgadas",
-     "polegada", "polegadas", "pollice", "pollici", "дюйм", "дюймы", "дюймах", "英寸", "インチ"});
 /// NameWords of a column that names the feature of each row, where it does so for several rows.
 constexpr auto kElementWords = std::to_array<std::string_view>(
     {"element", "elementname", "featurename", "featureid", "merkmal", "merkmalname", "élément",
      "elemento", "caractéristique", "característica", "caratteristica", "元素", "要素", "特征"});
-/// NameWords of "Number of points: 180".
-constexpr auto kPointWords = std::to_array<std::string_view>(
-    {"points", "punkte", "messpunkte", "pts", "puntos", "punti", "点数"});
-constexpr auto kCountWords =
-    std::to_array<std::string_view>({"number", "no", "num", "count", "total", "anzahl", "nombre",
-                                     "número", "numero", "of", "der", "de", "di", "measured"});
-constexpr auto kAngles =
-    std::to_array<std::string_view>({"deg", "degree", "degrees", "rad", "radian", "grad"});
-
-bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return out;
-}
-
-NameWords words_in(std::string_view text) {
-  NameWords out;
-  bool inside = false;
-  for (const char c : lower_case(text)) {
-    if (is_word(c) && !inside) out.emplace_back();
-    inside = is_word(c);
-    if (inside) out.back() += c;
-  }
-  return out;
-}
-
-std::optional<LengthUnit> unit_named(std::string_view word) {
-  for (const auto& [name, unit] : kUnitWords) {
-    if (name == word) return unit;
-  }
-  return std::nullopt;
-}
-
-template <class List>
-bool is_one_of(const List& list, std::string_view word) {
-  return std::ranges::find(list, word) != list.end();
-}
-
-bool announces_unit(std::string_view word) {
-  return is_one_of(kUnitNames, word) || is_one_of(kMeasures, word);
-}
-
 bool is_measured(std::string_view word) { return is_one_of(kMeasuredWords, word); }
 
 /// "x", "xactual", "posx": the coordinate that a word names.
@@ -282,7 +198,7 @@ Column column_of(std::string_view field) {
     out.role = Role::kFeature;
   } else if (is_one_of(kLayerWords, whole)) {
     out.role = Role::kLayer;
-  } else if (is_one_of(kUnitNames, whole)) {
+  } else if (names_unit(whole)) {
     out.role = Role::kUnit;
   }
   return out;
@@ -413,9 +329,7 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
                                        quoted_text(fields[i]), quoted_text(column.unknown_unit)));
     }
     if (column.unit && out.unit && column.unit != out.unit && !out.fault) {
-      out.fault = fault_of(core::Code::kUnits,
-                           fmt::format("the columns are in {} and in {}; one unit is expected",
-                                       name_of(*out.unit), name_of(*column.unit)));
+      out.fault = fault_of(core::Code::kUnits, columns_differ(*out.unit, *column.unit));
     }
     if (column.unit) out.unit = column.unit;
   }
@@ -424,70 +338,6 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
     out.fault =
         fault_of(core::Code::kSyntax, fmt::format("column \"{}\" is missing; the columns are {}",
                                                   wanted.names.at(i), wanted.list));
-  }
-  return out;
-}
-
-std::optional<LengthUnit> unit_in_text(std::string_view line) {
-  const NameWords words = words_in(line);
-  // The unit follows at once: "Unit 3, M. Weber" and "unit clamped in a vice" state none.
-  std::size_t k = 0;
-  while (k < words.size() && !announces_unit(words[k])) ++k;
-  for (++k; k < words.size(); ++k) {
-    const bool between = is_one_of(kBetween, words[k]) || announces_unit(words[k]);
-    const bool ends = k + 1 == words.size() || is_one_of(kAngles, words[k + 1]);
-    if (!between || ends) return unit_named(words[k]);  // "in" at the end is inch
-  }
-  return std::nullopt;
-}
-
-bool may_state_unit(std::string_view line) {
-  NameWords words = words_in(line);
-  const auto speaks_of_inches = [](std::string_view word) { return is_one_of(kInchWords, word); };
-  if (std::ranges::any_of(words, speaks_of_inches)) return true;
-  // "Units: thousandths", but neither "Unit: 3" nor "Units: degrees"
-  const bool stated = line.find_first_of(":=") != std::string_view::npos;
-  if (!stated || words.empty() || !is_one_of(kUnitNames, words[0])) return false;
-  std::erase_if(words, [](std::string_view word) {
-    return is_one_of(kUnitNames, word) || is_one_of(kBetween, word);
-  });
-  const auto is_no_unit = [](std::string_view word) {
-    return is_one_of(kAngles, word) || word.find_first_of("0123456789") != std::string_view::npos;
-  };
-  const auto is_unit = [](std::string_view word) { return unit_named(word).has_value(); };
-  return (words.size() == 1 || std::ranges::any_of(words, is_unit)) &&
-         std::ranges::none_of(words, is_no_unit);
-}
-
-core::Error unit_error(const std::string& fault) {
-  return {core::Code::kUnits, fault + ": give --unit, in a plan source.unit", {}};
-}
-
-core::Error doubtful_unit(std::string_view line) {
-  return unit_error(
-      fmt::format("{} seems to state a unit, which is not understood", quoted_text(line)));
-}
-
-std::optional<std::size_t> points_in_text(std::string_view line) {
-  NameWords words = words_in(line);
-  if (words.size() < 2) return std::nullopt;
-  const auto count = count_of(words.back());
-  words.pop_back();
-  const auto speaks_of_points = [](std::string_view word) { return is_one_of(kPointWords, word); };
-  const auto counts = [&](std::string_view word) {
-    return speaks_of_points(word) || is_one_of(kCountWords, word);
-  };
-  const bool stated =
-      std::ranges::any_of(words, speaks_of_points) && std::ranges::all_of(words, counts);
-  return stated ? count : std::nullopt;
-}
-
-std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields) {
-  std::optional<LengthUnit> out;
-  for (const std::string_view field : fields) {
-    const NameWords words = words_in(field);
-    if (words.size() == 1 && unit_named(words[0])) out = out ? out : unit_named(words[0]);
-    if (words.size() > 1 || (words.size() == 1 && !unit_named(words[0]))) return std::nullopt;
   }
   return out;
 }

@@ -59,20 +59,6 @@ struct Head {
                                           const PointsOptions& options,
                                           const WantedColumns& wanted);
 
-/// The unit that a line of text states: "Units: inch".
-[[nodiscard]] std::optional<LengthUnit> unit_in_text(std::string_view line);
-/// Whether a line that unit_in_text() does not understand may state a unit all the same: it speaks
-/// of inches, or is "Units: thousandths".
-[[nodiscard]] bool may_state_unit(std::string_view line);
-/// That the unit of a file is in doubt, and what settles it.
-[[nodiscard]] core::Error unit_error(const std::string& fault);
-/// The same of a line that may_state_unit().
-[[nodiscard]] core::Error doubtful_unit(std::string_view line);
-/// The number of points that a line above them states in words: "Number of points: 180".
-[[nodiscard]] std::optional<std::size_t> points_in_text(std::string_view line);
-/// The unit of a row that holds nothing but units.
-[[nodiscard]] std::optional<LengthUnit> unit_of_row(const std::vector<std::string_view>& fields);
-
 /// A word that is a whole number, or nothing.
 [[nodiscard]] std::optional<std::size_t> count_of(std::string_view word);
 /// The place, from 0, that a column named by a number has.

@@ -11,6 +11,7 @@
 
 #include "core/result.h"
 #include "record/points/internal/head.h"
+#include "record/points/internal/units.h"
 
 namespace rondure::record {
 
@@ -46,7 +47,7 @@ struct TableLayout {
   Notation notation;
   std::vector<Role> roles;  ///< One a field.
   std::array<std::string, 3> names;
-  std::optional<LengthUnit> unit;
+  UnitLines units = {};
   Lines rows{std::string_view()};
   bool elements = false;  ///< A feature without a name is that of the row above.
   std::optional<std::size_t> announced = {};  ///< Rows that the line above them states.
