@@ -13,6 +13,7 @@
 #include "core/encodings.h"
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
+#include "record/points/internal/number_rows.h"
 
 namespace rondure::record {
 namespace {
@@ -37,6 +38,7 @@ constexpr std::size_t kLookedAt = 200;  ///< Lines that show how a file is writt
 struct Numeric {
   bool number = false;
   bool fraction = false;
+  double value = 0.0;
 };
 Numeric numeric(std::string_view field, char decimal) {
   double value = 0.0;
@@ -44,7 +46,7 @@ Numeric numeric(std::string_view field, char decimal) {
   const auto [stop, problem] = read_number(field.data(), end, decimal, value);
   const bool number =
       !field.empty() && problem == std::errc() && stop == end && std::isfinite(value);
-  return {number, number && field.find(decimal) != std::string_view::npos};
+  return {number, number && field.find(decimal) != std::string_view::npos, value};
 }
 
 /// A line at the begin of a file that is not empty.
@@ -67,10 +69,6 @@ std::string both_readings(std::string_view line) {
       "decimals with a point",
       text(','), text('.'));
 }
-
-/// What is said where columns must be named.
-constexpr std::string_view kNameColumns =
-    "name the columns of x, y and z, counted from 1: --columns 2,3,4, in a plan source.columns";
 
 /// Finds out how a file is written.
 class Finder {
@@ -364,6 +362,11 @@ class Finder {
                                    "follows in the first {} lines",
                                    quoted_text(line.text), wanted_.list, kLookedAt)));
     }
+    const std::string_view word = fields_of(lines_[best->first].text, ' ').front();
+    if (word == "v" || word == "vn" || word == "vt") {
+      return core::fail(
+          error_at(lines_[best->first].number, "the file is an OBJ mesh; save it as PLY or STL"));
+    }
     TRY(const auto places, places_of(*best));
     TableLayout layout{best->notation, std::vector<Role>(best->columns, Role::kNone), {}, {}};
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -385,6 +388,7 @@ class Finder {
     for (const std::string& column : options_.columns) out.push_back(*place_of_column(column));
     if (!out.empty()) return out;
     const Line& first = lines_[found.first];
+    const NumberRows rows = rows_of(found);
     std::size_t above = 0;
     for (std::size_t k = next(0); k < found.first; k = next(k + 1)) {
       const Cells fields = fields_of(lines_[k].text, found.notation.separator);
@@ -392,95 +396,52 @@ class Finder {
                          filled_fields(fields) == found.columns;
       above += announced_by(lines_[k].text) ? 0 : 1;
       if (names || above > 2) {
-        return core::fail(
-            error_at(lines_[k].number,
-                     fmt::format("{} names none of the columns {}; {}", quoted_text(lines_[k].text),
-                                 wanted_.list, kNameColumns)));
+        const bool polar = names && is_polar(lines_[k].text);
+        return core::fail(error_at(
+            lines_[k].number,
+            fmt::format(
+                "{} names none of the columns {}; {}", quoted_text(lines_[k].text), wanted_.list,
+                polar ? "these are polar coordinates: export x, y and z" : rows.name_columns())));
       }
     }
-    if (counts(found)) {
+    if (rows.counts()) {
       return core::fail(error_at(
           first.number, fmt::format("column {} counts the rows, and no head line says what the "
                                     "columns are; {}",
-                                    found.numbers[0] + 1, kNameColumns)));
+                                    found.numbers[0] + 1, rows.name_columns())));
     }
     const auto is = [&](std::string_view ending) { return name_.ends_with(ending); };
-    const bool xyz =
+    const bool cloud =
         is(".xyz") || is(".XYZ") || is(".asc") || is(".ASC") || is(".pts") || is(".PTS");
-    if (found.numbers.size() > 3 && (xyz ? has_corners(found) : !has_directions(found))) {
+    if (!rows.begin_with_points(cloud)) {
       const bool commas = found.notation.separator == ',' && found.numbers.size() % 2 == 0;
       return core::fail(error_at(
           first.number, fmt::format("{} has {} columns of numbers and no head line; {}{}",
-                                    quoted_text(first.text), found.numbers.size(), kNameColumns,
-                                    commas ? both_readings(first.text) : "")));
+                                    quoted_text(first.text), found.numbers.size(),
+                                    rows.name_columns(), commas ? both_readings(first.text) : "")));
     }
     out = found.numbers;
     out.resize(std::min<std::size_t>(out.size(), 3));
     return out;
   }
 
-  /// Whether three columns of numbers, from the one at `from` on, are all of a kind.
-  [[nodiscard]] bool are(const Found& found, std::size_t from,
-                         const std::function<bool(const Eigen::Vector3d&)>& kind) const {
+  [[nodiscard]] NumberRows rows_of(const Found& found) const {
+    NumberRows out{found.numbers, std::vector<std::size_t>(found.numbers.size()), {}};
     for (std::size_t k = next(found.first); k < lines_.size(); k = next(k + 1)) {
       const Cells fields = fields_of(lines_[k].text, found.notation.separator);
-      if (!agrees(fields, found.columns)) return false;
-      Eigen::Vector3d values;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::string_view field = fields[found.numbers[from + i]];
-        const char* const end = field.data() + field.size();
-        double& value = values[static_cast<Eigen::Index>(i)];
-        if (read_number(field.data(), end, found.notation.decimal, value).ptr != end) return false;
+      if (!agrees(fields, found.columns)) continue;
+      std::vector<Numeric> row;
+      for (const std::size_t place : found.numbers) {
+        row.push_back(numeric(fields[place], found.notation.decimal));
       }
-      if (!kind(values)) return false;
+      if (!std::ranges::all_of(row, &Numeric::number)) continue;
+      std::vector<double>& values = out.rows.emplace_back();
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        out.decimals[i] += row[i].fraction ? 1 : 0;
+        values.push_back(row[i].value);
+      }
     }
-    return true;
-  }
-
-  static bool is_direction(const Eigen::Vector3d& values) {
-    constexpr double kRounding = 2e-3;  // of three decimals, in the square
-    return std::abs(values.squaredNorm() - 1.0) <= kRounding;
-  }
-
-  static bool is_colour(const Eigen::Vector3d& values) {
-    return values.minCoeff() >= 0.0 && values.maxCoeff() <= 255.0 &&
-           values == values.array().round().matrix();
-  }
-
-  /// Whether each row is x y z i j k, as machines write them: the last three are a direction.
-  [[nodiscard]] bool has_directions(const Found& found) const {
-    // without a decimal point, commas may be decimal signs
-    return found.numbers.size() == 6 && std::get<2>(found.score) > 0 && are(found, 3, is_direction);
-  }
-
-  /// Whether a row of nine is three corners of a facet: neither direction nor colour follows.
-  [[nodiscard]] bool has_corners(const Found& found) const {
-    return found.numbers.size() == 9 && !are(found, 3, is_direction) &&
-           !are(found, 6, is_direction) && !are(found, 3, is_colour) && !are(found, 6, is_colour);
-  }
-
-  /// Whether the first column of numbers is 0, 1, 2, ... or 1, 2, 3, ..., or others without
-  /// decimals in equal steps, 10, 20, 30, ..., beside columns with decimals.
-  [[nodiscard]] bool counts(const Found& found) const {
-    std::size_t rows = 0;
-    double first = 0.0;
-    double before = 0.0;
-    double step = 0.0;
-    bool whole = std::get<2>(found.score) > 0;
-    for (std::size_t k = found.first; k < lines_.size(); k = next(k + 1)) {
-      const Cells fields = fields_of(lines_[k].text, found.notation.separator);
-      if (fields.size() <= found.numbers[0]) return false;
-      const std::string_view field = fields[found.numbers[0]];
-      const auto value = core::parse_number(field);
-      if (!value) return false;
-      if (rows == 0) first = *value;
-      if (rows == 1) step = *value - before;
-      if (rows > 0 && (*value != before + step || step <= 0.0)) return false;
-      whole = whole && field.find_first_not_of("0123456789") == std::string_view::npos;
-      before = *value;
-      ++rows;
-    }
-    return rows >= 3 && (whole || (step == 1.0 && (first == 0.0 || first == 1.0)));
+    return out;
   }
 
   std::string_view text_;

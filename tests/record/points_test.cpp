@@ -139,6 +139,11 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"# cloud\nNOFF\n3 0 0\n\n1.5 2 3\n4 5 6\n7 8 9\n", kSyntax, "pin.csv:2", "an OFF mesh"},
       {"axis0,axis1,min0,max0,num0\nX,Y,5.00,275.00,5\n0.1,0.2,0.3,0.4,0.5\n", kSyntax, "pin.csv:1",
        "names none of the columns x,y"},
+      {"# mesh\no part\nv 1.5 2 3\nvn 4 5 6\nv 7 8 9\n", kSyntax, "pin.csv:3", "an OBJ mesh; save"},
+      {"v 1.5 2 3 1 0 0\nv 4 5 6 1 0 0\n", kSyntax, "pin.csv:1", "an OBJ mesh; save it as PLY"},
+      {"Angle (deg);Radius;Height\n1;2.5;3\n", kSyntax, "pin.csv:1",
+       "are polar coordinates: export"},
+      {"A;B;C;D\nP1;1.5;2;3\n", kSyntax, "pin.csv:1", "from 1: --columns 2,3,4, in"},
       {"10,5,20,0,1,0\n11,5,21,0,1,0\n", kSyntax, "pin.csv:1", "6 columns of numbers"},
       {"1.5 2 3 0.6 0.8 0\n4 5 6 0.6 0.9 0\n", kSyntax, "pin.csv:1", "6 columns of numbers"},
   };
@@ -538,6 +543,31 @@ TEST(PointsText, RefusesThreeCornersARow) {
   const auto coloured = read_points("0 0 0.5 255 0 17 0 0 1\n1 0 0.5 3 4 5 0 1 0\n", "scan.xyz");
   ASSERT_TRUE(coloured) << coloured.error().what;
   EXPECT_EQ(coloured->points_mm.size(), 2);
+}
+
+TEST(PointsText, RefusesACloudWhoseFirstColumnsMayBeNoPoints) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"1 0.5 7.5 9.5\n2 1.5 2.5 3.5\n1 4.5 5.5 6.5\n", "--columns 2,3,4"},  // counts by layer
+      {"9 0.5 7.5 9.5\n7 1.5 2.5 3.5\n4 4.5 5.5 6.5\n", "--columns 2,3,4"},
+      {"0.0 0.5 7.5 9.5\n0.1 1.5 2.5 3.5\n0.3 4.5 5.5 6.5\n", "--columns 2,3,4"},  // times
+      {"1.5 2 3 1.49 2 3.1\n4 5 6 4.1 5.1 6\n", "--columns 1,2,3"},  // nominal and actual
+  };
+  for (const auto& [text, what] : cases) {
+    SCOPED_TRACE(text);
+    for (const char* name : {"a.xyz", "a.asc", "a.PTS", "a.txt"}) {
+      const auto table = read_points(text, name);
+      ASSERT_FALSE(table);
+      EXPECT_THAT(table.error().what, HasSubstr(what));
+      PointsOptions given;
+      given.columns = {"2", "3", "4"};
+      EXPECT_TRUE(read_points(text, name, given));
+    }
+  }
+  for (const char* text :
+       {"1 0.5 7.5 120\n2 1.5 2.5 121\n4 4.5 5.5 122\n", "1.5 2 3 0.2 0.1 1\n4 5 6 0.5 0.5 0.5\n",
+        "1.5 2 3 255 0 9\n4 5 6 0 0 0\n", "1.5 2 3 0 -1 0\n4 5 6 0.6 0.8 0\n"}) {
+    EXPECT_TRUE(read_points(text, "scan.xyz")) << text;
+  }
 }
 
 TEST(PointsText, RefusesPointsOfSeveralFeatures) {

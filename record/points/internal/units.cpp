@@ -64,6 +64,11 @@ constexpr auto kCountWords =
 constexpr auto kAngles =
     std::to_array<std::string_view>({"deg", "degree", "degrees", "rad", "radian", "grad"});
 
+constexpr auto kAngleNames = std::to_array<std::string_view>(
+    {"angle", "winkel", "phi", "theta", "azimuth", "ángulo", "ângulo", "angolo", "角度"});
+constexpr auto kRadiusNames =
+    std::to_array<std::string_view>({"radius", "radii", "radial", "r", "rho", "rayon", "半径"});
+
 bool is_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
 }
@@ -208,6 +213,14 @@ core::Error unit_error(const std::string& fault) {
 std::string columns_differ(LengthUnit unit, LengthUnit other) {
   return fmt::format("the columns are in {} and in {}; one unit is expected", name_of(unit),
                      name_of(other));
+}
+
+bool is_polar(std::string_view line) {
+  const NameWords words = words_in(line);
+  const auto has = [&](const auto& list) {
+    return std::ranges::any_of(words, [&](std::string_view word) { return is_one_of(list, word); });
+  };
+  return has(kAngleNames) && has(kRadiusNames);
 }
 
 std::optional<std::size_t> points_in_text(std::string_view line) {

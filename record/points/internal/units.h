@@ -37,6 +37,8 @@ template <class List>
 [[nodiscard]] core::Error unit_error(const std::string& fault);
 /// That columns are in several units, which no option settles.
 [[nodiscard]] std::string columns_differ(LengthUnit unit, LengthUnit other);
+/// Whether a head line names angles and radii.
+[[nodiscard]] bool is_polar(std::string_view line);
 /// The number of points that a line states in words: "Number of points: 180".
 [[nodiscard]] std::optional<std::size_t> points_in_text(std::string_view line);
 
