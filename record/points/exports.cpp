@@ -12,6 +12,7 @@
 #include "record/csv/internal/lines.h"
 #include "record/points/internal/cloud.h"
 #include "record/points/internal/head.h"
+#include "record/points/internal/row_names.h"
 #include "record/points/internal/units.h"
 
 namespace rondure::record {
@@ -76,6 +77,8 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
   out.units.doubtful =
       unit_error("the DMIS file states no UNITS of its points").at(std::string(name));
   Parts features("features", name);
+  Parts labels("features", name);
+  std::string label;
   out.read = "DMIS, x y z of points";
   std::string statement;
   std::size_t begin = 0;
@@ -110,6 +113,12 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
       features.begin();
     }
     if (raw) TRY_DO(features.take(begin));
+    if (whole.starts_with("FA(") && feature != std::string_view::npos) {
+      const std::string_view own = feature_of_point(whole.substr(3, feature - 4));
+      if (own != label) labels.begin();
+      label = own;
+      if (!own.empty()) TRY_DO(labels.take(begin));
+    }
     if (raw || (whole.starts_with("FA(") && feature != std::string_view::npos)) {
       std::string_view list = whole.substr(raw ? 7 : feature + 12);
       if (list.starts_with("CART,")) list.remove_prefix(5);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
 #include "record/points/internal/number_rows.h"
+#include "record/points/internal/row_names.h"
 
 namespace rondure::record {
 namespace {
@@ -148,6 +148,9 @@ class Finder {
   core::Result<void> take_texts(TableLayout& layout, std::size_t end) const {
     for (std::size_t k = 0; k < end; ++k) {
       layout.at_least = std::max(layout.at_least, points_in_text(lines_[k].text));
+      if (auto feature = feature_of_heading(lines_[k].text); !feature.empty()) {
+        layout.heading = std::move(feature);
+      }
     }
     if (options_.unit || wanted_.polar) return {};
     for (std::size_t k = 0; k < end; ++k)
@@ -178,20 +181,39 @@ class Finder {
     return found.has_value();
   }
 
-  /// Whether a column called "Element" names features: most rows have the name of another one, or
-  /// none, below it. Otherwise each has the name of its point.
-  [[nodiscard]] bool names_features(const TableLayout& layout, std::size_t first) const {
-    const auto column = static_cast<std::size_t>(std::ranges::find(layout.roles, Role::kFeature) -
-                                                 layout.roles.begin());
-    std::set<std::string_view> names;
-    std::size_t rows = 0;
+  /// A column of the rows from a line on.
+  [[nodiscard]] ColumnText column(const TableLayout& layout, std::size_t place,
+                                  std::size_t first) const {
+    ColumnText out;
     for (std::size_t k = next(first); k < lines_.size(); k = next(k + 1)) {
       const Cells fields = fields_of(lines_[k].text, layout.notation.separator);
-      if (!agrees(fields, layout.roles.size())) continue;
-      ++rows;
-      if (!fields[column].empty()) names.insert(fields[column]);
+      if (agrees(fields, layout.roles.size())) out.push_back(fields[place]);
     }
-    return 2 * names.size() <= rows;
+    return out;
+  }
+
+  /// Takes what columns beside x, y and z say of the rows: their features, or their numbers.
+  void take_names(TableLayout& layout, const Head& head, std::size_t first) const {
+    const bool alone = !options_.columns.empty();  // those of x, y and z: all rows are one feature
+    std::optional<std::size_t> last;
+    for (const std::size_t place : head.elements) {  // "Collection, Group": the name has two parts
+      if ((alone && options_.feature.empty()) || place > last.value_or(place) + 1) continue;
+      if (!names_features(column(layout, place, first))) continue;
+      layout.roles[place] = Role::kFeature;
+      layout.elements = true;
+      last = place;
+    }
+    for (std::size_t i = 0; i < layout.roles.size() && !alone; ++i) {
+      if (layout.roles[i] != Role::kNone) continue;
+      const ColumnText names = column(layout, i, first);
+      const auto of_feature = [](std::string_view name) { return !feature_of_point(name).empty(); };
+      if (!layout.has(Role::kFeature) && !names.empty() && std::ranges::all_of(names, of_feature)) {
+        layout.roles[i] = Role::kFeature;
+        layout.elements = layout.by_point = true;
+      } else if (counts_rows(names)) {
+        layout.roles[i] = Role::kCount;
+      }
+    }
   }
 
   /// How well rows fit: (rows, numbers, fractions).
@@ -255,12 +277,7 @@ class Finder {
       TRY_DO(check_above(k, head.roles, fitting.front()));
     }
     layout.notation = fitting.front();
-    // the columns of x, y and z alone: all rows are one feature
-    layout.elements = head.elements && (options_.columns.empty() || !options_.feature.empty()) &&
-                      names_features(layout, first);
-    if (head.elements && !layout.elements) {
-      std::ranges::replace(layout.roles, Role::kFeature, Role::kNone);
-    }
+    take_names(layout, head, first);
     TRY_DO(take_texts(layout, first));
     std::vector<TableLayout> out;
     for (const Notation d : fitting) {
@@ -473,6 +490,17 @@ std::string_view name_of_separator(char separator) {
     default:
       return "blanks";
   }
+}
+
+std::string column_numbers(const std::vector<Role>& roles, std::size_t more) {
+  std::string out;
+  for (const Role role : {Role::kX, Role::kY, Role::kZ}) {
+    const auto at = std::ranges::find(roles, role);
+    if (at == roles.end()) continue;
+    out += fmt::format("{}{}", out.empty() ? "" : ",",
+                       at - roles.begin() + 1 + static_cast<std::ptrdiff_t>(more));
+  }
+  return out;
 }
 
 bool agrees(const Cells& fields, std::size_t columns) {

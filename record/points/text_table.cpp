@@ -13,6 +13,7 @@
 #include "core/encodings.h"
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
+#include "record/points/internal/row_names.h"
 #include "record/points/internal/table_layout.h"
 
 namespace rondure::record {
@@ -91,7 +92,7 @@ class RowReader {
     while (!lines.rest.empty()) {
       const std::string_view line = lines.take();
       if (holds_no_row(line)) {
-        text(line, lines.number);
+        if (auto fault = text(line, lines.number)) return core::fail(*std::move(fault));
         continue;
       }
       if (row(line)) {
@@ -110,9 +111,22 @@ class RowReader {
   }
 
  private:
-  /// Takes the unit that a line of text among the rows states.
-  void text(std::string_view line, std::size_t number) {
+  /// Takes the unit that a line of text among the rows states, or the feature that it names.
+  std::optional<core::Error> text(std::string_view line, std::size_t number) {
     if (!wanted_.polar) units_.take(line, name_, number, true);
+    std::string feature = feature_of_heading(line);
+    if (feature.empty()) return std::nullopt;
+    const bool other = !heading_.empty() && feature != heading_ && count_ > 0;
+    if (other) {
+      return at_line({Code::kMeaning,
+                      fmt::format("{} begins the points of another feature; bring each in a file "
+                                  "of its own, or add a column feature",
+                                  quoted_text(line)),
+                      {}},
+                     name_, number);
+    }
+    heading_ = std::move(feature);
+    return std::nullopt;
   }
 
   /// Reads one row; false when it has an error, which explain() then describes.
@@ -128,6 +142,7 @@ class RowReader {
     };
     skip_blanks();
     unit_.reset();
+    named_ = false;
     for (std::size_t i = 0; i < layout_.roles.size(); ++i) {
       if (i > 0 && separator != ' ') {
         if (at == end || *at != separator) return false;
@@ -165,9 +180,14 @@ class RowReader {
   bool take(Role role, std::string_view field) {
     if (role == Role::kNone) return true;
     if (role == Role::kFeature) {
-      if (!field.empty() || !layout_.elements) feature_ = field;
+      if (layout_.by_point && !feature_of_point(field).empty()) field = feature_of_point(field);
+      if (!field.empty() || !layout_.elements) {  // a name in two columns reads as in the line
+        const char* const begin = std::exchange(named_, true) ? feature_.data() : field.data();
+        feature_ = {begin, static_cast<std::size_t>(field.data() + field.size() - begin)};
+      }
       return !feature_.empty();
     }
+    if (role == Role::kCount) return core::parse_number(field).has_value();
     if (role == Role::kUnit) {
       if (field.empty()) return true;
       const auto unit = unit_of_field(field);
@@ -233,6 +253,13 @@ class RowReader {
                         "read without layers: --layers none, in a plan "
                         "source.layers",
                         quoted_text(fields[i])));
+      }
+      if (role == Role::kCount && !take(role, fields[i])) {
+        return syntax_error(fmt::format(
+            "{} stands in column {}, where other rows have a number: delete the line if it sums up "
+            "the points, or name the columns of x, y and z: --columns {}, in a plan source.columns",
+            fields[i].empty() ? "nothing" : quoted_text(fields[i]), i + 1,
+            column_numbers(layout_.roles)));
       }
       if (role == Role::kUnit && !take(role, fields[i])) {
         return unit_error(fmt::format("the column of units says {}", quoted_text(fields[i])));
@@ -344,6 +371,8 @@ class RowReader {
   Eigen::Vector3d values_ = Eigen::Vector3d::Zero();
   double layer_ = 0.0;
   std::string_view feature_;
+  bool named_ = false;  ///< feature_ is that of the row.
+  std::string heading_ = layout_.heading;
   std::optional<LengthUnit> unit_;  ///< Of the row.
 };
 

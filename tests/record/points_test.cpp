@@ -497,7 +497,8 @@ TEST(PointsText, TakesTheUnitOfAColumn) {
 
 TEST(PointsText, KeepsApartTheFeaturesOfAColumnElement) {
   const std::string_view rows = "1;2;3;A\n4;5;6;A\n7;8;9;B\n1;5;9;B\n";
-  for (const std::string_view name : {"Element", "Merkmal", "Feature name", "FEATURE_ID"}) {
+  for (const std::string_view name :
+       {"Element", "Merkmal", "Feature name", "FEATURE_ID", "Group", "Collection"}) {
     SCOPED_TRACE(name);
     const std::string text = fmt::format("x;y;z;{}\n{}", name, rows);
     const auto both = read_points(text, "pin.csv");
@@ -512,6 +513,44 @@ TEST(PointsText, KeepsApartTheFeaturesOfAColumnElement) {
   const std::string_view below = "Element;x;y;z\nA;1;2;3\n;4;5;6\nB;7;8;9\n;1;5;9\n";
   EXPECT_EQ(read_points(below, "pin.csv", {.feature = "A"})->points_mm.size(), 2);
   EXPECT_EQ(read_points("Element;x;y\nP1;1;2\nP2;3;4\nP3;5;6\n", "pin.csv")->points_mm.size(), 3);
+  const std::string_view groups =
+      "// Collection, Group, Target, X, Y\nA, C1, p1, 1, 2\nA, C1, p2, 3, 4\nA, C2, p1, 5, 6\n"
+      "A, C2, p2, 7, 8\n";
+  EXPECT_THAT(point_refusal(groups).what, HasSubstr("features \"A, C1\", \"A, C2\""));
+  EXPECT_EQ(read_points(groups, "pin.csv", {.feature = "A, C2"})->points_mm.size(), 2);
+}
+
+TEST(PointsText, KeepsApartTheFeaturesThatNamesOfPointsOrHeadingsShow) {
+  const std::string_view names = "Name;x;y\nCYL1.P1;1;2\nCYL1.P2;3;4\nCyl2.P1;5;6\nCyl2.P2;7;8\n";
+  EXPECT_THAT(point_refusal(names).what, HasSubstr("the features \"CYL1\", \"Cyl2\"; choose one"));
+  EXPECT_EQ(read_points(names, "pin.csv", {.feature = "Cyl2"})->points_mm.size(), 2);
+  PointsOptions one;
+  one.columns = {"x", "y"};
+  EXPECT_EQ(read_points(names, "pin.csv", one)->points_mm.size(), 4);
+  for (const char* circles :
+       {"Name;x;y\nKreis1.P1;1;2\nKreis2.P1;3;4\n", "Name;x;y\nCYL_1_1;1;2\nCYL_2_1;3;4\n",
+        "# Zylinder 1\n1 2\n# Ebene 2\n3 4\n"}) {
+    EXPECT_EQ(points(circles).points_mm.size(), 2) << circles;
+  }
+  const core::Error second = point_refusal("# Zylinder 1\n1 2 3\n4 5 6\n# Zylinder 2\n7 8 9\n");
+  EXPECT_EQ(second.where, "pin.csv:4");
+  EXPECT_THAT(second.what, HasSubstr("begins the points of another feature; bring each in a file"));
+}
+
+TEST(PointsText, RefusesARowThatSumsUpTheOthers) {
+  const std::string rows = "Nr;X;Y;Z\n1;1.5;2;3\n2;2.5;3;4\n3;4.5;5;6\n4;5.5;6;7\n1;7.5;8;9\n";
+  EXPECT_EQ(points(rows).points_mm.size(), 5);
+  for (const std::string_view last :
+       {"Mean;3.5;4;5\n", "Min;1.5;2;3\nMax;7.5;8;9\n", ";3.5;4;5\n"}) {
+    const core::Error error = point_refusal(rows + std::string(last));
+    EXPECT_EQ(error.where, "pin.csv:7");
+    EXPECT_THAT(error.what, HasSubstr("in column 1, where other rows have a number: delete the"));
+    EXPECT_THAT(error.what, HasSubstr("--columns 2,3,4"));
+  }
+  PointsOptions given;
+  given.columns = {"X", "Y", "Z"};
+  EXPECT_TRUE(read_points(rows + "4a;3.5;4;5\n", "pin.csv", given));
+  EXPECT_TRUE(read_points("N;x;y\nP1;1;2\n3;3;4\nP;5;6\n", "pin.csv"));
 }
 
 TEST(PointsText, RefusesFewerPointsThanTheTextAboveSpeaksOf) {
@@ -578,6 +617,13 @@ TEST(PointsText, RefusesPointsOfSeveralFeatures) {
   ASSERT_FALSE(both);
   EXPECT_EQ(both.error().where, "a.dmo:7");
   EXPECT_THAT(both.error().what, HasSubstr("of one from line 4 on"));
+  const std::string label = "FA(CYL{}_P{})=FEAT/POINT,CART,1,2,{}\n";
+  const auto at = [&](int cylinder, int k) {
+    return fmt::format(fmt::runtime(label), cylinder, k, k);
+  };
+  EXPECT_TRUE(read_points("UNITS/MM\n" + at(1, 1) + at(1, 2), "a.dmo"));
+  EXPECT_EQ(read_points("UNITS/MM\n" + at(1, 1) + at(1, 2) + at(2, 1), "a.dmo").error().where,
+            "a.dmo:4");
   const std::string hit =
       "00001 StartSession()\n00002 PtMeas(X(1),Y(2),Z(3))\n00002 # X(1.0), Y(2.0), Z(3.0)\n";
   EXPECT_TRUE(read_points(hit + hit.substr(21), "a.log"));

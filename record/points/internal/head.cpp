@@ -134,9 +134,27 @@ constexpr auto kLayerWords =
     std::to_array<std::string_view>({"layer", "layers", "schicht", "ebene", "schnitt", "section",
                                      "couche", "strato", "capa", "层"});
 /// NameWords of a column that names the feature of each row, where it does so for several rows.
-constexpr auto kElementWords = std::to_array<std::string_view>(
-    {"element", "elementname", "featurename", "featureid", "merkmal", "merkmalname", "élément",
-     "elemento", "caractéristique", "característica", "caratteristica", "元素", "要素", "特征"});
+constexpr auto kElementWords = std::to_array<std::string_view>({"group",
+                                                                "groupname",
+                                                                "gruppe",
+                                                                "groupe",
+                                                                "grupo",
+                                                                "gruppo",
+                                                                "collection",
+                                                                "element",
+                                                                "elementname",
+                                                                "featurename",
+                                                                "featureid",
+                                                                "merkmal",
+                                                                "merkmalname",
+                                                                "élément",
+                                                                "elemento",
+                                                                "caractéristique",
+                                                                "característica",
+                                                                "caratteristica",
+                                                                "元素",
+                                                                "要素",
+                                                                "特征"});
 bool is_measured(std::string_view word) { return is_one_of(kMeasuredWords, word); }
 
 /// "x", "xactual", "posx": the coordinate that a word names.
@@ -306,11 +324,13 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
   for (std::size_t i = 0; i < count; ++i) {
     Column& column = columns[i];
     const bool feature = column.role == Role::kFeature;
-    if (feature && column.element && (named_feature || seen[4])) column.role = Role::kNone;
+    if (feature && column.element) {  // the rows show whether it names features
+      if (!named_feature) out.elements.push_back(i);
+      column.role = Role::kNone;
+    }
     if (column.role == Role::kUnit && options.unit) column.role = Role::kNone;
     out.roles.push_back(column.role);
     if (column.role >= Role::kUnit) continue;
-    out.elements = out.elements || (feature && column.element);
     const auto role = static_cast<std::size_t>(column.role);
     if (std::exchange(seen.at(role), true) && !out.fault) {
       out.fault = fault_of(

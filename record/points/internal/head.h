@@ -28,7 +28,7 @@ struct DecodedText {
 [[nodiscard]] core::Result<DecodedText> decode_text(std::string_view bytes, std::string_view name);
 
 /// What a column holds.
-enum class Role : std::uint8_t { kX, kY, kZ, kLayer, kFeature, kUnit, kNone };
+enum class Role : std::uint8_t { kX, kY, kZ, kLayer, kFeature, kUnit, kCount, kNone };
 
 /// Columns that a table may have. The coordinates of a profile are angle and deviation.
 struct WantedColumns {
@@ -50,8 +50,8 @@ struct Head {
   std::vector<Role> roles;         ///< One a field, up to the last that is not empty.
   std::optional<LengthUnit> unit;  ///< Of the coordinates.
   std::array<std::string, 3> names;
-  bool elements = false;             ///< The column of the feature is called "Element", or similar.
-  std::optional<core::Error> fault;  ///< Why it cannot be used.
+  std::vector<std::size_t> elements;  ///< Columns called "Element", "Group" or similar.
+  std::optional<core::Error> fault;   ///< Why it cannot be used.
 };
 
 /// The head that the fields are, or nothing where they name fewer than two coordinates.

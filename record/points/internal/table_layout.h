@@ -49,7 +49,9 @@ struct TableLayout {
   std::array<std::string, 3> names;
   UnitLines units = {};
   Lines rows{std::string_view()};
-  bool elements = false;  ///< A feature without a name is that of the row above.
+  bool elements = false;     ///< A feature without a name is that of the row above.
+  bool by_point = false;     ///< The names of points show their features: "CYL1.P7".
+  std::string heading = {};  ///< Feature that a line of text above the rows names.
   std::optional<std::size_t> announced = {};  ///< Rows that the line above them states.
   std::optional<std::size_t> at_least = {};   ///< Rows that a text above them states.
 
@@ -67,6 +69,9 @@ struct TableLayout {
 /// "1," may be a number and a separator.
 [[nodiscard]] std::from_chars_result read_number(const char* at, const char* end, char decimal,
                                                  double& value);
+
+/// "2,3,4": the numbers of the columns of x, y and z, in lines that begin with more fields.
+[[nodiscard]] std::string column_numbers(const std::vector<Role>& roles, std::size_t more = 0);
 
 [[nodiscard]] std::string_view name_of_separator(char separator);
 
