@@ -233,9 +233,9 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> HeadStudy::modes_at(const RotaryAxis& a
 
 namespace {
 
-/// Two places of the ball whose readings differ by no more than noise: the ball may not have been
-/// moved between them, or the head has no errors of rotation.
-void warn_of_unmoved(const HeadMeasurement& m, const References& references, HeadStudy& study) {
+/// Two places of the ball whose readings differ by no more than noise, in a sentence; empty without
+/// any. The ball may not have been moved between them, or the head has no errors of rotation.
+std::string read_alike(const HeadMeasurement& m, const References& references) {
   constexpr double kChance = 0.001;
   constexpr int kLeastPoses = 4;
   for (std::size_t i = 0; i < m.balls.size(); ++i) {
@@ -261,14 +261,14 @@ void warn_of_unmoved(const HeadMeasurement& m, const References& references, Hea
           square_mm2 > variance_mm2 * core::chi_square_quantile(1.0 - kChance, 3.0 * poses)) {
         continue;
       }
-      study.warnings.push_back(
-          {Code::kInconsistent,
-           fmt::format(
-               "{} and {} read alike in all {} poses, within noise: was the ball moved from "
-               "the one place to the other? If not, move it and read again",
-               m.balls[i].ball, m.balls[k].ball, poses)});
+      return fmt::format(
+          "{} and {} read alike in all {} poses, within noise: was the ball moved from the one "
+          "place "
+          "to the other? If not, move it and read again",
+          m.balls[i].ball, m.balls[k].ball, poses);
     }
   }
+  return {};
 }
 
 }  // namespace
@@ -282,16 +282,18 @@ core::Result<HeadStudy> identify_head(const HeadMeasurement& measurement) {
   }
   TRY(const auto references, references_of(measurement, out));
   reference_modes(measurement, references, out);
+  const std::string alike = read_alike(measurement, references);
   for (const HeadStep step : {HeadStep::kC, HeadStep::kA}) {
     auto study = study_of(measurement, step, references, out);
     const char* const name = step == HeadStep::kC ? "C" : "A";
     if (!study) {
-      return core::fail_with(study.error().code, "axis {}: {}", name, study.error().what);
+      return core::fail_with(study.error().code, "axis {}: {}{}{}", name, study.error().what,
+                             alike.empty() ? "" : "; ", alike);
     }
     (step == HeadStep::kC ? out.c : out.a) = *std::move(study);
   }
   TRY_DO(verify(measurement, references, out));
-  warn_of_unmoved(measurement, references, out);
+  if (!alike.empty()) out.warnings.push_back({Code::kInconsistent, alike});
   return out;
 }
 

@@ -189,9 +189,12 @@ core::Result<GlobalSizes> sizes_about_center(std::span<const Eigen::Matrix<doubl
 }  // namespace
 
 core::Result<void> check_material(const Material& material) {
-  if (std::isfinite(material.tip_radius_mm)) return {};
+  constexpr double kGreatestError_mm = 0.05;  // beyond it somebody has mistaken the sign
+  if (std::isfinite(material.tip_radius_mm) && material.tip_radius_mm >= -kGreatestError_mm) {
+    return {};
+  }
   return core::fail_with(core::Code::kBadOption,
-                         "the tip radius is {} mm; a finite number is needed",
+                         "the tip radius is {} mm; a finite number not below 0 is needed",
                          material.tip_radius_mm);
 }
 

@@ -16,9 +16,9 @@ namespace rondure::fit {
 
 /// Where the material of a feature of size lies, and the ball that touched it.
 struct Material {
-  bool inside = false;         ///< True for a bore: the material is outside the cylinder.
-  /// Of the ball whose centres are evaluated [mm]. Below 0 as an error alone: of points of the
-  /// surface, which were corrected by too large a radius.
+  bool inside = false;  ///< True for a bore: the material is outside the cylinder.
+  /// Of the ball whose centres are evaluated [mm]. Below 0, down to -0.05 mm, as an error alone: of
+  /// points of the surface, which were corrected by too large a radius.
   double tip_radius_mm = 0.0;
 
   /// +1 for a shaft, -1 for a bore: outward is out of the material.

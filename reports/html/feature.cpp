@@ -301,9 +301,11 @@ std::string kind_in_words(const std::string& kind) {
 std::string corrections_note(const FeatureCorrections& corrections) {
   std::string html;
   for (const CorrectionFile& one : corrections.files) {
-    html += note(trf("Correction: {} ({}), written by --format {}.",
-                     fmt::format(R"(<span class="mono">{}</span>)", escaped(one.file)),
-                     kind_in_words(one.kind), record::name_of(one.format)));
+    const auto mono = [](const std::string& text) {
+      return fmt::format(R"(<span class="mono">{}</span>)", escaped(text));
+    };
+    html += note(trf("Correction: {} ({}), written by {}.", mono(one.file), kind_in_words(one.kind),
+                     mono(fmt::format("--format {}", record::name_of(one.format)))));
   }
   if (!corrections.none_because.empty())
     html += note(trf("No correction for a machine: {}.", in_sentence(corrections.none_because)));

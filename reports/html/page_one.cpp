@@ -321,6 +321,10 @@ std::string worst_drawing(const Callout* callout) {
                      map.substr(map.find("<figure")));  // one heading is enough
 }
 
+bool is_of_file(const record::Feature& feature) {
+  return feature.strategy == record::Strategy::kPointsFile;
+}
+
 /// "5 x 360 points, scanned (journal A, journal B); 3737 touches, 12 min".
 std::string measured_in_words(const record::RunRecord& record,
                               const evaluation::Evaluation& evaluation) {
@@ -338,10 +342,7 @@ std::string measured_in_words(const record::RunRecord& record,
   std::string html;
   for (const auto& [sampling, names] : groups)
     html += fmt::format("{}{} ({})", html.empty() ? "" : tr("; "), sampling, names);
-  for (const record::Feature& feature : record.features) {
-    if (feature.strategy != record::Strategy::kPointsFile) continue;
-    html += tr("; ") + trf("points of {} from a file", isolated(feature.id));
-  }
+  if (std::ranges::any_of(record.features, is_of_file)) html += tr("; ") + tr("points from a file");
   const auto qualifying = static_cast<std::size_t>(std::ranges::count(
       record.touches, record::Touch::Purpose::kQualification, &record::Touch::purpose));
   if (qualifying < record.touches.size() && record.touches.back().time_s > 0.0) {
@@ -481,9 +482,7 @@ std::string head_section(const record::RunRecord& record, const std::string& kin
           field(tr("Order"), text(people.order.value_or(""))) +
           field(tr("Customer"), text(people.customer.value_or(""))));
   const bool calibrated = evaluation != nullptr && evaluation->fixture;
-  const bool of_files = std::ranges::all_of(record.features, [](const record::Feature& feature) {
-    return feature.strategy == record::Strategy::kPointsFile;
-  });
+  const bool of_files = std::ranges::all_of(record.features, is_of_file);
   html += fmt::format(
       R"(<dl>{}</dl><dl>{}</dl></div>)",
       field(tr("Machine"), header.machine.empty() ? "" : worded(core::Phrase(header.machine))) +

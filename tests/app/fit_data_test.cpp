@@ -339,6 +339,7 @@ TEST(FitData, ASizeOfSurfacePointsIsAt20DegreesWithTipAndTemperatureInItsInterva
         {"uncertainty",
          {{"probe",
            {{"repeatability_um", 0.2}, {"tip_radius_um", 0.2}, {"reference_sphere_um", 0.05}}},
+          {"thermal", {{"drift_K", 0}}},
           {"budget_trials", 0}}},
         {"features",
          {{{"id", "shaft"},

@@ -188,7 +188,7 @@ TEST_F(Formats, CorrectionsAreWrittenWhenAskedForAndVerified) {
   // The page and report.json name the file also where it was not written, and how to have it.
   EXPECT_THAT(read(run / "report.html"),
               HasSubstr(R"(<span class="mono">corrections/pin-x-of-c.csv</span> (X over C), )"
-                        "written by --format corrections."));
+                        "written by <span class=\"mono\">--format corrections</span>."));
   EXPECT_THAT(read(run / "report.json"), HasSubstr("\"file\": \"corrections/pin-x-of-c.csv\""));
   EXPECT_EQ(rondure({"verify", run}).status, 0);
 }

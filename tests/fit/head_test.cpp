@@ -358,10 +358,16 @@ TEST(Head, ABallThatWasNotMovedIsNamed) {
     const Vector3d again(noise.normal(), noise.normal(), noise.normal());
     m.readings[each + r].d_mm = m.readings[r].d_mm + world.u_mm * std::sqrt(2.0) * again;
   }
-  const auto study = identify_head(m);
-  ASSERT_TRUE(study) << study.error().what;
-  ASSERT_EQ(study->warnings.size(), 1U);
-  EXPECT_THAT(study->warnings[0].what, HasSubstr("B1 and B2 read alike"));
+  const auto contradictory = identify_head(m);
+  ASSERT_FALSE(contradictory);
+  EXPECT_THAT(contradictory.error().what, HasSubstr("B1 and B2 read alike in all 38 poses"));
+  // A head without errors reads alike everywhere: said, and no more.
+  world.of_c = [](double) { return Vector6(Vector6::Zero()); };
+  world.of_a = world.of_c;
+  const auto perfect = identify_head(world.read());
+  ASSERT_TRUE(perfect) << perfect.error().what;
+  ASSERT_EQ(perfect->warnings.size(), 1U);
+  EXPECT_THAT(perfect->warnings[0].what, HasSubstr("B1 and B2 read alike"));
 }
 
 TEST(Head, ReadingsThatTurnTheOtherWayAreNamed) {
