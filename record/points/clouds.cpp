@@ -308,6 +308,15 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
   return *std::move(out);
 }
 
+/// "# .PCD v.7", or "VERSION 0.7" and FIELDS below any comments.
+bool begins_pcd(std::string_view bytes) {
+  if (bytes.starts_with("# .PCD")) return true;
+  std::string_view head = bytes.substr(0, 65536);
+  std::string_view line = take_line(head);
+  while (!head.empty() && holds_no_row(line)) line = take_line(head);
+  return line.starts_with("VERSION ") && head.starts_with("FIELDS ");
+}
+
 core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   Body body{bytes, name};
   Block block;
@@ -445,7 +454,7 @@ core::Result<Cloud> read_text_stl(std::string_view bytes, std::string_view name)
 
 std::optional<core::Result<Cloud>> read_cloud(std::string_view bytes, std::string_view name) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n")) return read_ply(bytes, name);
-  if (bytes.starts_with("# .PCD") || bytes.starts_with("VERSION .7")) return read_pcd(bytes, name);
+  if (begins_pcd(bytes)) return read_pcd(bytes, name);
   // A binary STL file is known by its length: its head may begin with "solid", too.
   double facets = 0.0;
   if (bytes.size() > kStlHead) {

@@ -32,7 +32,8 @@ constexpr auto kNotations = std::to_array<Notation>({{'\t', '.'},
                                                      {',', ','},
                                                      {' ', '.'},
                                                      {' ', ','}});
-constexpr std::size_t kLookedAt = 200;  ///< Lines that show how a file is written.
+constexpr std::size_t kLookedAt = 200;     ///< Lines that show how a file is written,
+constexpr std::size_t kComments = 10'000;  ///< and comments above and among them.
 
 /// Whether a field is one number of a notation; a fraction counts for more.
 struct Numeric {
@@ -106,13 +107,15 @@ class Finder {
   void collect() {
     Lines lines(text_);
     std::size_t comments = 0;
-    while (!lines.rest.empty() && lines_.size() - comments < kLookedAt) {
+    std::size_t others = 0;
+    while (!lines.rest.empty() && others < kLookedAt) {
       Lines before = lines;
       std::string_view line = lines.take();
       const std::size_t first = line.find_first_not_of(" \t");
       if (first == std::string_view::npos || line.starts_with("sep=")) continue;
       const bool comment = line[first] == '#';
-      if (comment && ++comments > kLookedAt) continue;
+      if (comment && ++comments > kComments) continue;
+      others += comment ? 0 : 1;
       if (comment || line.substr(first).starts_with("//")) {
         line.remove_prefix(std::min(line.find_first_not_of("#/ \t"), line.size()));
       }

@@ -137,6 +137,8 @@ std::vector<FormatFile> good_files() {
           {"a.stl", stl(false), single, "STL, binary, vertices of a mesh, stored with 32 bits"},
           {"a.pcd", pcd(true), 0.0, "PCD, text, x y z in mm"},
           {"a.pcd", pcd(false), 0.0, "PCD, little endian, x y z in mm"},
+          {"a.pcd", "# of a scanner\r\n\n" + pcd(true).substr(12), 0.0, "PCD, text, x y z in mm"},
+          {"a.pcd", pcd(false).substr(12), 0.0, "PCD, little endian, x y z in mm"},
           {"a.dmo", kDmis, 0.0, "DMIS, x y z of points in mm; 3 points"},
           {"wire.log", kLog, 0.0, "I++ DME log, answers to PtMeas in mm"},
           {"a.qif", kQif, 0.0, "QIF, compensated points in mm; 3 points"}};

@@ -553,6 +553,14 @@ TEST(PointsText, RefusesARowThatSumsUpTheOthers) {
   EXPECT_TRUE(read_points("N;x;y\nP1;1;2\n3;3;4\nP;5;6\n", "pin.csv"));
 }
 
+TEST(PointsText, ReadsBelowAnyNumberOfComments) {
+  std::string text;
+  for (int k = 0; k < 300; ++k) text += fmt::format("# {} {} {}\n", k, k, k);
+  for (const char* rows : {"1 2 3\n4 5 6\n", "# y x z\n2 1 3\n5 4 6\n", "y;x;z\n2;1;3\n5;4;6\n"}) {
+    EXPECT_EQ(points(text + rows + text).points_mm.at(1), Eigen::Vector3d(4, 5, 6)) << rows;
+  }
+}
+
 TEST(PointsText, RefusesFewerPointsThanTheTextAboveSpeaksOf) {
   for (const std::string_view line :
        {"Number of points: 3", "# Points: 3", "Anzahl der Messpunkte = 3", "TOTAL PTS 3"}) {
