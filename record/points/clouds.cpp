@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <unordered_map>
@@ -145,8 +146,22 @@ core::Result<void> keep_point(const Body& body, const Eigen::Vector3d& point, st
   return {};
 }
 
-core::Result<void> read_text_rows(Body& body, const Block& block,
-                                  std::vector<Eigen::Vector3d>* out) {
+/// The points of rows. A row with NaN has none: a scanner saw nothing there.
+struct RowsTaken {
+  std::vector<Eigen::Vector3d> points = {};
+  std::size_t left_out = 0;
+  std::optional<core::Error> first = {};  ///< Of a row that is left out.
+
+  core::Result<void> take(const Body& body, const Eigen::Vector3d& point, std::size_t row) {
+    auto kept = keep_point(body, point, row, points);
+    if (kept || !point.hasNaN()) return kept;
+    if (!first) first = std::move(kept).error();
+    ++left_out;
+    return {};
+  }
+};
+
+core::Result<void> read_text_rows(Body& body, const Block& block, RowsTaken* out) {
   for (std::size_t row = 0; row < block.rows;) {
     if (body.rest.empty()) return body.cut_off(block.rows, "points");
     ++body.line;
@@ -159,7 +174,8 @@ core::Result<void> read_text_rows(Body& body, const Block& block,
     std::size_t word = 0;
     for (const Field& field : block.fields) {
       if (field.axis) {
-        const auto value = word < words.size() ? core::parse_number(words[word]) : std::nullopt;
+        auto value = word < words.size() ? core::parse_number(words[word]) : std::nullopt;
+        if (word < words.size() && is_nan(words[word])) value = std::nan("");
         if (!value) {
           return body.fail(Code::kSyntax, fmt::format("field {} of {} is no number within 1e9",
                                                       word + 1, quoted_text(line)));
@@ -172,13 +188,12 @@ core::Result<void> read_text_rows(Body& body, const Block& block,
         word += length && *length >= 0.0 && *length < 1e6 ? static_cast<std::size_t>(*length) : 0;
       }
     }
-    TRY_DO(keep_point(body, point, row - 1, *out));
+    TRY_DO(out->take(body, point, row - 1));
   }
   return {};
 }
 
-core::Result<void> read_binary_rows(Body& body, const Block& block,
-                                    std::vector<Eigen::Vector3d>* out) {
+core::Result<void> read_binary_rows(Body& body, const Block& block, RowsTaken* out) {
   const bool big = body.form == Coding::kBig;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (std::size_t row = 0; row < block.rows; ++row) {
@@ -201,16 +216,16 @@ core::Result<void> read_binary_rows(Body& body, const Block& block,
       }
       body.rest.remove_prefix(bytes);
     }
-    if (out != nullptr) TRY_DO(keep_point(body, point, row, *out));
+    if (out != nullptr) TRY_DO(out->take(body, point, row));
   }
   return {};
 }
 
 /// Reads the rows of a block, or passes over them.
-core::Result<void> read_rows(Body& body, const Block& block, std::vector<Eigen::Vector3d>* out) {
+core::Result<void> read_rows(Body& body, const Block& block, RowsTaken* out) {
   if (block.fields.empty()) return {};
   TRY_DO(check_length(body, block, out != nullptr ? "points" : "rows"));
-  if (out != nullptr) out->reserve(block.rows);
+  if (out != nullptr) out->points.reserve(block.rows);
   return body.form == Coding::kText ? read_text_rows(body, block, out)
                                     : read_binary_rows(body, block, out);
 }
@@ -228,7 +243,11 @@ core::Result<Cloud> take_points(Body& body, const Block& block, std::string_view
     return core::fail(Code::kSyntax, "the points need x, y and z, each once, as plain numbers",
                       std::string(body.name));
   }
-  TRY_DO(read_rows(body, block, &out.points));
+  RowsTaken rows;
+  TRY_DO(read_rows(body, block, &rows));
+  if (rows.left_out * 100 > block.rows) return core::fail(*rows.first);
+  out.points = std::move(rows.points);
+  out.left_out = rows.left_out;
   if (body.form == Coding::kText) out.single = false;
   out.read = fmt::format("{}, {}, x y z", format, name_of(body.form));
   return out;
@@ -302,7 +321,7 @@ core::Result<Cloud> read_ply(std::string_view bytes, std::string_view name) {
     }
   }
   if (!out) return body.fail(Code::kSyntax, "the PLY file has no element vertex");
-  if (!more) TRY_DO(check_end(body, out->points.size()));
+  if (!more) TRY_DO(check_end(body, out->points.size() + out->left_out));
   out->mesh = faces;
   out->units = std::move(units);
   return *std::move(out);
@@ -361,7 +380,7 @@ core::Result<Cloud> read_pcd(std::string_view bytes, std::string_view name) {
   }
   body.form = data == "ascii" ? Coding::kText : Coding::kLittle;
   TRY(auto out, take_points(body, block, "PCD"));
-  TRY_DO(check_end(body, out.points.size()));
+  TRY_DO(check_end(body, block.rows));
   out.units = std::move(units);
   return out;
 }

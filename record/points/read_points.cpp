@@ -135,6 +135,12 @@ core::Result<void> scale(std::optional<LengthUnit> unit, std::vector<Eigen::Vect
   return {};
 }
 
+/// ", 2 rows without values left out".
+std::string left_out(std::size_t count, std::string_view name, std::string_view which) {
+  if (count == 0) return {};
+  return fmt::format(", {} {}{} {} left out", count, name, count == 1 ? "" : "s", which);
+}
+
 /// "24 points, 30.0 x 30.0 x 80.0 mm".
 std::string extent_of(const PointTable& table) {
   Eigen::AlignedBox3d box;
@@ -216,6 +222,7 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
     out.mesh = found.mesh;
     how = found.read + (found.mesh ? " of a mesh" : "");
     if (found.single) how += ", stored with 32 bits";
+    how += left_out(found.left_out, "row", "without values");
     if (const auto fault = found.units.fault(); !unit && fault) return core::fail(*fault);
     if (!unit) unit = found.units.unit;
   } else {
@@ -228,9 +235,8 @@ core::Result<PointTable> read_points(std::string_view bytes, std::string_view na
     out.layers = std::move(text.layers);
     out.others = std::move(text.others);
     how = std::string(decoded.encoding) + (decoded.encoding.empty() ? "" : ", ") + text.read;
-    if (text.left_out > 0)
-      how += fmt::format(", {} row{} without values left out", text.left_out,
-                         text.left_out == 1 ? "" : "s");
+    how += left_out(text.left_out, "row", "without values");
+    how += left_out(text.below, "line", "of text below the rows");
     if (unit && text.unit && unit != text.unit) {
       how += fmt::format(", which the file states in {},", name_of(*text.unit));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -268,8 +269,12 @@ class Finder {
       }
     }
     if (fitting.empty()) {
-      return core::fail(
-          at_line(wrong_count(text(), separator, head.roles.size()), name_, lines_[first].number));
+      core::Error error = wrong_count(text(), separator, head.roles.size());
+      if (filled_fields(fields_of(text(), separator)) == head.roles.size() + 1) {
+        error.what += fmt::format("; where the first one is the name of the row, give --columns {}",
+                                  column_numbers(head.roles, 1));
+      }
+      return core::fail(at_line(std::move(error), name_, lines_[first].number));
     }
     std::ranges::stable_sort(fitting, std::greater(),
                              [&](Notation d) { return score(head.roles, d, first); });
@@ -519,9 +524,11 @@ core::Error wrong_count(std::string_view line, char separator, std::size_t colum
   const Cells fields = fields_of(line, separator);
   const std::size_t found = std::max<std::size_t>(filled_fields(fields), 1);
   const bool commas = separator == ',' && found == 2 * columns;
-  return syntax_error(fmt::format("{} field{} in {}, {} expected ({} between them){}", found,
+  const bool words = !fields[0].empty() && std::isalpha(static_cast<unsigned char>(fields[0][0]));
+  return syntax_error(fmt::format("{} field{} in {}, {} expected ({} between them){}{}", found,
                                   found == 1 ? "" : "s", quoted_text(line), columns,
-                                  name_of_separator(separator), commas ? both_readings(line) : ""));
+                                  name_of_separator(separator), commas ? both_readings(line) : "",
+                                  words ? "; put # before a line of text, or delete it" : ""));
 }
 
 core::Error at_line(core::Error error, std::string_view name, std::size_t line) {

@@ -53,16 +53,19 @@ std::from_chars_result read_number(const char* at, const char* end, char decimal
     count += decimals;
   }
   // 19 digits cannot overflow the integer; with more, `digits` is not used.
-  if (count > 0 && count <= 19 && digits <= kExact && (next == end || (*next | 0x20) != 'e')) {
+  const char exponent = next == end ? '\0' : static_cast<char>(*next | 0x20);
+  const bool fortran = exponent == 'd' && end - next > 2 && (next[1] == '+' || next[1] == '-');
+  if (count > 0 && count <= 19 && digits <= kExact && exponent != 'e' && !fortran) {
     const double size = static_cast<double>(digits) / kPowers[static_cast<std::size_t>(decimals)];
     value = negative ? -size : size;
     return {next, std::errc()};
   }
-  if (decimal == '.' || mark == next) return std::from_chars(at, end, value);
-  std::string text(at, std::find_if(next, end, [](char c) {
+  if (!fortran && (decimal == '.' || mark == next)) return std::from_chars(at, end, value);
+  std::string text(at, std::find_if(next + (fortran ? 1 : 0), end, [](char c) {
                      return (c < '0' || c > '9') && (c | 0x20) != 'e' && c != '+' && c != '-';
                    }));
-  text[static_cast<std::size_t>(mark - at)] = '.';
+  if (mark != next && *mark == decimal) text[static_cast<std::size_t>(mark - at)] = '.';
+  if (fortran) text[static_cast<std::size_t>(next - at)] = 'e';
   const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   return {at + (stop - text.data()), problem};
 }
@@ -71,8 +74,11 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kNoValue = {"", "#NV", "#N/A", "N/A", "n/a"};
 
+constexpr auto kEndWords =
+    std::to_array<std::string_view>({"end", "ende", "eof", "fin", "fine", "koniec", "结束"});
+
 bool has_no_value(std::string_view field) {
-  return std::ranges::find(kNoValue, field) != kNoValue.end() ||
+  return std::ranges::find(kNoValue, field) != kNoValue.end() || is_nan(field) ||
          field.find_first_not_of('-') == std::string_view::npos ||
          field.find_first_not_of('*') == std::string_view::npos;
 }
@@ -97,15 +103,26 @@ class RowReader {
       }
       if (row(line)) {
         if (table_.rows.empty()) bytes = line.size() + 1;
+        if (below_) return core::fail(*std::move(below_));
+        table_.left_out += std::exchange(empty_, 0);
         if (auto full = keep(lines, bytes)) return core::fail(*std::move(full));
         continue;
       }
       auto error = explain(line);
       if (!error) error = syntax_error(fmt::format("{} cannot be read", quoted_text(line)));
       error = at_line(*std::move(error), name_, lines.number);
-      if (!no_value_) return core::fail(*std::move(error));
+      if (!no_value_ && ends_table(line)) {
+        text(line, lines.number);
+        at_least_ = std::max(at_least_, points_in_text(line));
+        ++table_.below;
+        if (!below_) below_ = std::move(error);
+        continue;
+      }
+      if (below_ || !no_value_) return core::fail(below_ ? *std::move(below_) : *std::move(error));
       if (!first_without_) first_without_ = std::move(error);
-      ++table_.left_out;
+      // empty rows at the end are none
+      ++(filled_fields(fields_of(line, layout_.notation.separator)) == 0 ? empty_
+                                                                         : table_.left_out);
     }
     return finish(lines);
   }
@@ -127,6 +144,19 @@ class RowReader {
     }
     heading_ = std::move(feature);
     return std::nullopt;
+  }
+
+  /// Whether a line is text that ends a protocol: "Ende", "Points: 360", "Operator: M. Weber". It
+  /// is no row that was cut off.
+  bool ends_table(std::string_view line) const {
+    const char separator = layout_.notation.separator;
+    const NameWords words = words_in(line);
+    if (count_ == 0 || words.empty() || (words[0][0] >= '0' && words[0][0] <= '9')) return false;
+    if (separator != ' ' && filled_fields(fields_of(line, separator)) > 1) return false;
+    const bool digits = line.find_first_of("0123456789") != std::string_view::npos;
+    const bool states = line.find_first_of(":=") != std::string_view::npos;
+    return points_in_text(line) || (states && (!digits || layout_.roles[0] <= Role::kZ)) ||
+           (!digits && (words.size() > 1 || is_one_of(kEndWords, words[0])));
   }
 
   /// Reads one row; false when it has an error, which explain() then describes.
@@ -319,6 +349,13 @@ class RowReader {
                                    *announced, all)),
           name_, lines.number));
     }
+    if (at_least_ > all) {
+      return core::fail(at_line(
+          syntax_error(fmt::format("a line below the rows states {} of them, {} stand above it: is "
+                                   "a part missing?",
+                                   *at_least_, all)),
+          name_, lines.number));
+    }
     if (table_.rows.empty()) {
       return core::fail(Code::kNoPoints,
                         fmt::format("no row is of feature {}; the file has {}",
@@ -367,6 +404,9 @@ class RowReader {
   std::size_t count_ = 0;
   std::map<std::string_view, std::size_t> others_;
   std::optional<core::Error> first_without_;  ///< Of a row without values.
+  std::optional<core::Error> below_;          ///< Of a line of text below the rows.
+  std::optional<std::size_t> at_least_;       ///< Rows that such a line states.
+  std::size_t empty_ = 0;                     ///< Rows since the last one that had values.
   bool no_value_ = false;
   Eigen::Vector3d values_ = Eigen::Vector3d::Zero();
   double layer_ = 0.0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -183,6 +184,28 @@ TEST(PointsFormats, RefuseMorePointsThanTheirHeadAnnounces) {
     EXPECT_TRUE(read_points(c.bytes + "\n\n", c.name));
   }
   EXPECT_GE(seen, 4);
+}
+
+TEST(PointsFormats, LeaveOutFewRowsOfNanAndSaySo) {
+  const auto cloud = [](int rows, bool text) {
+    std::string out =
+        fmt::format("# .PCD v.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS {}\nDATA {}\n",
+                    rows + 1, text ? "ascii" : "binary");
+    for (int k = 0; k <= rows; ++k) {
+      const float x = k == 7 ? std::nanf("") : static_cast<float>(k);
+      out += text ? fmt::format("{} 2 3\n", x)
+                  : bytes_of(x, false) + bytes_of(2.0F, false) + bytes_of(3.0F, false);
+    }
+    return out;
+  };
+  for (const bool text : {false, true}) {
+    const auto table = read_points(cloud(99, text), "a.pcd");
+    ASSERT_TRUE(table) << core::to_line(table.error());
+    EXPECT_EQ(table->points_mm.size(), 99);
+    EXPECT_THAT(table->read, HasSubstr("1 row without values left out"));
+    EXPECT_THAT(read_points(cloud(98, text), "a.pcd").error().what,
+                HasSubstr("x of point 8 is no"));
+  }
 }
 
 TEST(PointsFormats, AUnitInDoubtInTheHeadIsRefusedUntilItIsGiven) {

@@ -52,7 +52,8 @@ TEST(PointsCsv, PassesOverWhatCarriesNoMeaning) {
        {"x,y,z\n1,2,3", "x,y,z\r\n1,2,3\r\n", "\xef\xbb\xbfx,y,z\n1,2,3\n", "z,x,y\n3,1,2\n",
         "# pin 3\n\n  # of 5\nx,y,z\n# here\n \n1,2,3\n\n", "x,y,z\n1,2,3,\n", "x,y,z,\n1,2,3,\n",
         "x y z\n1 2 3\n", "x,y,z\n1 2 3\n", "\"x\",\"y\",\"z\"\n\"1\",2,3\n", "x,y,z\r1,2,3\r",
-        " x , y,\tz \n 1 ,\t2 , 3 \n", "x,y,z\n+1,+2.0,3e0\n"}) {
+        " x , y,\tz \n 1 ,\t2 , 3 \n", "x,y,z\n+1,+2.0,3e0\n", " 1.0D+00 .2d+1 30D-1\n",
+        "x;y;z\n1,0D+00;2D+00;0,3D+01\n"}) {
     SCOPED_TRACE(text);
     const PointTable table = points(text);
     ASSERT_EQ(table.points_mm.size(), 1U);
@@ -83,6 +84,14 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"x,y\n1,5,2,5\n", kSyntax, "pin.csv:2", "\"1,5\" may be one number, \"1.5\", or two"},
       {"x,y\n1,2\n1,5,2,5\n", kSyntax, "pin.csv:3", "\"1,5\" may be one number"},
       {"y,x\n1,2\n3,four\n", kSyntax, "pin.csv:3", "x is \"four\"; a number in mm"},
+      {"x,y\n1,2D5\n", kSyntax, "pin.csv:2", "y is \"2D5\""},
+      {"\"x\" \"y\" \"z\"\n\"1\" 1.5 2 3\n", kSyntax, "pin.csv:2", "give --columns 2,3,4"},
+      {"x y\n1 2\nSection two b\n3 4\n", kSyntax, "pin.csv:3", "put # before a line of text"},
+      {"n;x;y\nP1;1;2\nP2;3\n", kSyntax, "pin.csv:3", "2 fields"},
+      {"n;x;y\nP1;1;2\nP2\n", kSyntax, "pin.csv:3", "1 field"},
+      {"n x y\nP:1 1 2\nP:2 3\n", kSyntax, "pin.csv:3", "2 fields"},
+      {"x y\n1 2\nPoints: 3\n", kSyntax, "pin.csv:3", "states 3 of them, 1 stand above it"},
+      {"x y\n1 2\nUnits: inch\n", kUnits, "pin.csv:3", "says inch below points"},
       {"x,y\n1,\n", kSyntax, "pin.csv:2", "y is empty; a number in mm"},
       {"x,y\n1,2 # first\n", kSyntax, "pin.csv:2", "a comment needs a line of its own"},
       {"x,y\n1,2mm\n", kSyntax, "pin.csv:2", "y is \"2mm\""},
@@ -677,6 +686,22 @@ TEST(PointsText, LeavesOutFewRowsWithoutValuesAndSaysSo) {
   EXPECT_EQ(table.points_mm.size(), 99U);
   EXPECT_THAT(table.read, HasSubstr("1 row without values left out"));
   EXPECT_EQ(point_refusal(text + "1,5;*****;3\n").where, "pin.csv:2");
+  EXPECT_EQ(point_refusal(text + ";;\n1,5;2;3\n").where, "pin.csv:2");
+  EXPECT_EQ(points(text + ";;\n\n;;\n").points_mm.size(), 99U);
+  text.replace(text.find("1,5;---;3"), 9, "NaN;-nan(ind);3");
+  EXPECT_THAT(points(text).read, HasSubstr("1 row without values left out"));
+}
+
+TEST(PointsText, LeavesOutTheEndOfAProtocolAndSaysSo) {
+  for (const std::string_view rows : {"x;y\n1;2\n3;4\n", "n x y\nP1 1 2\nP2 3 4\n"}) {
+    for (const std::string_view end : {"END\n", "*** Ende ***\n", "Ende des Protokolls\n",
+                                       "Anzahl Punkte: 2\n", "Operator: Meier\n"}) {
+      const PointTable table = points(fmt::format("{}\n{}", rows, end));
+      EXPECT_EQ(table.points_mm.size(), 2) << end;
+      EXPECT_THAT(table.read, HasSubstr("1 line of text below the rows left out"));
+    }
+  }
+  EXPECT_EQ(points("x;y\n1;2\nDate: 1.2.2026 10:31\nEnd of file\n").points_mm.size(), 1);
 }
 
 TEST(PointsRepeated, TakeNoPartAndAreCounted) {

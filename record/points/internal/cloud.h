@@ -24,6 +24,7 @@ struct Cloud {
   std::string read;                                        ///< "PLY, little endian, double x y z".
   bool mesh = false;                                       ///< They are the vertices of triangles.
   bool single = false;                                     ///< Stored with 32 bits.
+  std::size_t left_out = 0;                                ///< Rows with NaN.
   UnitLines units = {};                                    ///< As the file states it.
 };
 

@@ -274,6 +274,14 @@ std::size_t filled_fields(const std::vector<std::string_view>& fields) {
   return out;
 }
 
+bool is_nan(std::string_view field) {
+  const std::string word = lower_case(field);
+  const std::size_t begin = word.starts_with('-') || word.starts_with('+') ? 1 : 0;
+  const std::string_view rest = std::string_view(word).substr(begin);
+  return rest == "nan" || rest.starts_with("nan(") || rest.starts_with("1.#qnan") ||
+         rest.starts_with("1.#ind");
+}
+
 std::optional<std::size_t> count_of(std::string_view word) {
   std::size_t out = 0;
   const char* const end = word.data() + word.size();

@@ -59,6 +59,8 @@ struct Head {
                                           const PointsOptions& options,
                                           const WantedColumns& wanted);
 
+/// Whether a field is the number that is none: "NaN", "-nan(ind)", "1.#QNAN".
+[[nodiscard]] bool is_nan(std::string_view field);
 /// A word that is a whole number, or nothing.
 [[nodiscard]] std::optional<std::size_t> count_of(std::string_view word);
 /// The place, from 0, that a column named by a number has.

@@ -23,6 +23,7 @@ struct TextTable {
   std::optional<LengthUnit> unit;  ///< As the file states it.
   std::string read;                ///< "semicolon, decimal comma, X-Ist Y-Ist Z-Ist".
   std::size_t left_out = 0;        ///< Rows without values.
+  std::size_t below = 0;           ///< Lines of text below the rows.
 };
 
 /// Finds how a table is written, and reads its rows.
