@@ -59,19 +59,6 @@ struct Line {
   bool comment;
 };
 
-/// "1,5" as a reader takes it for one number or for two.
-std::string both_readings(std::string_view line) {
-  const Cells fields = fields_of(line, ',');
-  if (fields[0].find('.') != std::string_view::npos) return {};
-  const auto text = [&](char between) {
-    return quoted_text(fmt::format("{}{}{}", fields[0], between, fields[1]));
-  };
-  return fmt::format(
-      "; {} may be one number, {}, or two: separate fields by semicolons, or write "
-      "decimals with a point",
-      text(','), text('.'));
-}
-
 /// Finds out how a file is written.
 class Finder {
  public:
@@ -485,21 +472,6 @@ core::Result<std::vector<TableLayout>> find_layouts(std::string_view text, std::
   return Finder(text, name, options, wanted).find();
 }
 
-std::string_view name_of_separator(char separator) {
-  switch (separator) {
-    case '\t':
-      return "tab";
-    case ';':
-      return "semicolon";
-    case '|':
-      return "bar";
-    case ',':
-      return "comma";
-    default:
-      return "blanks";
-  }
-}
-
 std::string column_numbers(const std::vector<Role>& roles, std::size_t more) {
   std::string out;
   for (const Role role : {Role::kX, Role::kY, Role::kZ}) {
@@ -509,30 +481,6 @@ std::string column_numbers(const std::vector<Role>& roles, std::size_t more) {
                        at - roles.begin() + 1 + static_cast<std::ptrdiff_t>(more));
   }
   return out;
-}
-
-bool agrees(const Cells& fields, std::size_t columns) {
-  return fields.size() >= columns && filled_fields(fields) <= columns;
-}
-
-core::Error wrong_count(std::string_view line, char separator, std::size_t columns) {
-  if (line.find('\r') != std::string_view::npos) {
-    return syntax_error(
-        fmt::format("{} holds a carriage return without a line feed; end lines with LF or CRLF",
-                    quoted_text(line)));
-  }
-  const Cells fields = fields_of(line, separator);
-  const std::size_t found = std::max<std::size_t>(filled_fields(fields), 1);
-  const bool commas = separator == ',' && found == 2 * columns;
-  const bool words = !fields[0].empty() && std::isalpha(static_cast<unsigned char>(fields[0][0]));
-  return syntax_error(fmt::format("{} field{} in {}, {} expected ({} between them){}{}", found,
-                                  found == 1 ? "" : "s", quoted_text(line), columns,
-                                  name_of_separator(separator), commas ? both_readings(line) : "",
-                                  words ? "; put # before a line of text, or delete it" : ""));
-}
-
-core::Error at_line(core::Error error, std::string_view name, std::size_t line) {
-  return error.at(fmt::format("{}:{}", name, line));
 }
 
 }  // namespace rondure::record

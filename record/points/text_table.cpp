@@ -182,7 +182,11 @@ class RowReader {
         return false;
       }
       const Role role = layout_.roles[i];
-      const bool quoted = at != end && *at == '"' && std::find(at + 1, end, '"') != end;
+      const std::size_t close =
+          at != end && (*at == '"' || *at == '\'')
+              ? closing_quote({at, static_cast<std::size_t>(end - at)}, separator)
+              : std::string_view::npos;
+      const bool quoted = close != std::string_view::npos;
       if (!quoted && role <= Role::kLayer) {
         double& value = role == Role::kLayer ? layer_ : values_[static_cast<Eigen::Index>(role)];
         const auto [stop, problem] = read_number(at, end, decimal, value);
@@ -190,7 +194,7 @@ class RowReader {
         at = stop;
         if (separator == ' ' && at != end && *at != ' ' && *at != '\t') return false;
       } else {
-        const char* stop = quoted ? std::find(at + 1, end, '"') : at;
+        const char* stop = quoted ? at + close : at;
         stop = std::find_if(
             stop, end, [&](char c) { return c == separator || (separator == ' ' && c == '\t'); });
         const Cells field = fields_of({at, static_cast<std::size_t>(stop - at)}, '\n');

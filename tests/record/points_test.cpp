@@ -76,6 +76,8 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"x,y,z\n# later\n", kNoPoints, "pin.csv:2", "a header line and no points"},
       {"x,y,x\n1,2,3\n", kSyntax, "pin.csv:1", "column \"x\" stands twice"},
       {"X,Y,Z,X-Ist\n1,2,3,4\n", kSyntax, "pin.csv:1", "column \"x\" stands twice"},
+      {"X,X-Ist,Y,Y-Ist\n1,2,3,4\n", kSyntax, "pin.csv:1", "read: --columns 1,3 or 2,4, in"},
+      {"'Point 1' 1.5 2 3 0 0 1 0.1\n", kSyntax, "pin.csv:1", "--columns 2,3,4, in"},
       {"x,z\n1,2\n", kSyntax, "pin.csv:1", "column \"y\" is missing"},
       {"y\n1\n", kSyntax, "pin.csv:1", "\"y\" names no columns x,y"},
       {"x,y\n1\n", kSyntax, "pin.csv:2", "1 field in \"1\", 2 expected (comma"},
@@ -407,6 +409,10 @@ TEST(PointsText, TakesWhatIsSaidBeforehand) {
   const std::string plain = "1,2,3,4\n2,5,6,7\n3,8,9,10\n";
   const PointTable numbered = read(plain, {.feature = "", .columns = {"4", "2", "3"}});
   EXPECT_EQ(numbered.points_mm.at(1), Eigen::Vector3d(7, 5, 6));
+  const PointTable quoted = read("'Point 1' 1 2.5 3\n'Point 2' 4 5 6\n's-1' 7 8 9\n",
+                                 {.feature = "", .columns = {"2", "3", "4"}});
+  EXPECT_EQ(quoted.points_mm.at(2), Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(read("n;x;y\n'A;1;2\n'B;3;4\n", {}).points_mm.at(1), Eigen::Vector3d(3, 4, 0));
   const PointTable named = read("Nr;A [m];B [m];C [m];X;Y\n1;2;3;4;5;6\n",
                                 {.feature = "", .columns = {"a [M]", "B [m]", "C [m]"}});
   EXPECT_EQ(named.points_mm.at(0), Eigen::Vector3d(2000, 3000, 4000));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -121,7 +120,6 @@ core::Result<DecodedText> decode_text(std::string_view bytes, std::string_view n
 
 namespace {
 
-constexpr std::size_t kMostFields = 1000;
 /// NameWords beside x, y and z that say: as measured. One that says nominal or deviation is another
 /// column.
 constexpr auto kMeasuredWords = std::to_array<std::string_view>(
@@ -239,61 +237,25 @@ std::optional<std::size_t> place_named(std::string_view name,
   return std::nullopt;
 }
 
-}  // namespace
-
-std::vector<std::string_view> fields_of(std::string_view line, char separator) {
-  const std::string_view blanks = separator == '\t' ? " " : " \t";
-  const std::string_view ends = separator == ' ' ? " \t" : std::string_view(&separator, 1);
-  std::vector<std::string_view> out;
-  const auto skip = [&] {
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  };
-  while (out.size() <= kMostFields) {
-    skip();
-    const std::size_t close = line.starts_with('"') ? line.find('"', 1) : std::string_view::npos;
-    const bool quoted = close != std::string_view::npos;
-    const std::size_t end = std::min(line.find_first_of(ends, quoted ? close : 0), line.size());
-    // what follows the quotes would be lost without them
-    const bool whole = quoted && line.find_first_not_of(blanks, close + 1) >= end;
-    std::string_view field = whole ? line.substr(1, close - 1) : line.substr(0, end);
-    const std::size_t last = field.find_last_not_of(" \t");
-    field = field.substr(0, last == std::string_view::npos ? 0 : last + 1);
-    field.remove_prefix(std::min(field.find_first_not_of(" \t"), field.size()));
-    out.push_back(field);
-    line.remove_prefix(end);
-    if (separator == ' ') skip();
-    if (line.empty()) break;
-    if (separator != ' ') line.remove_prefix(1);
+/// ": --columns 1,2,3 or 4,5,6": columns that may be x, y and z where their names stand twice.
+std::string sets_of(const std::vector<Column>& columns) {
+  std::string out;
+  for (std::size_t set = 0;; ++set) {
+    std::string numbers;
+    std::size_t axes = 0;
+    for (const Role role : {Role::kX, Role::kY, Role::kZ}) {
+      std::size_t before = 0;
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (columns[i].role != role || before++ != set) continue;
+        numbers += fmt::format("{}{}", axes++ == 0 ? "" : ",", i + 1);
+      }
+    }
+    if (axes < 2) return out;
+    out += fmt::format("{}{}", out.empty() ? ": --columns " : " or ", numbers);
   }
-  return out;
 }
 
-std::size_t filled_fields(const std::vector<std::string_view>& fields) {
-  std::size_t out = fields.size();
-  while (out > 0 && fields[out - 1].empty()) --out;
-  return out;
-}
-
-bool is_nan(std::string_view field) {
-  const std::string word = lower_case(field);
-  const std::size_t begin = word.starts_with('-') || word.starts_with('+') ? 1 : 0;
-  const std::string_view rest = std::string_view(word).substr(begin);
-  return rest == "nan" || rest.starts_with("nan(") || rest.starts_with("1.#qnan") ||
-         rest.starts_with("1.#ind");
-}
-
-std::optional<std::size_t> count_of(std::string_view word) {
-  std::size_t out = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, problem] = std::from_chars(word.data(), end, out);
-  return problem == std::errc() && stop == end ? std::optional(out) : std::nullopt;
-}
-
-std::optional<std::size_t> place_of_column(std::string_view column) {
-  const auto number = count_of(column);
-  if (!number || *number < 1 || *number > kMostFields) return std::nullopt;
-  return *number - 1;
-}
+}  // namespace
 
 std::optional<Head> head_of(const std::vector<std::string_view>& fields,
                             const PointsOptions& options, const WantedColumns& wanted) {
@@ -343,10 +305,11 @@ std::optional<Head> head_of(const std::vector<std::string_view>& fields,
     if (std::exchange(seen.at(role), true) && !out.fault) {
       out.fault = fault_of(
           core::Code::kSyntax,
-          fmt::format("column {} stands twice; name the columns to read: --columns {}, in a plan "
-                      "source.columns",
+          fmt::format("column {} stands twice; {}",
                       quoted_text(role < 3 ? wanted.names.at(role) : fields[i]),
-                      "X-Ist,Y-Ist,Z-Ist or 2,3,4"));
+                      role < 3 ? fmt::format("name the columns to read{}, in a plan source.columns",
+                                             sets_of(columns))
+                               : std::string("one of them is expected")));
     }
     if (role >= 3) continue;
     out.names.at(role) = core::printable(fields[i].substr(0, 40));

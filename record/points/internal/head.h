@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "record/points/internal/fields.h"
 #include "record/points/points.h"
 
 namespace rondure::record {
@@ -38,13 +39,6 @@ struct WantedColumns {
   std::string_view list = "x,y or x,y,z, beside them layer and feature";
 };
 
-/// The fields of a line without blanks and quotes around them; no more than 1001.
-/// @param separator  ' ' stands for any number of blanks.
-[[nodiscard]] std::vector<std::string_view> fields_of(std::string_view line, char separator);
-
-/// The number of fields up to the last one that is not empty.
-[[nodiscard]] std::size_t filled_fields(const std::vector<std::string_view>& fields);
-
 /// A line that names columns.
 struct Head {
   std::vector<Role> roles;         ///< One a field, up to the last that is not empty.
@@ -58,12 +52,5 @@ struct Head {
 [[nodiscard]] std::optional<Head> head_of(const std::vector<std::string_view>& fields,
                                           const PointsOptions& options,
                                           const WantedColumns& wanted);
-
-/// Whether a field is the number that is none: "NaN", "-nan(ind)", "1.#QNAN".
-[[nodiscard]] bool is_nan(std::string_view field);
-/// A word that is a whole number, or nothing.
-[[nodiscard]] std::optional<std::size_t> count_of(std::string_view word);
-/// The place, from 0, that a column named by a number has.
-[[nodiscard]] std::optional<std::size_t> place_of_column(std::string_view column);
 
 }  // namespace rondure::record

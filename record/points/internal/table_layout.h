@@ -15,8 +15,6 @@
 
 namespace rondure::record {
 
-using Cells = std::vector<std::string_view>;
-
 /// How numbers and fields are told apart.
 struct Notation {
   char separator;  ///< ' ' for any number of blanks.
@@ -72,15 +70,5 @@ struct TableLayout {
 
 /// "2,3,4": the numbers of the columns of x, y and z, in lines that begin with more fields.
 [[nodiscard]] std::string column_numbers(const std::vector<Role>& roles, std::size_t more = 0);
-
-[[nodiscard]] std::string_view name_of_separator(char separator);
-
-/// Whether fields are a row of so many columns: empty ones may follow.
-[[nodiscard]] bool agrees(const Cells& fields, std::size_t columns);
-
-/// Says that a line has not as many fields as there are columns.
-[[nodiscard]] core::Error wrong_count(std::string_view line, char separator, std::size_t columns);
-
-[[nodiscard]] core::Error at_line(core::Error error, std::string_view name, std::size_t line);
 
 }  // namespace rondure::record
