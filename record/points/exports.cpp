@@ -79,6 +79,7 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
   Parts features("features", name);
   Parts labels("features", name);
   std::string label;
+  bool whole_file = true;  // a file that says where it begins says where it ends
   out.read = "DMIS, x y z of points";
   std::string statement;
   std::size_t begin = 0;
@@ -107,6 +108,8 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
         out.units.doubtful = unit_error(fmt::format("the DMIS file says {}", quoted_text(whole)))
                                  .at(fmt::format("{}:{}", name, begin));
     }
+    if (whole.starts_with("FILNAM/") || whole.starts_with("DMISMN/")) whole_file = false;
+    if (whole.starts_with("ENDFIL")) whole_file = true;
     const std::size_t feature = whole.find("=FEAT/POINT,");
     const bool raw = whole.starts_with("RAWDAT/");
     if (feature == std::string_view::npos && whole.find("=FEAT/") != std::string_view::npos) {
@@ -127,6 +130,10 @@ core::Result<Cloud> read_dmis(std::string_view text, std::string_view name) {
       out.points.push_back(*place);
     }
     statement.clear();
+  }
+  if (!whole_file) {
+    return core::fail(Code::kSyntax, "the DMIS file has no ENDFIL: is it cut off?",
+                      std::string(name));
   }
   if (!out.points.empty()) return out;
   return core::fail(

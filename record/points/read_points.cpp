@@ -160,22 +160,68 @@ std::string layers_of(const PointTable& table, const PointsOptions& options) {
              : fmt::format(", {} layer{}", count, count == 1 ? "" : "s");
 }
 
+/// "60 lines, 6 columns, the place of the scanner, its axes, a matrix": how many numbers stand in
+/// each of the first lines of a PTX scan.
+bool begins_ptx(std::string_view text) {
+  for (const std::size_t count : {1, 1, 3, 3, 3, 3, 4, 4, 4, 4}) {
+    const auto words = fields_of(take_line(text), ' ');
+    const auto is_number = [](std::string_view word) {
+      return core::parse_number(word).has_value();
+    };
+    if (words.size() != count || !std::ranges::all_of(words, is_number)) return false;
+  }
+  return true;
+}
+
 /// Why a file is of a format that is not read, as its first bytes show.
 std::optional<core::Error> other_format(std::string_view bytes) {
-  constexpr auto kFormats = std::to_array<std::pair<std::string_view, std::string_view>>(
-      {{"ASTM-E57", "an E57 file; convert it to PLY"},
-       {"PK\x03\x04", "an archive or a workbook; save the sheet as CSV"},
-       {"\x1f\x8b", "compressed; unpack it"},
-       {"%PDF", "a PDF document; export the points as a text table"},
-       {"ISO-10303-21",
-        "a STEP model, which holds no measured points; export them as a text table"},
-       {"\x7f"
-        "ELF",
-        "a program"}});
-  for (const auto& [begin, words] : kFormats) {
-    if (!bytes.starts_with(begin)) continue;
-    return syntax_error(fmt::format("the file is {}", words));
+  constexpr std::string_view kTable = "export the points as a text table";
+  constexpr std::string_view kSheet = "save the sheet as CSV";
+  constexpr std::string_view kPly = "convert it to PLY";
+  struct Format {
+    std::string_view begin;  ///< In lower case where it is text.
+    std::string_view name;
+    std::string_view instead;
+  };
+  constexpr auto kFormats = std::to_array<Format>({
+      {"ASTM-E57", "an E57 file", kPly},
+      {"LASF", "a LAS scan", kPly},
+      {"PK\x03\x04", "an archive or a workbook", kSheet},
+      {"\xd0\xcf\x11\xe0", "a workbook", kSheet},
+      {"\x1f\x8b", "compressed", "unpack it"},
+      {"%PDF", "a PDF document", kTable},
+      {"\x89PNG", "an image", kTable},
+      {"\xff\xd8\xff", "an image", kTable},
+      {"\x93NUMPY", "an array of NumPy", "save it by savetxt"},
+      {"MATLAB 5.0 MAT-file", "a MAT file", kTable},
+      {"ISO-10303-21", "a STEP model, which holds no measured points", kTable},
+      {"\x7f"
+       "ELF",
+       "a program", kTable},
+      {"<html", "an HTML page", kSheet},
+      {"<!doctypehtml", "an HTML page", kSheet},
+      {"<table", "an HTML page", kSheet},
+      {"{\"", "a JSON document", kTable},
+      {"[{", "a JSON document", kTable},
+      {"[[", "a list in brackets", kTable},
+      {"#vtkdatafile", "a VTK file", kPly},
+      {"0section", "a DXF drawing", kTable},
+  });
+  std::string text = lower_case(without_byte_order_mark(bytes).substr(0, 4096));
+  const std::string_view first = std::string_view(text).substr(0, text.find('\n'));
+  const bool iges = first.size() >= 80 && first.substr(72, 8) == "s      1";
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; });
+  const auto error = [](std::string_view name, std::string_view instead) {
+    return syntax_error(fmt::format("the file is {}; {}", name, instead));
+  };
+  for (const Format& f : kFormats) {
+    if (bytes.starts_with(f.begin) || text.starts_with(f.begin)) return error(f.name, f.instead);
   }
+  if (iges) return error("an IGES model, which holds no measured points", kTable);
+  if (text.find("=header/") != std::string::npos || text.find("=point/") != std::string::npos) {
+    return error("a VDA model", kTable);
+  }
+  if (begins_ptx(bytes)) return error("a PTX scan", kPly);
   return std::nullopt;
 }
 

@@ -49,7 +49,8 @@ TEST(PointsCsv, ReadsTwoAndThreeColumns) {
 TEST(PointsCsv, PassesOverWhatCarriesNoMeaning) {
   const Eigen::Vector3d point(1, 2, 3);
   for (const char* text :
-       {"x,y,z\n1,2,3", "x,y,z\r\n1,2,3\r\n", "\xef\xbb\xbfx,y,z\n1,2,3\n", "z,x,y\n3,1,2\n",
+       {"x,y,z\n1,2,3\n\x1a", "\xef\xbb\xbf\xef\xbb\xbfx,y,z\n1,2,3\n", "x,y,z\n1,2,3",
+        "x,y,z\r\n1,2,3\r\n", "\xef\xbb\xbfx,y,z\n1,2,3\n", "z,x,y\n3,1,2\n",
         "# pin 3\n\n  # of 5\nx,y,z\n# here\n \n1,2,3\n\n", "x,y,z\n1,2,3,\n", "x,y,z,\n1,2,3,\n",
         "x y z\n1 2 3\n", "x,y,z\n1 2 3\n", "\"x\",\"y\",\"z\"\n\"1\",2,3\n", "x,y,z\r1,2,3\r",
         " x , y,\tz \n 1 ,\t2 , 3 \n", "x,y,z\n+1,+2.0,3e0\n", " 1.0D+00 .2d+1 30D-1\n",
@@ -212,6 +213,8 @@ TEST(ProfileCsv, RefusesEverythingElseWithLineValueAndExpectation) {
 TEST(PointsCsv, RefusesZeroBytes) {
   using namespace std::string_view_literals;
   EXPECT_THAT(point_refusal("x,y\n1,\0002\n"sv).what, HasSubstr("a NUL byte"));
+  EXPECT_THAT(point_refusal("x,y\n1,2\n\0\0"sv).what, HasSubstr("a NUL byte"));
+  EXPECT_EQ(points("x,y\n1,2\n\0"sv).points_mm.size(), 1);
   EXPECT_THAT(point_refusal("\xff\xfe\0\0x\0\0\0"sv).what, HasSubstr("UTF-32"));
 }
 
@@ -635,7 +638,9 @@ TEST(PointsText, RefusesACloudWhoseFirstColumnsMayBeNoPoints) {
 TEST(PointsText, RefusesPointsOfSeveralFeatures) {
   const std::string one = "FA(A)=FEAT/CYLNDR,OUTER\nRAWDAT/CART,1,0,0\nRAWDAT/CART,0,1,0\n";
   const std::string other = "FA(B)=FEAT/CYLNDR,OUTER\nRAWDAT/CART,0,0,9\n";
-  EXPECT_TRUE(read_points("FILNAM/'a'\nUNITS/MM\n" + one, "a.dmo"));
+  EXPECT_TRUE(read_points("FILNAM/'a'\nUNITS/MM\n" + one + "ENDFIL\n", "a.dmo"));
+  EXPECT_THAT(read_points("FILNAM/'a'\nUNITS/MM\n" + one, "a.dmo").error().what,
+              HasSubstr("has no ENDFIL: is it cut off?"));
   const auto both = read_points("FILNAM/'a'\nUNITS/MM\n" + one + other, "a.dmo");
   ASSERT_FALSE(both);
   EXPECT_EQ(both.error().where, "a.dmo:7");

@@ -85,10 +85,18 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+/// Without the sign that ended a text in memory. More of them are no text.
+std::string_view without_end(std::string_view bytes) {
+  return bytes.substr(0, bytes.size() - (bytes.ends_with('\0') ? 1 : 0));
+}
+
 }  // namespace
 
 std::string_view DecodedText::text(std::string_view bytes) const {
-  return encoding.empty() ? without_byte_order_mark(bytes) : converted;
+  std::string_view out = encoding.empty() ? without_end(bytes) : converted;
+  while (out.ends_with('\x1a')) out.remove_suffix(1);
+  for (int mark = 0; mark < 2; ++mark) out = without_byte_order_mark(out);  // as two programs wrote
+  return out;
 }
 
 core::Result<DecodedText> decode_text(std::string_view bytes, std::string_view name) {
@@ -108,7 +116,7 @@ core::Result<DecodedText> decode_text(std::string_view bytes, std::string_view n
       return DecodedText{std::move(text), little ? "UTF-16 LE"sv : "UTF-16 BE"sv};
     }
   }
-  if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos) {
+  if (const std::size_t zero = without_end(bytes).find('\0'); zero != std::string_view::npos) {
     const auto line = 1 + std::ranges::count(bytes.substr(0, zero), '\n');
     return core::fail(core::Code::kSyntax,
                       "the line holds a NUL byte; plain text is expected, saved as UTF-8",
