@@ -25,8 +25,9 @@ namespace {
 
 constexpr WantedColumns kPoints;
 constexpr std::string_view kProfileList = "theta_deg,r_um or x,y";
-constexpr WantedColumns kSection = {{"x", "y", "z"}, {"mm", "mm", "mm"}, false, kProfileList};
-constexpr WantedColumns kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, true, kProfileList};
+constexpr WantedColumns kSection = {{"x", "y", "z"}, {"mm", "mm", "mm"}, false, true, kProfileList};
+constexpr WantedColumns kPolar = {
+    {"theta_deg", "r_um", ""}, {"deg", "um", ""}, true, true, kProfileList};
 
 /// How many points each layer has, layer 0 first.
 std::vector<int> points_of_layers(const std::vector<int>& layers) {
@@ -178,26 +179,33 @@ std::optional<core::Error> other_format(std::string_view bytes) {
   constexpr std::string_view kTable = "export the points as a text table";
   constexpr std::string_view kSheet = "save the sheet as CSV";
   constexpr std::string_view kPly = "convert it to PLY";
+  // Bytes that are no text.
+  static constexpr std::array kZip = {'P', 'K', '\x03', '\x04'};
+  static constexpr std::array kOle = {'\xd0', '\xcf', '\x11', '\xe0'};
+  static constexpr std::array kGzip = {'\x1f', '\x8b'};
+  static constexpr std::array kPng = {'\x89', 'P', 'N', 'G'};
+  static constexpr std::array kJpeg = {'\xff', '\xd8', '\xff'};
+  static constexpr std::array kNumPy = {'\x93', 'N', 'U', 'M', 'P', 'Y'};
+  static constexpr std::array kElf = {'\x7f', 'E', 'L', 'F'};
+  const auto begin = [](const auto& chars) { return std::string_view(chars.data(), chars.size()); };
   struct Format {
     std::string_view begin;  ///< In lower case where it is text.
     std::string_view name;
     std::string_view instead;
   };
-  constexpr auto kFormats = std::to_array<Format>({
+  const auto formats = std::to_array<Format>({
       {"ASTM-E57", "an E57 file", kPly},
       {"LASF", "a LAS scan", kPly},
-      {"PK\x03\x04", "an archive or a workbook", kSheet},
-      {"\xd0\xcf\x11\xe0", "a workbook", kSheet},
-      {"\x1f\x8b", "compressed", "unpack it"},
+      {begin(kZip), "an archive or a workbook", kSheet},
+      {begin(kOle), "a workbook", kSheet},
+      {begin(kGzip), "compressed", "unpack it"},
       {"%PDF", "a PDF document", kTable},
-      {"\x89PNG", "an image", kTable},
-      {"\xff\xd8\xff", "an image", kTable},
-      {"\x93NUMPY", "an array of NumPy", "save it by savetxt"},
+      {begin(kPng), "an image", kTable},
+      {begin(kJpeg), "an image", kTable},
+      {begin(kNumPy), "an array of NumPy", "save it by savetxt"},
       {"MATLAB 5.0 MAT-file", "a MAT file", kTable},
       {"ISO-10303-21", "a STEP model, which holds no measured points", kTable},
-      {"\x7f"
-       "ELF",
-       "a program", kTable},
+      {begin(kElf), "a program", kTable},
       {"<html", "an HTML page", kSheet},
       {"<!doctypehtml", "an HTML page", kSheet},
       {"<table", "an HTML page", kSheet},
@@ -214,7 +222,7 @@ std::optional<core::Error> other_format(std::string_view bytes) {
   const auto error = [](std::string_view name, std::string_view instead) {
     return syntax_error(fmt::format("the file is {}; {}", name, instead));
   };
-  for (const Format& f : kFormats) {
+  for (const Format& f : formats) {
     if (bytes.starts_with(f.begin) || text.starts_with(f.begin)) return error(f.name, f.instead);
   }
   if (iges) return error("an IGES model, which holds no measured points", kTable);

@@ -99,6 +99,7 @@ class RowReader {
       const std::string_view line = lines.take();
       if (holds_no_row(line)) {
         if (auto fault = text(line, lines.number)) return core::fail(*std::move(fault));
+        gap_ = count_ > 0;
         continue;
       }
       if (row(line)) {
@@ -242,6 +243,7 @@ class RowReader {
 
   /// Keeps the row that was read, or counts it where it is of another feature.
   std::optional<core::Error> keep(const Lines& lines, std::size_t bytes) {
+    blocks_ += std::exchange(gap_, false) ? 1 : 0;
     if (++count_ > kMostRows) return at_line(too_many_rows(), name_, lines.number);
     if (has_feature_) {
       if (table_.feature.empty())
@@ -276,6 +278,7 @@ class RowReader {
       return wrong_count(line, layout_.notation.separator, columns);
     }
     std::optional<core::Error> without;
+    std::optional<std::size_t> odd;  // a column of numbers of rows that has none
     for (std::size_t i = 0; i < columns; ++i) {
       const Role role = layout_.roles[i];
       if (role == Role::kFeature && fields[i].empty()) {
@@ -288,23 +291,22 @@ class RowReader {
                         "source.layers",
                         quoted_text(fields[i])));
       }
-      if (role == Role::kCount && !take(role, fields[i])) {
-        return syntax_error(fmt::format(
-            "{} stands in column {}, where other rows have a number: delete the line if it sums up "
-            "the points, or name the columns of x, y and z: --columns {}, in a plan source.columns",
-            fields[i].empty() ? "nothing" : quoted_text(fields[i]), i + 1,
-            column_numbers(layout_.roles)));
-      }
+      if (role == Role::kCount && !odd && !take(role, fields[i])) odd = i;
       if (role == Role::kUnit && !take(role, fields[i])) {
         return unit_error(fmt::format("the column of units says {}", quoted_text(fields[i])));
       }
       if (role > Role::kZ || take(role, fields[i])) continue;
       auto error = explain_number(fields[i], static_cast<std::size_t>(role));
-      if (!has_no_value(fields[i])) return error;
+      if (!has_no_value(fields[i]) || (wanted_.profile && is_nan(fields[i]))) return error;
       if (!without) without = std::move(error);
     }
     no_value_ = without.has_value();
-    return without;
+    if (without || !odd) return without;
+    return syntax_error(fmt::format(
+        "{} stands in column {}, where other rows have a number: delete the line if it sums up the "
+        "points, or name the columns of x, y and z: --columns {}, in a plan source.columns",
+        fields[*odd].empty() ? "nothing" : quoted_text(fields[*odd]), *odd + 1,
+        column_numbers(layout_.roles)));
   }
 
   core::Error explain_number(std::string_view field, std::size_t role) const {
@@ -383,6 +385,7 @@ class RowReader {
         "{}, decimal {}, {}", name_of_separator(layout_.notation.separator),
         layout_.notation.decimal == '.' ? "point" : "comma",
         fmt::join(layout_.names.begin(), layout_.names.begin() + table_.dimensions, " "));
+    if (blocks_ > 1) table_.read += fmt::format(", rows in {} blocks", blocks_);
     return std::move(table_);
   }
 
@@ -411,6 +414,8 @@ class RowReader {
   std::optional<core::Error> below_;          ///< Of a line of text below the rows.
   std::optional<std::size_t> at_least_;       ///< Rows that such a line states.
   std::size_t empty_ = 0;                     ///< Rows since the last one that had values.
+  bool gap_ = false;        ///< Blank lines or comments stand between the rows here.
+  std::size_t blocks_ = 1;  ///< Of rows.
   bool no_value_ = false;
   Eigen::Vector3d values_ = Eigen::Vector3d::Zero();
   double layer_ = 0.0;

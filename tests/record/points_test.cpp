@@ -550,6 +550,8 @@ TEST(PointsText, KeepsApartTheFeaturesThatNamesOfPointsOrHeadingsShow) {
         "# Zylinder 1\n1 2\n# Ebene 2\n3 4\n"}) {
     EXPECT_EQ(points(circles).points_mm.size(), 2) << circles;
   }
+  EXPECT_THAT(points("1 2\n3 4\n\n# next\n5 6\n").read,
+              HasSubstr("columns 1 2, rows in 2 blocks in"));
   const core::Error second = point_refusal("# Zylinder 1\n1 2 3\n4 5 6\n# Zylinder 2\n7 8 9\n");
   EXPECT_EQ(second.where, "pin.csv:4");
   EXPECT_THAT(second.what, HasSubstr("begins the points of another feature; bring each in a file"));
@@ -569,6 +571,9 @@ TEST(PointsText, RefusesARowThatSumsUpTheOthers) {
   given.columns = {"X", "Y", "Z"};
   EXPECT_TRUE(read_points(rows + "4a;3.5;4;5\n", "pin.csv", given));
   EXPECT_TRUE(read_points("N;x;y\nP1;1;2\n3;3;4\nP;5;6\n", "pin.csv"));
+  std::string many = "Nr;X;Y\n";
+  for (int k = 0; k < 120; ++k) many += fmt::format("{};1.5;{}\n", k, k);
+  EXPECT_THAT(points(many + "NaN;NaN;NaN\n").read, HasSubstr("1 row without values left out"));
 }
 
 TEST(PointsText, ReadsBelowAnyNumberOfComments) {

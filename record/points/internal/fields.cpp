@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "record/csv/internal/lines.h"
-#include "record/points/internal/units.h"
 
 namespace rondure::record {
 namespace {
@@ -63,6 +62,12 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
 std::size_t filled_fields(const std::vector<std::string_view>& fields) {
   std::size_t out = fields.size();
   while (out > 0 && fields[out - 1].empty()) --out;
+  return out;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   return out;
 }
 

@@ -23,6 +23,7 @@ using Cells = std::vector<std::string_view>;
 /// field together. Single quotes do only where the field ends with them.
 [[nodiscard]] std::size_t closing_quote(std::string_view text, char separator);
 
+[[nodiscard]] std::string lower_case(std::string_view text);
 /// Whether a field is the number that is none: "NaN", "-nan(ind)", "1.#QNAN".
 [[nodiscard]] bool is_nan(std::string_view field);
 /// A word that is a whole number, or nothing.

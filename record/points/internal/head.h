@@ -36,6 +36,7 @@ struct WantedColumns {
   std::array<std::string_view, 3> names = {"x", "y", "z"};  ///< For messages.
   std::array<std::string_view, 3> units = {"mm", "mm", "mm"};
   bool polar = false;
+  bool profile = false;  ///< Of a section, from which no row may be left out in silence.
   std::string_view list = "x,y or x,y,z, beside them layer and feature";
 };
 

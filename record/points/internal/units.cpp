@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "record/csv/internal/lines.h"
-#include "record/points/internal/head.h"
+#include "record/points/internal/fields.h"
 
 namespace rondure::record {
 namespace {
@@ -135,12 +135,6 @@ bool may_state_unit(std::string_view line) {
 }
 
 }  // namespace
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return out;
-}
 
 NameWords words_in(std::string_view text) {
   NameWords out;

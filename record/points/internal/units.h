@@ -14,7 +14,6 @@ namespace rondure::record {
 
 /// Words of a line in lower case, without the signs between them.
 using NameWords = std::vector<std::string>;
-[[nodiscard]] std::string lower_case(std::string_view text);
 [[nodiscard]] NameWords words_in(std::string_view text);
 
 template <class List>
