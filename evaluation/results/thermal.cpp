@@ -170,10 +170,12 @@ std::optional<RunRecord> compensated(const RunRecord& record) {
     const auto correction = thermal_correction(record, visit.feature, visit.id);
     if (!correction) continue;
     if (!out) out = record;
-    scales_1_K = correction->scale_expansion_1_K;
+    // Points of a file have none.
+    scales_1_K = std::max(scales_1_K, correction->scale_expansion_1_K);
     for (Touch& touch : out->touches) {
       if (touch.pose != visit.id || touch.purpose == Touch::Purpose::kQualification) continue;
-      touch.tip_mm *= scale_factor(scales_1_K, touch.scale_temperature_degC.value_or(assumed)) /
+      touch.tip_mm *= scale_factor(correction->scale_expansion_1_K,
+                                   touch.scale_temperature_degC.value_or(assumed)) /
                       part_factor(*correction);
     }
   }

@@ -206,20 +206,25 @@ void say_machine(const std::optional<MachineInfluences>& declared, Declaration& 
       rotation = rotation || says(machine.terms.axes[axis].rotation[i]);
     }
   }
-  out.line("machine-position", core::phrase("{} ({})", terms, "EXX, EYY, EZZ"), !position);
-  out.line("machine-straightness", core::phrase("{} ({})", terms, "EYX ... EYZ"), !straightness);
-  out.line("machine-rotation", core::phrase("{} ({})", terms, "EAX ... ECZ"), !rotation);
+  const bool limited = machine.length_limit_mm + machine.length_limit_slope > 0.0;
+  const core::Phrase contained = core::phrase("contained in the length limit");
+  const auto said = [&](const core::Phrase& text) { return limited ? contained : text; };
+  out.line("machine-position", said(core::phrase("{} ({})", terms, "EXX, EYY, EZZ")),
+           !limited && !position);
+  out.line("machine-straightness", said(core::phrase("{} ({})", terms, "EYX ... EYZ")),
+           !limited && !straightness);
+  out.line("machine-rotation", said(core::phrase("{} ({})", terms, "EAX ... ECZ")),
+           !limited && !rotation);
   const auto& square = machine.terms;
   const bool is_square = square.squareness_xy_rad == 0.0 && square.squareness_xz_rad == 0.0 &&
                          square.squareness_yz_rad == 0.0;
   out.line("machine-squareness",
-           core::phrase("standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
-                        1e6 * std::abs(square.squareness_xy_rad),
-                        1e6 * std::abs(square.squareness_xz_rad),
-                        1e6 * std::abs(square.squareness_yz_rad)),
-           is_square);
+           said(core::phrase(
+               "standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
+               1e6 * std::abs(square.squareness_xy_rad), 1e6 * std::abs(square.squareness_xz_rad),
+               1e6 * std::abs(square.squareness_yz_rad))),
+           !limited && is_square);
   // Errors of the axes state the same lengths in parts.
-  const bool limited = machine.length_limit_mm + machine.length_limit_slope > 0.0;
   out.limit("machine-length-limit", limited || (position && !is_square),
             limited ? core::phrase("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
                                    kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope)

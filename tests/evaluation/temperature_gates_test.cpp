@@ -184,5 +184,37 @@ TEST(TemperatureGates, OfASurfaceHaveNoDrift) {
   EXPECT_EQ(gates[0].outcome, Gate::Outcome::kPassed);
 }
 
+// The scales of the machine touched no points of the file.
+TEST(Compensated, APointsFileBesideATouchedSurfaceFollowsThePartAlone) {
+  RunRecord run;
+  run.settings = {{"environment/declared", std::nullopt, "limits"},
+                  {"environment/assumed_degC", 22.0, ""}};
+  record::Feature touched;
+  touched.strategy = record::Strategy::kGuided;
+  touched.settings = {{"part_expansion_per_K", 23e-6, ""}, {"scale_expansion_per_K", 8e-6, ""}};
+  record::Feature of_file;
+  of_file.strategy = record::Strategy::kPointsFile;
+  of_file.settings = {{"part_expansion_per_K", 23e-6, ""}};
+  run.features = {touched, of_file};
+  run.poses = {{1, 0, {}, {}, false, 0.0}, {2, 1, {}, {}, false, 0.0}};
+  record::Touch touch;
+  touch.tip_mm = {100.0, 0.0, 0.0};
+  touch.purpose = record::Touch::Purpose::kQualification;
+  touch.pose = -1;
+  run.touches.push_back(touch);
+  touch.purpose = record::Touch::Purpose::kMeasure;
+  for (const int pose : {1, 2}) {
+    touch.pose = pose;
+    run.touches.push_back(touch);
+  }
+  const auto at_20 = compensated(run);
+  ASSERT_TRUE(at_20);
+  const double scales = 1.0 + 2.0 * 8e-6;
+  const double part = 1.0 + 2.0 * 23e-6;
+  EXPECT_NEAR(at_20->touches[0].tip_mm.x(), 100.0 * scales, 1e-12);
+  EXPECT_NEAR(at_20->touches[1].tip_mm.x(), 100.0 * scales / part, 1e-12);
+  EXPECT_NEAR(at_20->touches[2].tip_mm.x(), 100.0 / part, 1e-12);
+}
+
 }  // namespace
 }  // namespace rondure::evaluation
