@@ -129,9 +129,21 @@ class RowReader {
   }
 
  private:
-  /// Takes the unit that a line of text among the rows states, or the feature that it names.
+  /// Takes the unit that a line of text among the rows states, and the feature that it names.
+  /// @return  An error for another feature, and for columns in another order.
   std::optional<core::Error> text(std::string_view line, std::size_t number) {
+    std::string_view words = line;
+    words.remove_prefix(std::min(words.find_first_not_of("#/ \t"), words.size()));
+    if (words.empty()) return std::nullopt;
     if (!wanted_.polar) units_.take(line, name_, number, true);
+    const auto head = head_of(fields_of(words, layout_.notation.separator), options_, wanted_);
+    if (head && count_ > 0 && head->roles != layout_.roles &&
+        std::ranges::is_permutation(head->roles, layout_.roles)) {
+      return at_line(syntax_error(fmt::format("{} names the columns in another order than above; "
+                                              "bring the rows below in a file of their own",
+                                              quoted_text(line))),
+                     name_, number);
+    }
     std::string feature = feature_of_heading(line);
     if (feature.empty()) return std::nullopt;
     const bool other = !heading_.empty() && feature != heading_ && count_ > 0;

@@ -94,6 +94,7 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"n;x;y\nP1;1;2\nP2\n", kSyntax, "pin.csv:3", "1 field"},
       {"n x y\nP:1 1 2\nP:2 3\n", kSyntax, "pin.csv:3", "2 fields"},
       {"x y\n1 2\nPoints: 3\n", kSyntax, "pin.csv:3", "states 3 of them, 1 stand above it"},
+      {"# x y z\n1 2 3\n# z y x\n3 2 1\n", kSyntax, "pin.csv:3", "columns in another order"},
       {"x y\n1 2\nUnits: inch\n", kUnits, "pin.csv:3", "says inch below points"},
       {"x,y\n1,\n", kSyntax, "pin.csv:2", "y is empty; a number in mm"},
       {"x,y\n1,2 # first\n", kSyntax, "pin.csv:2", "a comment needs a line of its own"},

@@ -132,7 +132,8 @@ core::Error wrong_count(std::string_view line, char separator, std::size_t colum
   const Cells fields = fields_of(line, separator);
   const std::size_t found = std::max<std::size_t>(filled_fields(fields), 1);
   const bool commas = separator == ',' && found == 2 * columns;
-  const bool words = !fields[0].empty() && std::isalpha(static_cast<unsigned char>(fields[0][0]));
+  const bool words = line.find_first_of("0123456789") == std::string_view::npos ||
+                     (found == 1 && std::isalpha(static_cast<unsigned char>(line[0])) != 0);
   return syntax_error(fmt::format("{} field{} in {}, {} expected ({} between them){}{}", found,
                                   found == 1 ? "" : "s", quoted_text(line), columns,
                                   name_of_separator(separator), commas ? both_readings(line) : "",
