@@ -480,8 +480,8 @@ void hold_against_probe(const Circumstances& by, const FeatureResult& result,
   out.reason = core::phrase(
       "the qualification of this run shows a probing form of {:.3f} um, of which the plan declares "
       "nothing or less than two thirds, and the interval, U = {} {}, leaves no room for it: "
-      "neither "
-      "verdict is proven; declare {} in place of repeatability_um, or the lobes of the probe",
+      "neither verdict is proven; declare {} in place of repeatability_um, or the lobes of the "
+      "probe",
       micrometres(span_mm), core::um(known->expanded_mm()),
       core::name_of(core::unit_of_difference(out.value->unit())),
       core::as_it_is(

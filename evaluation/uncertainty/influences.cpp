@@ -123,7 +123,7 @@ double declared_span_mm(const ProbeInfluences& probe) {
   double lobes_mm = 0.0;
   for (const cmm::PretravelLobe& lobe : probe.lobes) lobes_mm += lobe.amplitude_mm;
   return probe.form_limit_mm > 0.0 ? probe.form_limit_mm
-                                   : 2.0 * lobes_mm + 3.93 * probe.repeatability_mm;
+                                   : 2.0 * lobes_mm + kRangeOf25Touches * probe.repeatability_mm;
 }
 
 void say_probe(const Influences& influences, Declaration& out) {

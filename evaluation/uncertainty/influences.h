@@ -11,6 +11,9 @@
 
 namespace rondure::evaluation {
 
+/// Mean range of 25 normal values, as the touches of a qualification.
+inline constexpr double kRangeOf25Touches = 3.93;
+
 /// Uncertainty contributions of the probe.
 struct ProbeInfluences {
   /// Standard deviation of a single touch along its approach [mm]; normal. The mean of q repeats

@@ -172,12 +172,8 @@ std::vector<double> mean_following_of(const ContourStudy& study, double x_times,
 /// shows it best: f repeats from part to part more than the rest does.
 std::optional<AxisDoubt> axis_doubt(const ContourStudy& study, const ContourStudyOptions& options) {
   using Kind = AxisDoubt::Kind;
-  std::vector<double> total(options.samples, 0.0);
-  for (const ContourPartResult& part : study.parts) {
-    for (std::size_t m = 0; m < total.size(); ++m) {
-      total[m] += part.pin.contour.error_mm[m] / static_cast<double>(study.parts.size());
-    }
-  }
+  const std::vector<double>& total =
+      study.total ? study.total->mean_curve : study.parts.front().pin.contour.error_mm;
   const std::vector<double> given = mean_following_of(study, 1.0, 1.0, options);
   if (given.empty()) return std::nullopt;
   std::optional<AxisDoubt> likeliest;

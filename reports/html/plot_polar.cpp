@@ -250,7 +250,8 @@ std::string worst_section(const evaluation::FeatureResult& feature, const evalua
   lines.push_back(count(section.rows.size(), "point", "points"));
   lines.insert(lines.end(), words.begin(), words.end());
   lines.push_back(roundness_of(feature, section));
-  if (lines.back().starts_with("RONt")) lines.push_back(tr("as read"));  // the value may be an estimate
+  if (lines.back().starts_with("RONt"))
+    lines.push_back(tr("as read"));  // the value may be an estimate
   std::erase(lines, "");
   constexpr double kLine = 16.0;
   double y = kSectionCentre + 4.0 - 0.5 * kLine * static_cast<double>(lines.size() - 1);

@@ -281,27 +281,32 @@ TEST(FitData, RowsThatAreThereTwiceTakeNoPart) {
   }
 }
 
+/// A plan that judges shaft.csv as points of the surface.
+nlohmann::json shaft_plan(const nlohmann::json& uncertainty,
+                          const nlohmann::json& characteristics) {
+  return {{"plan", {{"name", "Shaft"}, {"revision", "A"}}},
+          {"part", {{"id", "S-1"}}},
+          {"uncertainty", uncertainty},
+          {"features",
+           {{{"id", "shaft"},
+             {"type", "cylinder"},
+             {"nominal", {{"diameter_mm", 40}}},
+             {"source", {{"file", "shaft.csv"}, {"points", "surface"}}},
+             {"characteristics", characteristics}}}}};
+}
+
 TEST(FitData, AFileWithEveryRowTwiceHasTheIntervalOfTheSingleFile) {
   const std::vector<std::string> rows = rows_of_shaft();
   const auto judged = [](const std::vector<std::string>& of) {
     const Scratch folder;
     write(folder / "shaft.csv", shaft_file(of));
-    const nlohmann::json plan = {
-        {"plan", {{"name", "Shaft"}, {"revision", "A"}}},
-        {"part", {{"id", "S-1"}}},
-        {"uncertainty", {{"probe", {{"repeatability_um", 0.2}}}, {"budget_trials", 0}}},
-        {"features",
-         {{{"id", "shaft"},
-           {"type", "cylinder"},
-           {"nominal", {{"diameter_mm", 40}}},
-           {"source", {{"file", "shaft.csv"}, {"points", "surface"}}},
-           {"characteristics",
-            {{{"id", "CYLt"}, {"form", "cylindricity"}, {"tolerance_um", 20}},
-             {{"id", "GG"},
-              {"form", "diameter"},
-              {"size", "GG"},
-              {"lower_um", -20},
-              {"upper_um", 20}}}}}}}};
+    const auto plan = shaft_plan({{"probe", {{"repeatability_um", 0.2}}}, {"budget_trials", 0}},
+                                 {{{"id", "CYLt"}, {"form", "cylindricity"}, {"tolerance_um", 20}},
+                                  {{"id", "GG"},
+                                   {"form", "diameter"},
+                                   {"size", "GG"},
+                                   {"lower_um", -20},
+                                   {"upper_um", 20}}});
     return report_of(folder, plan)["features"][0];
   };
   const auto once = judged(rows);
@@ -333,22 +338,14 @@ TEST(FitData, ASizeOfSurfacePointsIsAt20DegreesWithTipAndTemperatureInItsInterva
   const auto size_of = [&](const nlohmann::json& environment) {
     const Scratch folder;
     write(folder / "shaft.csv", shaft_file(rows));
-    nlohmann::json plan = {
-        {"plan", {{"name", "Shaft"}, {"revision", "A"}}},
-        {"part", {{"id", "S-1"}, {"expansion_per_K", 23e-6}}},
-        {"uncertainty",
-         {{"probe",
-           {{"repeatability_um", 0.2}, {"tip_radius_um", 0.2}, {"reference_sphere_um", 0.05}}},
-          {"thermal", {{"drift_K", 0}}},
-          {"budget_trials", 0}}},
-        {"features",
-         {{{"id", "shaft"},
-           {"type", "cylinder"},
-           {"nominal", {{"diameter_mm", 40}}},
-           {"source", {{"file", "shaft.csv"}, {"points", "surface"}}},
-           {"characteristics",
-            {{{"id", "GG"}, {"form", "diameter"}, {"size", "GG"}, {"upper_um", 20}},
-             {{"id", "LP"}, {"form", "diameter"}, {"size", "LP"}, {"upper_um", 20}}}}}}}};
+    nlohmann::json plan = shaft_plan(
+        {{"probe",
+          {{"repeatability_um", 0.2}, {"tip_radius_um", 0.2}, {"reference_sphere_um", 0.05}}},
+         {"thermal", {{"drift_K", 0}}},
+         {"budget_trials", 0}},
+        {{{"id", "GG"}, {"form", "diameter"}, {"size", "GG"}, {"upper_um", 20}},
+         {{"id", "LP"}, {"form", "diameter"}, {"size", "LP"}, {"upper_um", 20}}});
+    plan["part"]["expansion_per_K"] = 23e-6;
     if (!environment.is_null()) plan["environment"] = environment;
     return report_of(folder, plan)["features"][0]["characteristics"];
   };

@@ -15,9 +15,6 @@
 
 namespace rondure::evaluation {
 
-/// Mean range of 25 normal values, as the touches of a qualification (influences.h).
-constexpr double kRangeOf25Touches = 3.93;
-
 /// The assumed deviations of a surface from its nominal one.
 struct AssumedSurface {
   FormSpectrum form;      ///< Absolute; `source` describes it.
