@@ -109,11 +109,12 @@ core::Result<NamedDatum> named_datum(std::span<const MeasuredSurface> part, cons
   NamedDatum out{text, std::move(features)};
   for (const std::size_t i : out.features) {
     const record::Feature& feature = part[i].of->feature;
-    if (i == toleranced) {
+    const bool itself = i == toleranced;
+    if (itself && out.features.size() == 1) {
       return core::fail(core::Code::kMeaning,
                         core::phrase("datum \"{}\": a feature is no datum of itself", text));
     }
-    if (same_points(part[i], part[toleranced])) {
+    if (!itself && same_points(part[i], part[toleranced])) {
       return core::fail(
           core::Code::kMeaning,
           core::phrase("datum \"{}\": {} and {} have the same points, and a feature is no datum of "

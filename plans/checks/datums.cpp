@@ -104,11 +104,14 @@ std::string why_in_other_poses(const FeaturePlan& a, const FeaturePlan& b) {
 }
 
 /// Why a feature is no datum, or part of no common datum; empty where it is.
-std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum) {
+/// @param common  Whether others make the datum with it: then a journal runs out about the axis
+/// that
+///                it shares.
+std::string why_no_datum(const Plan& plan, std::size_t owner, std::size_t datum, bool common) {
   const FeaturePlan& feature = plan.features[datum];
   if (datum == owner) {
-    return "a feature is no datum of itself; name another, or ask this of a second feature on the "
-           "same surface, without a letter";
+    if (common) return {};
+    return "a feature alone is no datum of itself; name another, or a common datum, e.g. \"A-B\"";
   }
   if (same_rows(feature, plan.features[owner])) {
     return fmt::format(
@@ -213,7 +216,8 @@ void check_datums(const Plan& plan, std::size_t index, const record::Characteris
     }
     std::string why = why_no_common_datum(plan, datums[k], *features);
     for (const std::size_t feature : *features) {
-      if (std::string own = why_no_datum(plan, index, feature); !own.empty()) why = std::move(own);
+      std::string own = why_no_datum(plan, index, feature, features->size() > 1);
+      if (!own.empty()) why = std::move(own);
       axis = axis || plan.features[feature].type != Shape::kPlane;
     }
     if (!why.empty()) refuse(std::move(why));
