@@ -89,6 +89,12 @@ nlohmann::ordered_json example_plan(const std::string& name) {
   return plan;
 }
 
+nlohmann::ordered_json wheel_with_a_grain() {
+  auto plan = example_plan("06_wheel");
+  plan["simulation"]["wheel"].update({{"points", 16}, {"chipped_point", 5}, {"chip_um", 45.0}});
+  return plan;
+}
+
 nlohmann::ordered_json two_crank_pins() {
   auto plan = example_plan("07_crank_pin");
   plan["simulation"]["contour"]["parts"] = 2;

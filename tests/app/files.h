@@ -47,6 +47,9 @@ void write_plan_with_intervals(const std::filesystem::path& file,
 /// The example of the crank pins with two pins in place of four and every fourth angle: its
 /// intervals take a quarter of the time.
 [[nodiscard]] nlohmann::ordered_json two_crank_pins();
+
+/// The wheel of example 06 before it was dressed: a proud grain at one of sixteen points.
+[[nodiscard]] nlohmann::ordered_json wheel_with_a_grain();
 /// Takes the declared influences out of a plan of surfaces, which then is judged by simple
 /// acceptance. `Json` is nlohmann::json or nlohmann::ordered_json.
 template <class Json>

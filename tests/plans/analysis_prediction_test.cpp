@@ -20,14 +20,7 @@ namespace {
 using evaluation::AnalysisPrediction;
 using ::testing::HasSubstr;
 
-/// Example 06 without its proud grain, and with enough points for a number: run-out and roundness
-/// of the plan itself are lower bounds, which nothing foretells.
-Plan plan_of_a_clean_wheel() {
-  Plan out = testing::plan_of("06_wheel.json");
-  out.simulation->wheel->chipped_point = 0;
-  out.simulation->wheel->points = 36;
-  return out;
-}
+Plan plan_of_a_clean_wheel() { return testing::plan_of("06_wheel.json"); }
 
 /// The record of a plan before its run, with series of a seed.
 record::RunRecord foretold_record(const Plan& plan, std::uint64_t seed) {
