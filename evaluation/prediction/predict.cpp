@@ -377,6 +377,10 @@ std::vector<std::string> undeclared_influences(const record::UncertaintyTask& sa
   record::RunRecord run;
   run.settings = record::settings_of_uncertainty(said, expansion_per_K);
   FeatureResult feature;
+  record::ExpansionSettings expansion;
+  expansion.part_expansion_per_K = expansion_per_K;
+  if (expansion_per_K) expansion.temperature_uncertainty_K = 0.0;  // stated, if only by default
+  feature.feature.settings = record::settings_of_task(expansion);
   if (repeated) feature.repeat_sigma_mm = 0.0;
   std::vector<std::string> out;
   const auto declared = declared_for(run, feature, std::nullopt);

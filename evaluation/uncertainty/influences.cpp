@@ -245,6 +245,7 @@ void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& 
                      thermal.temperature_K, thermal.expansion_uncertainty_1_K),
         thermal.temperature_K == 0.0 && thermal.expansion_uncertainty_1_K == 0.0);
   }
+  out.group(declared && thermal.drifts_declared);
   if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
     out.never("temperature-drift",
               core::phrase("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",

@@ -63,6 +63,8 @@ struct ThermalInfluences {
   /// Greatest change (+-) of the reading of a fixed point from the first to the last touch, linear
   /// in time, for each machine axis; rectangular.
   Eigen::Vector3d machine_drift_mm = Eigen::Vector3d::Zero();
+  /// Whether the drifts were declared; the temperature itself is stated by the environment.
+  bool drifts_declared = true;
 };
 
 /// Uncertainty contributions of the fixture. One pose is one rigid motion and changes no form;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <type_traits>
@@ -17,6 +18,8 @@
 #include "evaluation/internal/conformance.h"
 #include "evaluation/interval/internal/declared.h"
 #include "fixture/calibration.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/surface.h"
 #include "reports/escaping.h"
 #include "reports/html/report.h"
 #include "reports/terminal/summary.h"
@@ -764,6 +767,28 @@ TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
   EXPECT_THAT(bare.sentence(), HasSubstr("CYLt = 8.310 um (MZCY"));
   EXPECT_THAT(bare.sentence(), HasSubstr("at the sampled points; no uncertainty stated)"));
   EXPECT_EQ(evaluation::TipTerm(core::Phrase()).words(), "not known");
+}
+
+/// What the environment says of the temperature is in U, whether or not drifts are declared.
+TEST(Declared, TheStatedTemperatureCountsWithoutDeclaredDrifts) {
+  RunRecord run = touched_run("iso-14253-1");
+  for (const bool stated : {false, true}) {
+    record::ExpansionSettings expansion;
+    if (stated) {
+      expansion.part_expansion_per_K = 11.5e-6;
+      expansion.temperature_uncertainty_K = 0.2;
+    }
+    evaluation::FeatureResult feature;
+    feature.feature.settings = record::settings_of_task(expansion);
+    const auto said = declared_for(run, feature, std::nullopt);
+    ASSERT_TRUE(said);
+    std::map<std::string, bool> covered;
+    for (const auto& line : influence_statements(said->influences))
+      covered[line.name] = line.covered;
+    EXPECT_EQ(covered.at("temperature"), stated);
+    EXPECT_FALSE(covered.at("temperature-drift"));
+    EXPECT_FALSE(covered.at("machine-drift"));
+  }
 }
 
 TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {

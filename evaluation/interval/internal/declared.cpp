@@ -77,12 +77,19 @@ MachineInfluences machine_influences(const record::MachineInfluencesTask& said) 
   return out;
 }
 
-ThermalInfluences thermal_influences(const record::ThermalInfluencesTask& said,
-                                     const std::optional<double>& expansion_per_K,
-                                     const FeatureResult& result) {
+/// What the environment says of the temperature counts also where no drift is declared: lengths are
+/// corrected by it.
+std::optional<ThermalInfluences> thermal_influences(
+    const std::optional<record::ThermalInfluencesTask>& declared,
+    const std::optional<double>& expansion_per_K, const FeatureResult& result) {
   const auto expansion = record::task_of<record::ExpansionSettings>(result.feature.settings)
                              .value_or(record::ExpansionSettings());
+  if (!declared && !(expansion.part_expansion_per_K && expansion.temperature_uncertainty_K)) {
+    return std::nullopt;
+  }
+  const auto said = declared.value_or(record::ThermalInfluencesTask());
   ThermalInfluences out;
+  out.drifts_declared = declared.has_value();
   out.temperature_K = expansion.temperature_uncertainty_K.value_or(0.0);
   // Points of a file bring no temperatures to correct by, but drift as the part does.
   out.expansion_1_K = expansion.part_expansion_per_K.value_or(expansion_per_K.value_or(0.0));
@@ -191,10 +198,7 @@ std::optional<Declared> declared_for(const record::RunRecord& record, const Feat
   Declared out;
   if (said.probe) out.influences.probe = probe_influences(*said.probe, result, probe);
   if (said.machine) out.influences.machine = machine_influences(*said.machine);
-  if (said.thermal) {
-    out.influences.thermal =
-        thermal_influences(*said.thermal, (*recorded)->expansion_per_K, result);
-  }
+  out.influences.thermal = thermal_influences(said.thermal, (*recorded)->expansion_per_K, result);
   const bool of_file = result.feature.strategy == record::Strategy::kPointsFile;
   out.influences.no_fixture = stands_still(result.feature) || (of_file && !said.fixture);
   if (said.fixture && !out.influences.no_fixture) {
