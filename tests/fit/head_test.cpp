@@ -248,6 +248,45 @@ TEST(Head, SquarenessOfTheSlidesLooksLikeErrorsOfTheHead) {
   EXPECT_NEAR(t_um, 2.4, 0.1);
   EXPECT_NEAR(ecc_urad, 20.0, 0.5);
   EXPECT_NEAR(locations(s)[7], -20.0, 0.01);  // COA, against the moving axes
+  // The balls stand 50 mm before and behind their middle: 20 urad of 50 mm are stretched along the
+  // circle by sinC cosC, and nothing rigid follows that. (The text prints 0.375.)
+  double squares_um2 = 0.0;
+  double points = 0.0;
+  for (const RotaryStation& station : s.c.stations) {
+    if (station.angle_rad == 0.0) continue;
+    for (const Vector3d& v : station.residuals_mm) {
+      squares_um2 += (v / kUm).squaredNorm();
+      points += 1.0;
+    }
+  }
+  double expected_um2 = 0.0;
+  for (const double c : world.c_deg) {
+    expected_um2 += std::pow(std::sin(c * kDegree) * std::cos(c * kDegree), 2) / 23.0;
+  }
+  EXPECT_NEAR(std::sqrt(squares_um2 / points), std::sqrt(expected_um2), 1e-3);  // 0.361 um
+}
+
+// The reference has noise, too: chi2 of the station alone would be 1 + 1/n.
+TEST(Head, NoiseOfTheReferencesIsInWhatTheStationsAreJudgedBy) {
+  double squares = 0.0;
+  double judged = 0.0;
+  double freedoms = 0.0;
+  for (int run = 0; run < 100; ++run) {
+    World world;
+    world.noisy = true;
+    world.seed = static_cast<std::uint64_t>(run + 1);
+    const HeadStudy s = found(world);
+    for (const RotaryStudy* axis : {&s.c, &s.a}) {
+      for (const RotaryStation& station : axis->stations) {
+        for (const Vector3d& v : station.residuals_mm) squares += (v / world.u_mm).squaredNorm();
+        judged += station.chi2;
+        freedoms += station.dof;
+      }
+    }
+  }
+  // The specification measured 1.30.
+  EXPECT_NEAR(squares / freedoms, 4.0 / 3.0, 0.06);
+  EXPECT_NEAR(judged / freedoms, 1.0, 0.05);
 }
 
 TEST(Head, SagOfBothAnglesShowsAtCombinedPosesOnly) {
@@ -296,11 +335,13 @@ TEST(Head, StatedUncertaintyIsTheScatter) {
 }
 
 /// What a table leaves at the combined poses, without noise: rms.
-double table_rms_um(double c_step_deg, double a_step_deg) {
+double table_rms_um(double c_step_deg, double a_step_deg, double shift_um = 0.0,
+                    double tilt_urad = 0.0) {
   const HeadStudy s = found({});
-  const auto c = head_table(s, s.c, c_step_deg * kDegree);
-  const auto a = head_table(s, s.a, a_step_deg * kDegree);
+  auto c = head_table(s, s.c, c_step_deg * kDegree);
+  auto a = head_table(s, s.a, a_step_deg * kDegree);
   EXPECT_TRUE(c && a);
+  for (auto* rows : {&*c, &*a}) round_table(shift_um * kUm, tilt_urad * kUrad, *rows);
   double squares = 0.0;
   double points = 0.0;
   const World world;
@@ -321,6 +362,22 @@ TEST(Head, TableIsAsGoodAsItsSteps) {
   EXPECT_NEAR(table_rms_um(15, 10), 0.26, 0.03);
   EXPECT_NEAR(table_rms_um(5, 5), 0.033, 0.006);
   EXPECT_NEAR(table_rms_um(2.5, 2.5), 0.008, 0.002);
+  EXPECT_NEAR(table_rms_um(5, 5, 0.1, 1.0), 0.12, 0.02);
+}
+
+TEST(Head, TableOfTheWrongSignDoublesTheErrors) {
+  const HeadStudy s = found({});
+  const World world;
+  double squares = 0.0;
+  double points = 0.0;
+  for (const HeadVerification& pose : s.poses) {
+    for (std::size_t i = 0; i < world.balls.size(); ++i) {
+      const Vector3d known = pose.at_mm[i] - head_motion(pose.pose) * world.balls[i];
+      squares += ((pose.before_mm[i] + known) / kUm).squaredNorm();
+      points += 1.0;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(squares / points), 82.5, 0.051);
 }
 
 TEST(Head, RefusesWhatDoesNotShowTheErrors) {

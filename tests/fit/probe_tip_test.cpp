@@ -82,6 +82,20 @@ TEST(ProbeTip, ReproducesTheWorkedExampleOfTheColumnWhateverItsLean) {
             core::Code::kTooFewPoints);
 }
 
+// The circle of one height is too large by R eps^2 / 4, two heights know the lean.
+TEST(ProbeTip, OfOneHeightOfALeaningColumnWouldBeTooLarge) {
+  for (const auto& [lean_deg, printed_um] :
+       std::vector<std::pair<double, double>>{{0.5, 0.28}, {1.0, 1.10}, {2.0, 4.42}}) {
+    SCOPED_TRACE(lean_deg);
+    const Points3 tips =
+        column_tips({0.0, 0.0, 50.0}, {std::tan(lean_deg * M_PI / 180.0), 0.0, 1.0}, 14.5);
+    std::vector<Eigen::Vector2d> one_height;
+    for (std::size_t i = 0; i < 8; ++i) one_height.emplace_back(tips[i].head<2>());
+    EXPECT_NEAR(1e3 * (ls_circle(one_height)->radius_mm - 14.5), printed_um, 0.0051);
+    EXPECT_NEAR(qualify_tip_on_column(tips, 12.5)->radius_mm, 2.0, 1e-9);
+  }
+}
+
 TEST(ProbeTip, StatesTheScatterOfItsRadiusOnAColumn) {
   const Points3 exact = column_tips({0.0, 0.0, 50.0}, {0.02, 0.01, 1.0}, 14.5);
   const auto of_exact = qualify_tip_on_column(exact, 12.5);
