@@ -18,6 +18,8 @@
 #include "evaluation/correction/internal/barred.h"
 #include "evaluation/interval/internal/declared.h"
 #include "evaluation/spindle/internal/noise_runs.h"
+#include "record/tasks/contour.h"
+#include "record/tasks/settings.h"
 
 namespace rondure::evaluation {
 
@@ -172,23 +174,26 @@ double sensed(const ContourResult& facts, double c_rad) {
   return facts.options.axes.c_direction * c_rad;
 }
 
-void fill_rows(const ContourResult& facts, std::span<const double> following_u_mm,
-               XCorrection& out) {
+void fill_rows(const ContourResult& facts, const record::ContourCorrectionTask& asked,
+               std::span<const double> following_u_mm, XCorrection& out) {
   const fit::CrankGeometry& crank = facts.options.geometry;
   const auto deviation_mm = following_deviation(facts.study, fit::mean_following(facts.study));
-  const auto over_alpha = fit::x_table_mm(facts.study, crank, XCorrection::kRows);
+  const auto rows = static_cast<std::size_t>(asked.rows());
+  const double resolution_mm = asked.resolution_um * core::kMicrometre;
+  const auto over_alpha =
+      fit::x_table_mm(facts.study, crank, {rows, asked.highest_order, resolution_mm});
   out.parts = facts.study.parts.size();
-  for (std::size_t i = 0; i < XCorrection::kRows; ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     const bool against = facts.options.axes.c_direction < 0;
-    const std::size_t row = against ? (XCorrection::kRows - i) % XCorrection::kRows : i;
-    const double alpha =
-        kTwoPi * static_cast<double>(row) / static_cast<double>(XCorrection::kRows);
+    const std::size_t row = against ? (rows - i) % rows : i;
+    const double alpha = kTwoPi * static_cast<double>(row) / static_cast<double>(rows);
     const double beta = fit::contact_angle_rad(crank, alpha);
     const double of_mean = fit::closed_at(deviation_mm, beta);
     const double u2 = std::pow(fit::closed_at(following_u_mm, beta), 2) +
                       of_mean * of_mean / static_cast<double>(out.parts);
     out.x_mm.push_back(over_alpha[row]);
-    out.u_mm.push_back(std::sqrt(u2) / std::cos(beta - alpha));
+    const double eta_u2 = u2 / std::pow(std::cos(beta - alpha), 2);
+    out.u_mm.push_back(std::sqrt(eta_u2 + resolution_mm * resolution_mm / 12.0));
   }
 }
 
@@ -224,8 +229,17 @@ core::Result<XCorrection> x_correction(const record::RunRecord& record,
   if (const auto why = barred(facts)) return core::fail(Code::kMeaning, *why);
   const UncertaintyOptions options = uncertainty_options(record);
   TRY(const auto following_u_mm, mean_following_u(facts, options));
+  TRY(const auto task, record::task_of<record::ContourTask>(result.feature.settings));
+  const auto asked = task.correction.value_or(record::ContourCorrectionTask());
   XCorrection out;
-  fill_rows(facts, following_u_mm, out);
+  fill_rows(facts, asked, following_u_mm, out);
+  for (const double x : out.x_mm) {
+    if (!asked.limit_um || std::abs(x) <= *asked.limit_um * core::kMicrometre) continue;
+    return core::fail(Code::kMeaning,
+                      core::phrase("the correction reaches {} um, beyond its limit of {} um: look "
+                                   "for the cause, or raise correction.limit_um",
+                                   core::um(x), core::shortest(*asked.limit_um)));
+  }
   TRY(const auto change_mm, changes(facts, out));
   for (std::size_t i = 0; i < change_mm.size(); ++i) {
     const fit::ContourError& total = facts.study.parts[i].pin.contour;

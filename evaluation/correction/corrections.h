@@ -67,12 +67,11 @@ struct WheelResult;  // wheel/result.h
 [[nodiscard]] core::Result<const WheelResult*> wheel_for_path(const FeatureResult& result);
 
 /// A correction of the command of X that takes the repeating part of f away: to be added to it at
-/// the C positions 0, 1, ... 359 deg of the control, linear between them.
+/// equal steps of C as the control counts it, from 0, linear between them.
 struct XCorrection {
-  static constexpr std::size_t kRows = 360;
-
   std::vector<double> x_mm;  ///< Mean 0: the size of the pin stays as it is.
-  std::vector<double> u_mm;  ///< Of f, and of its mean over the parts; of one part of f alone.
+  /// Of f, of its mean over the parts (of one part of f alone), and of the rounding of the row.
+  std::vector<double> u_mm;
   std::size_t parts = 0;
   double before_mm = 0.0;  ///< Greatest peak to valley of t, as measured.
   double after_mm = 0.0;   ///< The same, were these parts ground with the correction.
@@ -81,12 +80,14 @@ struct XCorrection {
 
 /// The correction that a contour feature gives.
 ///
-/// x(alpha) = -f(beta(alpha)) / cos(eta) with f the mean over the parts, without its mean. The
+/// x(alpha) = -f(beta(alpha)) / cos(eta) with f the mean over the parts, without its mean, in
+/// the steps and with the orders and the resolution that `contour.correction` asks for. The
 /// prediction grinds every part again, from its recorded errors and the rows as a control applies
 /// them.
-/// @return  The correction, or why none may leave the run: no result, a void curve, no interval, or
-///          a gain (fall of the greatest peak to valley) whose interval does not lie above 0.
-///          Same record, same bits; takes the trials of one value.
+/// @return  The correction, or why none may leave the run: no result, a void curve, no interval,
+///          rows beyond the limit of the plan, or a gain (fall of the greatest peak to valley)
+///          whose interval does not lie above 0. Same record, same bits; takes the trials of one
+///          value.
 /// Source: methods, contour section 5; sister analyses, sections 10 and 11.
 [[nodiscard]] core::Result<XCorrection> x_correction(const record::RunRecord& record,
                                                      const FeatureResult& result);

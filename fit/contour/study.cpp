@@ -363,10 +363,28 @@ const std::vector<double>& mean_following(const ContourStudy& study) {
 }
 
 std::vector<double> x_table_mm(const ContourStudy& study, const CrankGeometry& geometry,
-                               std::size_t count) {
-  std::vector<double> out = x_compensation_mm(geometry, mean_following(study), count);
+                               const XTableOptions& options) {
+  const std::vector<double>& f = mean_following(study);
+  std::vector<double> out;
+  if (options.highest_order > 0) {
+    // Through samples as fine as those of f: orders above the last one must not fold into the rows.
+    const std::size_t samples = std::max(f.size(), options.rows);
+    Spectrum half = spectrum(x_compensation_mm(geometry, f, samples));
+    half.resize(static_cast<std::size_t>(options.highest_order) + 1);
+    half.resize(options.rows / 2 + 1);
+    const double scale = static_cast<double>(options.rows) / static_cast<double>(samples);
+    for (Complex& one : half) one *= scale;
+    out = series_of(half, options.rows);
+  } else {
+    out = x_compensation_mm(geometry, f, options.rows);
+  }
   const double constant = core::mean(out);
-  for (double& x : out) x -= constant;
+  for (double& x : out) {
+    x -= constant;
+    if (options.resolution_mm > 0.0) {
+      x = std::round(x / options.resolution_mm) * options.resolution_mm;
+    }
+  }
   return out;
 }
 

@@ -116,7 +116,7 @@ struct ContourStudy {
   double amplitude_ratio = 0.0;          ///< rms(f) / rms(n) over all parts; 0 when n is zero.
   CorrelationOffset offset;              ///< Common offset of all parts, a diagnosis.
   SenseEvidence sense;
-  std::optional<AxisDoubt> axis;  ///< The likeliest that fits better, beyond chance.
+  std::optional<AxisDoubt> axis;      ///< The likeliest that fits better, beyond chance.
   std::vector<core::Error> warnings;  ///< `where` is "parts/i/..." for warnings about one part.
 
   /// false: no part has traces, all f are by the main journals.
@@ -155,10 +155,18 @@ struct FollowingContour {
 /// f of the mean of all parts, at the angles of the contours [mm].
 [[nodiscard]] const std::vector<double>& mean_following(const ContourStudy& study);
 
+/// The table of a correction of X as a control takes it.
+struct XTableOptions {
+  std::size_t rows = 360;
+  int highest_order = 0;       ///< Of x over C; below half the rows. 0: all that f has.
+  double resolution_mm = 0.0;  ///< Rows are whole multiples of it; 0: as computed.
+};
+
 /// What a control adds to the command of X to take the mean f away, at the C positions of the
-/// method 0, 360/count, ... deg, without its mean: the size of the pin stays.
+/// method 0, 360/rows, ... deg, without its mean: the size of the pin stays.
 [[nodiscard]] std::vector<double> x_table_mm(const ContourStudy& study,
-                                             const CrankGeometry& geometry, std::size_t count);
+                                             const CrankGeometry& geometry,
+                                             const XTableOptions& options);
 
 /// A closed curve of equal steps, linear between them.
 [[nodiscard]] double closed_at(std::span<const double> curve, double angle_rad);

@@ -28,7 +28,6 @@ constexpr std::uint64_t kPinOwnStream = 0xc0aau;
 constexpr std::uint64_t kMainOwnStream = 0xc0abu;
 constexpr int kHighestSpread = 6;
 constexpr std::size_t kPathSamples = 2048;
-constexpr std::size_t kTableRows = 360;  ///< As in the file of the correction.
 
 /// Whether the control counts C as the method does.
 double sense_of(const ContourTask& asked) {
@@ -263,7 +262,10 @@ core::Result<std::vector<double>> correction_of(const Pins& pins) {
     for (const double x : part.read.x_error_um) trace.x_error_mm.push_back(x * kMicrometre);
   }
   TRY(const auto study, fit::contour_study(parts, options));
-  return fit::x_table_mm(study, options.geometry, kTableRows);
+  const auto table = pins.asked.correction.value_or(record::ContourCorrectionTask());
+  return fit::x_table_mm(study, options.geometry,
+                         {static_cast<std::size_t>(table.rows()), table.highest_order,
+                          table.resolution_um * kMicrometre});
 }
 
 /// A correction as a control holds it.

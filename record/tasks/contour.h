@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,6 +50,16 @@ struct ContourRepeatTask {
   std::string table;  ///< The file that the control had loaded; empty: simulated.
 };
 
+/// The table of a correction of X as a control takes it.
+struct ContourCorrectionTask {
+  double step_deg = 1.0;
+  double resolution_um = 0.0;           ///< Rows are whole multiples; 0: as computed.
+  int highest_order = 0;                ///< Of x over C; 0: all that f has.
+  std::optional<double> limit_um = {};  ///< A correction beyond it does not leave the run.
+
+  [[nodiscard]] int rows() const { return static_cast<int>(std::lround(360.0 / step_deg)); }
+};
+
 /// How a feature of the type "contour" is evaluated, as plan and journal spell it: crank pins in
 /// follow grinding. A member initialiser is the default of its key.
 struct ContourTask {
@@ -83,6 +94,7 @@ struct ContourTask {
   std::vector<ContourColumnTask> columns;
   std::vector<ContourPartTask> parts;  ///< Empty: simulated.
   std::optional<ContourRepeatTask> repeat;
+  std::optional<ContourCorrectionTask> correction;
 };
 
 RONDURE_WORDS(ContourTask::Method, {kCorrected, "corrected"}, {kAsPublished, "as-published"});
@@ -128,6 +140,17 @@ void describe(Visitor& v, ContourPartTask& p) {
           .meaning = "CSV of the gauge, columns angle_deg,deviation_um: the pin."});
   v.text("main", p.main,
          {.meaning = "The same of the neighbouring main journal; left out: not measured."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ContourCorrectionTask& p) {
+  v.number("step_deg", p.step_deg, range(0.1, 30.0, "Step of C, a divisor of 360."));
+  v.number("resolution_um", p.resolution_um,
+           range(0.0, 10.0, "Rows are rounded to it; 0: as computed."));
+  v.whole("highest_order", p.highest_order,
+          range(0, 1799, "Last order of x over C, below half the rows; 0: all of f."));
+  v.number("limit_um", p.limit_um,
+           above(0.0, 1000.0, "A correction beyond it is not written; left out: no limit."));
 }
 
 template <class Visitor>
@@ -198,6 +221,7 @@ void describe(Visitor& v, ContourTask& p) {
   v.list("columns", p.columns, {.meaning = "Columns of the files with other names or units."});
   v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
   v.object("repeat", p.repeat, {.meaning = "The next parts, ground with a correction of X."});
+  v.object("correction", p.correction, {.meaning = "The table of the correction of X."});
 }
 
 }  // namespace rondure::record

@@ -116,9 +116,11 @@ Handed contour_tables(const record::RunRecord& record, int index, const FeatureR
   head.gain = fmt::format("{}; greatest peak to valley {} um as measured, {} um predicted with it",
                           interval_of(found->gain), um(found->before_mm), um(found->after_mm));
   std::string text = head_of(record, index, result, head) + "c_deg,x_um,u_um\n";
+  const auto rows = static_cast<double>(found->x_mm.size());
   for (std::size_t i = 0; i < found->x_mm.size(); ++i) {
-    text += fmt::format("{},{},{}\n", i, shortest(found->x_mm[i] / kMicrometre),
-                        shortest(found->u_mm[i] / kMicrometre));
+    text +=
+        fmt::format("{},{},{}\n", shortest(360.0 * static_cast<double>(i) / rows),
+                    shortest(found->x_mm[i] / kMicrometre), shortest(found->u_mm[i] / kMicrometre));
   }
   const std::string file = fmt::format("{}/{}-x-of-c.csv", kCorrectionsFolder, name);
   return {{{head.kind, file, std::move(text)}}, fmt::format("{}: {}", file, head.gain)};

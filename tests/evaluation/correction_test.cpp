@@ -136,6 +136,7 @@ double range_um(const std::vector<double>& curve) {
 /// A table as a control reads it: rows of numbers, comments apart.
 struct Loaded {
   std::vector<std::string> head;
+  std::vector<double> at_deg;
   std::vector<double> x_um;
   std::vector<double> u_um;
 
@@ -153,7 +154,7 @@ struct Loaded {
       char comma = ' ';
       std::istringstream row(line);
       row >> c >> comma >> x >> comma >> u;
-      EXPECT_EQ(c, static_cast<double>(x_um.size()));
+      at_deg.push_back(c);
       x_um.push_back(x);
       u_um.push_back(u);
     }
@@ -201,6 +202,14 @@ std::vector<double> again(const GroundPins& pins, std::size_t part, const Loaded
   return GroundPins::ground(errors);
 }
 
+/// t of the first part, ground again with the rows.
+std::vector<double> again_with_rest(const GroundPins& pins, const Loaded& rows) {
+  auto out = again(pins, 0, rows);
+  const auto n = test::spec_rest(0);
+  for (std::size_t m = 0; m < n.size(); ++m) out[m] += n[m];
+  return out;
+}
+
 // Section 13, K-2: the rows at every 30 deg, with their mean; the contour that is ground again.
 TEST(XCorrection, HasTheRowsOfTheWorkedExample) {
   const GroundPins pins;
@@ -212,6 +221,7 @@ TEST(XCorrection, HasTheRowsOfTheWorkedExample) {
   for (const double x : rows.x_um) mean += x / 360.0;
   EXPECT_NEAR(mean, 0.0, 1e-12);
   for (std::size_t i = 1; i < expected.size(); ++i) {
+    EXPECT_EQ(rows.at_deg[30 * i], 30.0 * static_cast<double>(i));
     EXPECT_NEAR(rows.x_um[30 * i] - rows.x_um[0], expected[i] - expected[0], 5e-4) << i;
   }
   EXPECT_NEAR(range_um(GroundPins::ground(pins.errors_of(0))), 7.043, 5e-4);
@@ -219,6 +229,75 @@ TEST(XCorrection, HasTheRowsOfTheWorkedExample) {
   EXPECT_LT(range_um(again(pins, 0, rows)), 0.15);
   EXPECT_NEAR(range_um(again(pins, 0, rows, -1.0)), 14.040, 0.05);
   EXPECT_NEAR(range_um(again(pins, 0, rows, 1.0, -1.0)), 9.775, 0.05);
+}
+
+/// cos and sin of an order of x over C, by a plain sum [um].
+std::pair<double, double> order_of(const std::vector<double>& x_um, int order) {
+  const auto rows = static_cast<double>(x_um.size());
+  std::pair<double, double> out;
+  for (std::size_t i = 0; i < x_um.size(); ++i) {
+    const double c = core::kTwoPi * order * static_cast<double>(i) / rows;
+    out.first += 2.0 * x_um[i] * std::cos(c) / rows;
+    out.second += 2.0 * x_um[i] * std::sin(c) / rows;
+  }
+  return out;
+}
+
+std::vector<double> in_um(const XCorrection& found) {
+  std::vector<double> out;
+  for (const double x : found.x_mm) out.push_back(x / kMicrometre);
+  return out;
+}
+
+TEST(XCorrection, HasTheStepOrdersAndResolutionThatAreAskedFor) {
+  GroundPins pins;
+  const auto plain = in_um(Evaluated(pins.record()).correction());
+  const auto asked = [&](const record::ContourCorrectionTask& correction) {
+    pins.task.correction = correction;
+    return Evaluated(pins.record());
+  };
+  const Evaluated coarse = asked({.step_deg = 5.0});
+  const auto every_fifth = in_um(coarse.correction());
+  ASSERT_EQ(every_fifth.size(), 72U);
+  // The mean that is taken off is that of the rows.
+  for (std::size_t i = 0; i < 72; ++i) {
+    EXPECT_NEAR(every_fifth[i] - every_fifth[0], plain[5 * i] - plain[0], 1e-9) << i;
+  }
+  EXPECT_THAT(coarse.corrections.tables.at(0).text, HasSubstr("\n355,"));
+
+  constexpr int kLast = 9;
+  for (const double step_deg : {1.0, 12.0}) {
+    SCOPED_TRACE(step_deg);
+    const auto low = in_um(asked({.step_deg = step_deg, .highest_order = kLast}).correction());
+    for (int order = 1; order <= 14; ++order) {
+      const auto [c, s] = order_of(low, order);
+      const auto [c0, s0] = order <= kLast ? order_of(plain, order) : std::pair(0.0, 0.0);
+      EXPECT_NEAR(c, c0, 2e-3) << order;
+      EXPECT_NEAR(s, s0, 2e-3) << order;
+    }
+  }
+
+  const Evaluated rounded = asked({.resolution_um = 0.5});
+  const XCorrection found = rounded.correction();
+  for (std::size_t i = 0; i < 360; ++i) {
+    const double x_um = found.x_mm[i] / kMicrometre;
+    EXPECT_NEAR(2.0 * x_um, std::round(2.0 * x_um), 1e-9);
+    EXPECT_NEAR(x_um, plain[i], 0.25 + 1e-9);
+    EXPECT_GT(found.u_mm[i] / kMicrometre, 0.5 / std::sqrt(12.0));
+  }
+  // The prediction is that of the rows as they are written.
+  EXPECT_NEAR(found.after_mm / kMicrometre, range_um(again_with_rest(pins, rounded.loaded())),
+              0.01);
+}
+
+TEST(XCorrection, DoesNotLeaveTheRunBeyondItsLimit) {
+  GroundPins pins;
+  pins.task.correction = record::ContourCorrectionTask{.limit_um = 3.0};
+  const Evaluated none(pins.record());
+  EXPECT_TRUE(none.corrections.tables.empty());
+  EXPECT_THAT(none.corrections.summary, HasSubstr("beyond its limit of 3 um"));
+  pins.task.correction->limit_um = 6.0;
+  EXPECT_EQ(Evaluated(pins.record()).corrections.tables.size(), 1U);
 }
 
 TEST(XCorrection, ReducesTheContourByThePredictedGain) {

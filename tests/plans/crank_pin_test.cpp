@@ -17,6 +17,7 @@
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/contour/result.h"
+#include "evaluation/correction/corrections.h"
 #include "evaluation/evaluate.h"
 #include "fit/contour/crank_motion.h"
 #include "fit/contour/error.h"
@@ -288,6 +289,27 @@ TEST_F(NextPins, KeepLittleOfWhatFollowsTheAxes) {
                   4.0 * stated->standard_uncertainty_mm);
     }
   }
+}
+
+// The table in the control is the one that left the run: its steps, its orders, its increments.
+TEST_F(NextPins, AreGroundWithTheTableAsItIsWritten) {
+  Plan plan = corrected(true);
+  plan.features[0].contour->correction =
+      record::ContourCorrectionTask{.step_deg = 5.0, .resolution_um = 0.1, .highest_order = 20};
+  const auto found = run(plan);
+  const record::RunRecord record = testing::journal_of(directory_);
+  const auto written = evaluation::x_correction(record, found.features[0]);
+  ASSERT_TRUE(written) << written.error().what;
+  const auto* const loaded = record.data_of(1, "table");
+  ASSERT_NE(loaded, nullptr);
+  const auto x_um = loaded->column("x_um").value();
+  ASSERT_EQ(x_um.size(), 72U);
+  ASSERT_EQ(written->x_mm.size(), x_um.size());
+  for (std::size_t i = 0; i < x_um.size(); ++i) {
+    EXPECT_NEAR(10.0 * x_um[i], std::round(10.0 * x_um[i]), 1e-9);
+    EXPECT_NEAR(x_um[i], written->x_mm[i] / core::kMicrometre, 1e-9) << i;
+  }
+  EXPECT_LT(fit::peak_to_valley(fit::mean_following(pins_of_feature(found, 1).study)), 0.8e-3);
 }
 
 // t of the next parts is f of the axes with the correction, and n: no trace says so.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -121,8 +122,22 @@ void check_columns(const record::ContourTask& plan, const std::string& where, Fi
   }
 }
 
+void check_correction(const record::ContourCorrectionTask& plan, const std::string& where,
+                      Findings& findings) {
+  if (std::abs(plan.rows() * plan.step_deg - 360.0) > 1e-6) {
+    findings.meaning(Code::kMeaning, where + "/step_deg",
+                     "a turn is no whole number of steps: take a divisor of 360 deg");
+  } else if (2 * plan.highest_order >= plan.rows()) {
+    findings.meaning(
+        Code::kSampling, where + "/highest_order",
+        fmt::format("{} rows hold orders up to {}: take a lower one, or a smaller step",
+                    plan.rows(), (plan.rows() - 1) / 2));
+  }
+}
+
 void check_contour(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const record::ContourTask& plan = *feature.contour;
+  if (plan.correction) check_correction(*plan.correction, where + "/correction", findings);
   check_separation(plan, where, findings);
   check_columns(plan, where, findings);
   if (plan.repeat && plan.repeat->table.empty() != plan.parts.empty()) {
