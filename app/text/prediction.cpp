@@ -8,7 +8,9 @@
 
 #include "app/text/answer.h"
 #include "app/text/forecast.h"
+#include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/results/feature_values.h"
 #include "evaluation/results/stated_value.h"
 
 namespace rondure::app {
@@ -20,21 +22,25 @@ using nlohmann::ordered_json;
 
 constexpr double kNormal95 = 1.96;  // half the width of 95 % of a normal distribution, in u
 
-std::string statement_row(const std::optional<PredictedStatement>& said) {
+/// @param unit  Of the expected value; a size stands in mm, all else of the row in um.
+std::string statement_row(const std::optional<PredictedStatement>& said, core::ValueUnit unit) {
   if (!said) return {};
   const int digits = evaluation::decimals_for(said->expanded_mm());
-  return fmt::format("    {:<24} {:>8.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f}\n",
-                     evaluation::name_of(said->measurand), core::micrometres(said->expected_mm),
-                     digits, core::micrometres(said->below_mm), digits,
-                     core::micrometres(said->above_mm), digits, core::micrometres(said->width_mm()),
-                     digits, core::micrometres(said->expanded_mm()), digits,
+  return fmt::format("    {:<21} {:>11} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f}\n",
+                     evaluation::name_of(said->measurand),
+                     core::length_in(unit, said->expected_mm, digits) +
+                         (unit == core::ValueUnit::kMm ? " mm" : ""),
+                     core::micrometres(said->below_mm), digits, core::micrometres(said->above_mm),
+                     digits, core::micrometres(said->width_mm()), digits,
+                     core::micrometres(said->expanded_mm()), digits,
                      core::micrometres(said->nine_of_ten_expanded_mm()), digits);
 }
 
 std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacteristic& of) {
   const evaluation::Prediction& p = of.prediction;
+  const core::ValueUnit unit = evaluation::unit_of(of.characteristic);
   std::string out = fmt::format("  {}, {}\n", plan.features[of.feature].id, of.characteristic.id);
-  out += statement_row(p.sampled) + statement_row(p.whole);
+  out += statement_row(p.sampled, unit) + statement_row(p.whole, unit);
   if (p.budget.empty()) return out;  // trials of a part have none
   const Measurand widest = p.whole ? Measurand::kWholeSurface : Measurand::kSampledPoints;
   return out + wrapped(largest_influences(p, widest), "    from ", "      ");
@@ -175,7 +181,7 @@ std::string surface_table(const plans::Plan& plan,
                                   [](const auto& of) { return of.states_surface(); });
   std::string out = fmt::format("\nPredicted interval, before the first touch, {:.4g} %, um\n",
                                 100.0 * first->prediction.coverage_1);
-  out += fmt::format("    {:<24} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}\n", "", "expected", "-", "+",
+  out += fmt::format("    {:<21} {:>11} {:>7} {:>7} {:>7} {:>7} {:>7}\n", "", "expected", "-", "+",
                      "width", "U", "U 9/10");
   for (const PredictedCharacteristic& of : predicted) {
     if (of.states_surface()) out += characteristic_rows(plan, of);

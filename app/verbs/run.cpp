@@ -194,10 +194,12 @@ void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   tell(fmt::format("rondure: to resume it after its last touch: {}\n", resume_command(ending)));
 }
 
-/// Points out that a non-empty run directory may hold a run to resume.
+/// Points out that a non-empty run directory may hold a run to resume; a finished one is none.
 void tell_about_resume(const RunToFinish& ending) {
   std::error_code ignored;
   if (!fs::exists(ending.directory / record::kJournalName, ignored)) return;
+  if (const auto there = record::read_journal(ending.directory); there && there->record.sealed)
+    return tell("rondure: the run that lies there is finished; name another directory by --out\n");
   tell(fmt::format("rondure: to go on with the run that lies there: {}\n", resume_command(ending)));
 }
 

@@ -98,9 +98,9 @@ void read_bodies(Plan& plan, Findings& findings) {
     const std::string where = item_pointer("/fixture/bodies", i);
     if (!findings.sound(where)) continue;
     if (const auto k = earlier_with_same_id(bodies, i)) {
-      findings.meaning(
-          Code::kMeaning, where + "/id",
-          fmt::format("body {} has the id {} too; give each its own", *k + 1, in_quotes(body.id)));
+      findings.meaning(Code::kMeaning, where + "/id",
+                       fmt::format("{} has the id {} too; give each its own",
+                                   item_pointer("/fixture/bodies", *k), in_quotes(body.id)));
     }
     const bool turns = body.frame == BodyPlan::Frame::kHoop || body.frame == BodyPlan::Frame::kRing;
     if (turns && is_fixed(plan)) {

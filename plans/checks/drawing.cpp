@@ -602,9 +602,9 @@ void check_drawing(const Plan& plan, std::size_t index, Findings& findings) {
     const Asked asked = {plan, index, feature.characteristics[k], resolved[k], place, findings};
     check_mask(asked);
     if (const auto twin = earlier_with_same_id(feature.characteristics, k)) {
-      asked.refuse("id", fmt::format("the id {} names characteristic {} of this feature already; "
-                                     "choose another",
-                                     in_quotes(asked.task.id), *twin + 1));
+      asked.refuse("id", fmt::format("the id {} is that of {} already; choose another",
+                                     in_quotes(asked.task.id),
+                                     item_pointer(where + "/characteristics", *twin)));
     }
     surface ? check_of_surface(asked) : check_of_analysis(asked);
   }

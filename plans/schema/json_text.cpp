@@ -51,6 +51,8 @@ std::optional<std::string> fault_of_name(std::string_view text) {
     return fmt::format("contains {}, which no report can show in a line; remove it",
                        unshowable_in_words(text, at));
   }
+  if (text.starts_with(' ') || text.ends_with(' '))
+    return "begins or ends with a blank, which nobody sees; remove it";
   const std::size_t count = characters(text);
   if (count <= kMostCharacters) return std::nullopt;
   return fmt::format("has {} characters, the limit is {}; shorten it", count, kMostCharacters);

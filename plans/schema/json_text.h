@@ -23,7 +23,8 @@ namespace rondure::plans {
 [[nodiscard]] std::string unshowable_in_words(std::string_view text, std::size_t index);
 
 /// What forbids a name on page one, as a clause after it: it must fit its line, at most 200
-/// characters, and not reorder what stands beside it. Nothing where it may stand there.
+/// characters, without blanks at its ends, and not reorder what stands beside it. Nothing where it
+/// may stand there.
 [[nodiscard]] std::optional<std::string> fault_of_name(std::string_view text);
 
 /// The text on one line: a line feed becomes \n, other unshowable characters \u001b or \xff.

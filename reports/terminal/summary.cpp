@@ -547,7 +547,8 @@ bool conforms(const evaluation::CharacteristicResult& result) {
 
 /// @param all  False: only the call-outs that do not conform, and why there is no result.
 void add_details(std::string& out, const record::RunRecord& record, std::size_t index,
-                 const evaluation::FeatureResult& feature, bool all) {
+                 const evaluation::FeatureResult& feature, const std::vector<Callout>& callouts,
+                 bool all) {
   if (!all && !feature.failure && std::ranges::all_of(feature.characteristics, conforms)) return;
   out += "\n";
   add_wrapped(out, tr("feature"), heading_of(feature));
@@ -555,6 +556,8 @@ void add_details(std::string& out, const record::RunRecord& record, std::size_t 
   for (const evaluation::CharacteristicResult& result : feature.characteristics) {
     if (!all && conforms(result)) continue;
     add_characteristic(out, result, said);
+    const auto callout = std::ranges::find(callouts, &result, &Callout::result);
+    if (!callout->place.empty()) add_wrapped(out, "    " + tr("worst at"), callout->place);
     for (core::Error warning : feature.warnings) {
       if (std::exchange(warning.where, "") != result.characteristic.id) continue;
       add_wrapped(out, "    " + tr("warning"), line_of(std::move(warning)));
@@ -586,7 +589,7 @@ std::string terminal_text(const record::RunRecord& record, const evaluation::Eva
   if (all) add_origin(out, record.header, evaluation);
   add_table(out, callouts);
   for (std::size_t i = 0; i < evaluation.features.size(); ++i)
-    add_details(out, record, i, evaluation.features[i], all);
+    add_details(out, record, i, evaluation.features[i], callouts, all);
   out += "\n";
   add_plain(out, uncertainty_in_words(callouts, words));
   return with_signs(out);

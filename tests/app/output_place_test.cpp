@@ -12,6 +12,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Outcome run_spool_into(const fs::path& place, const Surroundings& surroundings = {}) {
   return run_without_intervals("01_spool_simulated", {"--out", place}, surroundings);
@@ -32,7 +33,10 @@ TEST(OutputPlace, ASecondRunIntoTheSameFolderIsRefused) {
   const Scratch folder;
   ASSERT_EQ(run_spool_into(folder / "run").status, 0);
   const std::string journal = read(folder / "run" / "journal.db");
-  EXPECT_EQ(run_spool_into(folder / "run").status, 2);
+  const Outcome again = run_spool_into(folder / "run");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("is finished; name another directory by --out"),
+                               Not(HasSubstr("--resume"))));
   EXPECT_EQ(read(folder / "run" / "journal.db"), journal);
 }
 

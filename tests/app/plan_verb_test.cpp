@@ -19,6 +19,7 @@ namespace rondure::app::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -186,13 +187,15 @@ TEST(PlanVerb, PredictsTheIntervalInEightyColumns) {
   std::vector<Change> one = {
       {"/features/0/characteristics",
        nlohmann::json::array(
-           {{{"id", "CYLt least squares"}, {"form", "cylindricity"}, {"reference", "ls"}}})}};
+           {{{"id", "CYLt least squares"}, {"form", "cylindricity"}, {"reference", "ls"}},
+            {{"id", "size"}, {"form", "diameter"}, {"size", "GG"}}})}};
   write_plan_with_intervals(folder / "plan.json", one);
   const Outcome told = rondure({"plan", folder / "plan.json"});
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(told.out, AllOf(HasSubstr("Predicted interval, before the first touch, 95 %"),
                               HasSubstr("at the sampled points"), HasSubstr("of the whole surface"),
                               HasSubstr("running surface, CYLt least squares"),
+                              ContainsRegex("size\n +at the sampled points +[0-9.]+ mm +[0-9]"),
                               HasSubstr("Form of the parts: form_spectrum of the plan"),
                               Not(HasSubstr("the most that the qualification lets pass"))));
   EXPECT_LE(longest_line(told.out), 80U);

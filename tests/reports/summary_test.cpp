@@ -117,7 +117,8 @@ TEST(Answer, TellsDetailsOnlyOfWhatDoesNotConform) {
   EXPECT_THAT(answer_of(cylinder_case(4, 7, 3)), Not(HasSubstr("feature ")));
   const std::string failing = answer_of(failing_case());
   EXPECT_THAT(failing, AllOf(HasSubstr("feature        land-A: "), HasSubstr("stated"),
-                             Not(HasSubstr("certificate")), Not(HasSubstr("hidden truth"))));
+                             HasSubstr("\n    worst at   "), Not(HasSubstr("certificate")),
+                             Not(HasSubstr("hidden truth"))));
   // The call-out that conforms stands in its line alone.
   const std::string all = summary_of(failing_case());
   EXPECT_EQ(failing.find("round-A", failing.find("round-A") + 1), std::string::npos);

@@ -342,8 +342,8 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
   const std::string where = feature_pointer(index);
   if (const auto twin = earlier_with_same_id(plan.features, index)) {
     findings.meaning(Code::kMeaning, where + "/id",
-                     fmt::format("the id {} names feature {} already; choose another",
-                                 in_quotes(feature.id), *twin + 1));
+                     fmt::format("the id {} is that of {} already; choose another",
+                                 in_quotes(feature.id), feature_pointer(*twin)));
   }
   check_table_names(plan, index, findings);
   check_without_effect(feature, where, findings);

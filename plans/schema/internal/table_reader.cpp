@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/encodings.h"
 #include "plans/key_spec.h"
 #include "plans/schema/json_text.h"
 
@@ -53,7 +54,13 @@ std::string spelled(const std::vector<std::string_view>& words) {
 }
 
 std::string spelling_message(const std::string& value, const TextSpec& spec) {
+  constexpr std::size_t kMostListed = 12;  // more hide the one that is meant
   const std::string_view near = nearest_word(value, spec.one_of);
+  if (!near.empty() && spec.one_of.size() > kMostListed) {
+    return fmt::format(
+        "{} is not known; did you mean \"{}\"? plans/schema/plan.schema.json lists all {} words",
+        in_quotes(value), near, spec.one_of.size());
+  }
   const std::string hint = near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
   return fmt::format("{} is not known; give {}{}", in_quotes(value), spelled(spec.one_of), hint);
 }
@@ -162,7 +169,12 @@ bool TableReader::read_text(const JsonValue& json, const std::string& pointer, c
 
 void TableReader::text(std::string_view key, std::string& value, const TextSpec& spec) {
   const JsonValue* json = value_at(key, spec.required, spec.meaning);
-  if (json != nullptr) read_text(*json, pointer_to(key), spec, value);
+  if (json == nullptr || !read_text(*json, pointer_to(key), spec, value) || key != "id") return;
+  // Reports, datums and options name things by their ids: two must not look alike.
+  if (const auto fault = fault_of_name(value)) {
+    problem(*json, Code::kOutOfRange, pointer_to(key),
+            fmt::format("{} {}", in_quotes(core::printable(value)), *fault));
+  }
 }
 
 void TableReader::text(std::string_view key, std::optional<std::string>& value,
