@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "fit/rotary/ball_setup.h"
 #include "plans/analyses/internal/kinds.h"
+#include "plans/analyses/internal/series_file.h"
 #include "plans/five_axis_plan.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
@@ -30,6 +33,11 @@ constexpr std::array<record::WantedColumn, 8> kNestColumns = {{{"step", true, kH
                                                                {"dy_um"},
                                                                {"dz_um"},
                                                                {"u_um", false}}};
+constexpr std::array<std::string_view, 3> kPoseSteps = {"C", "A", "verification"};
+constexpr std::array<record::WantedColumn, 3> kPoseColumns = {
+    {{"step", true, kPoseSteps}, {"c_deg"}, {"a_deg"}}};
+constexpr std::array<std::string_view, 3> kPoseKeys = {"/c_stations_deg", "/a_stations_deg",
+                                                       "/verification"};
 constexpr std::size_t kHeadPoses = 5;
 constexpr double kLeastAngle_deg = 5.0;
 
@@ -62,6 +70,65 @@ bool is_on(const std::vector<double>& stations_deg, double deg) {
 
 bool on_grid(double deg, double step_deg) { return std::abs(std::remainder(deg, step_deg)) < 1e-9; }
 
+/// Why a row of a file of poses does not fit: its column, and what is wrong. The rows before it are
+/// in `task`.
+std::optional<std::string> fault_of_pose(const record::Series& file, std::size_t row,
+                                         const FiveAxisTask& task) {
+  const double* const value = &file.values[row * kPoseColumns.size()];
+  for (const auto& [column, limit_deg] :
+       {std::pair(std::size_t{1}, 360.0), std::pair(std::size_t{2}, 180.0)}) {
+    if (std::abs(value[column]) <= limit_deg) continue;
+    return fmt::format("{}: {} deg is outside +-{:g} deg", kPoseColumns[column].name,
+                       plain(value[column]), limit_deg);
+  }
+  const auto step = static_cast<std::size_t>(value[0]);
+  if (step == 2) return std::nullopt;
+  const std::size_t own = step + 1;
+  const std::size_t other = 2 - step;
+  if (value[other] != 0.0) {
+    return fmt::format("{}: {} deg at a station of {}, where the other axis stands at 0",
+                       kPoseColumns[other].name, plain(value[other]), kPoseSteps[step]);
+  }
+  if (is_on(step == 0 ? task.c_stations_deg : task.a_stations_deg, value[own])) {
+    return fmt::format("{}: the station {} deg of {} stands in an earlier row; remove one",
+                       kPoseColumns[own].name, plain(value[own]), kPoseSteps[step]);
+  }
+  return std::nullopt;
+}
+
+void read_poses_of(const Plan& plan, FiveAxisTask& task, const std::string& where,
+                   Findings& findings) {
+  const std::string place = where + "/poses";
+  for (const std::string_view key : kPoseKeys) {
+    if (!findings.is_given(where + std::string(key))) continue;
+    findings.meaning(Code::kMeaning, where + std::string(key),
+                     "has no effect: the file \"poses\" says where the ball is read; remove one");
+  }
+  const auto file = [&]() -> core::Result<record::Series> {
+    TRY(const auto bytes, read_data_file(plan.folder / task.poses, task.poses));
+    return record::parse_series_csv(bytes, task.poses, kPoseColumns);
+  }();
+  if (!file) {
+    const core::Error& error = file.error();
+    findings.meaning(error.code, place,
+                     error.where.empty() ? error.what : error.where + ": " + error.what);
+    return;
+  }
+  for (std::size_t row = 0; row < file->rows(); ++row) {
+    if (const auto fault = fault_of_pose(*file, row, task)) {
+      findings.meaning(Code::kMeaning, place,
+                       fmt::format("{}, row {}, {}", task.poses, row + 1, *fault));
+      continue;
+    }
+    const double* const value = &file->values[row * kPoseColumns.size()];
+    if (value[0] == 0.0) task.c_stations_deg.push_back(value[1]);
+    if (value[0] == 1.0) task.a_stations_deg.push_back(value[2]);
+    if (value[0] != 2.0) continue;
+    task.verification.push_back({value[1], value[2]});
+    task.verification_rows.push_back(row + 1);
+  }
+}
+
 void check_verification(const FiveAxisTask& plan, const std::string& where, Findings& findings) {
   if (!findings.sound(where)) return;
   const auto [low, high] = plan.a_stations_deg.empty()
@@ -70,7 +137,13 @@ void check_verification(const FiveAxisTask& plan, const std::string& where, Find
   for (std::size_t i = 0; i < plan.verification.size(); ++i) {
     const record::HeadPoseTask& pose = plan.verification[i];
     const auto refuse = [&](Code code, std::string why) {
-      findings.meaning(code, item_pointer(where, i), std::move(why));
+      if (plan.poses.empty()) {
+        findings.meaning(code, item_pointer(where, i), std::move(why));
+      } else {
+        findings.meaning(code, where,
+                         fmt::format("{}, row {}, c_deg, a_deg: {}", plan.poses,
+                                     plan.verification_rows[i], why));
+      }
     };
     if (std::min(std::abs(pose.c_deg), std::abs(pose.a_deg)) < kLeastAngle_deg) {
       refuse(Code::kMeaning,
@@ -105,19 +178,51 @@ void check_five_axis(const FeaturePlan& feature, const std::string& where, Findi
   check_balls(plan, where + "/balls", findings);
   if (feature.source) {
     for (const std::string_view key :
-         {"/c_stations_deg", "/a_stations_deg", "/verification", "/references"}) {
+         {"/c_stations_deg", "/a_stations_deg", "/verification", "/references", "/poses"}) {
       if (!findings.is_given(where + std::string(key))) continue;
       findings.meaning(Code::kMeaning, where + std::string(key),
                        "has no effect: the file says where the ball was read; remove it");
     }
     return;
   }
-  check_axis_stations(plan.c_stations_deg, "C = A = 0", where + "/c_stations_deg", findings);
-  check_axis_stations(plan.a_stations_deg, "C = A = 0", where + "/a_stations_deg", findings);
-  check_verification(plan, where + "/verification", findings);
+  // What a file says is wrong in the file.
+  const auto place = [&](std::string_view key) {
+    return where + std::string(plan.poses.empty() ? key : "/poses");
+  };
+  check_axis_stations(plan.c_stations_deg, "C = A = 0", place(kPoseKeys[0]), findings);
+  check_axis_stations(plan.a_stations_deg, "C = A = 0", place(kPoseKeys[1]), findings);
+  check_verification(plan, place(kPoseKeys[2]), findings);
 }
 
 }  // namespace
+
+void read_head_poses(Plan& plan, Findings& findings) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const std::string where = feature_pointer(i) + "/five_axis";
+    auto& task = plan.features[i].five_axis;
+    if (!task || task->poses.empty() || plan.features[i].source || !findings.sound(where)) continue;
+    read_poses_of(plan, *task, where, findings);
+  }
+}
+
+core::Result<void> check_same_poses(const FeaturePlan& feature,
+                                    const std::vector<record::Setting>& recorded) {
+  if (!feature.five_axis || feature.five_axis->poses.empty()) return {};
+  const FiveAxisTask& now = *feature.five_axis;
+  const auto before = record::task_of<FiveAxisTask>(recorded);
+  const auto alike = [](const record::HeadPoseTask& a, const record::HeadPoseTask& b) {
+    return a.c_deg == b.c_deg && a.a_deg == b.a_deg;
+  };
+  if (before && before->c_stations_deg == now.c_stations_deg &&
+      before->a_stations_deg == now.a_stations_deg &&
+      std::ranges::equal(before->verification, now.verification, alike)) {
+    return {};
+  }
+  return core::fail_with(Code::kMeaning,
+                         "{} does not hold the poses that the run began with; put that file back, "
+                         "or start a new run",
+                         now.poses);
+}
 
 const AnalysisKind& five_axis_kind() {
   static constexpr AnalysisKind kKind = {

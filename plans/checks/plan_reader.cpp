@@ -7,6 +7,7 @@
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/features.h"
+#include "plans/analyses/internal/kinds.h"
 #include "plans/checks/internal/bodies.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/checks/internal/plan_reach.h"
@@ -77,6 +78,7 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   Plan plan = read_keys(*json, text, findings);
   plan.folder = folder;
   read_bodies(plan, findings);
+  read_head_poses(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();
   // Reach can be judged only when every number is valid.

@@ -182,8 +182,24 @@ core::Result<void> add_found(const RunRecord& found, const Plan& plan, RunRecord
   return {};
 }
 
+/// A plan with the poses that a run read of their files.
+core::Result<Plan> with_found_poses(const RunRecord& found, Plan plan) {
+  for (std::size_t i = 0; i < std::min(found.features.size(), plan.features.size()); ++i) {
+    auto& head = plan.features[i].five_axis;
+    if (!head || head->poses.empty()) continue;
+    TRY(const auto read, record::task_of<record::FiveAxisTask>(found.features[i].settings));
+    head->c_stations_deg = read.c_stations_deg;
+    head->a_stations_deg = read.a_stations_deg;
+    head->verification = read.verification;
+  }
+  return plan;
+}
+
 /// Compares the head of a journal with that of its plan.
-core::Result<void> compare_heads(const RunRecord& found, const Plan& plan, bool strict) {
+core::Result<void> compare_heads(const RunRecord& found, const Plan& asked, bool strict) {
+  const auto completed = with_found_poses(found, asked);
+  if (!completed) return refused("the run", completed.error().what);
+  const Plan& plan = *completed;
   RunRecord planned = run_head(plan, {}, found.header.seed);
   if (const auto known = add_found(found, plan, planned); !known) {
     return refused("the run", known.error().what);

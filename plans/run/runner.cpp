@@ -304,6 +304,9 @@ std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& p
   auto changes = changes_since(run, plan, options);
   // A damaged journal may hold fewer features than its plan; its later readers report that.
   for (std::size_t i = 0; i < std::min(plan.features.size(), run.features.size()); ++i) {
+    if (const auto same = check_same_poses(plan.features[i], run.features[i].settings); !same) {
+      changes.push_back(core::Error(same.error()).at(feature_pointer(i) + "/five_axis/poses"));
+    }
     if (changes.empty() && known.data[i].sha256 != run.features[i].points_sha256) {
       changes.push_back(points_changed(i, run.features[i], known.data[i].sha256));
     }

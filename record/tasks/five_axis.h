@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,9 +53,11 @@ struct FiveAxisTask {
   Sense c_sense = Sense::kAsCounted;
   Sense a_sense = Sense::kAsCounted;
   std::vector<HeadBallTask> balls;
-  std::vector<double> c_stations_deg;  ///< Empty with a file.
+  std::string poses;                   ///< File of stations and verification.
+  std::vector<double> c_stations_deg;  ///< Empty with a file of readings.
   std::vector<double> a_stations_deg;
   std::vector<HeadPoseTask> verification;
+  std::vector<std::size_t> verification_rows;  ///< Of the file of poses; not in the journal.
   int references = 3;
   double valid_for_days = 180.0;
   HeadTableTask compensation;
@@ -112,6 +115,10 @@ void describe(Visitor& v, FiveAxisTask& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "At least 3 set-ups, not on one line; better 4. The first is the origin."});
+  v.text(
+      "poses", p.poses,
+      {.meaning = "A csv in place of the stations and of verification: step (C, A, verification), "
+                  "c_deg, a_deg."});
   v.numbers("c_stations_deg", p.c_stations_deg,
             within(360.0, "Angles of C with A at 0: a full circle. With a file, those of it."));
   v.numbers("a_stations_deg", p.a_stations_deg, within(180.0, "The same of A with C at 0."));
@@ -123,8 +130,7 @@ void describe(Visitor& v, FiveAxisTask& p) {
   v.object("compensation", p.compensation, {.meaning = "The table that leaves the run."});
   v.object("uncertainty", p.uncertainty,
            {.meaning = "Declared influences; an interval needs all three."});
-  v.object("repeat", p.repeat,
-           {.meaning = "The table of an earlier feature is loaded."});
+  v.object("repeat", p.repeat, {.meaning = "The table of an earlier feature is loaded."});
 }
 
 }  // namespace rondure::record

@@ -229,6 +229,77 @@ TEST(FiveAxis, TableLoadedWithTheOtherSignIsVoidAndSaysWhatToDo) {
   }
 }
 
+/// The first feature of the example, its poses in a file of these rows.
+ordered_json plan_of_poses(const Scratch& folder, const std::string& rows) {
+  ordered_json plan = head_plan();
+  plan["features"].erase(1);
+  ordered_json& head = plan["features"][0]["five_axis"];
+  for (const char* key : {"c_stations_deg", "a_stations_deg", "verification"}) head.erase(key);
+  head["poses"] = "poses.csv";
+  write(folder / "poses.csv", "# by hand\nstep,c_deg,a_deg\n" + rows);
+  write(folder / "poses.json", plan.dump());
+  return plan;
+}
+
+/// The rows of a file with the poses of the example.
+std::string poses_of_example() {
+  const ordered_json head = head_plan()["features"][0]["five_axis"];
+  std::string out;
+  for (const auto& deg : head["c_stations_deg"]) out += fmt::format("C,{},0\n", deg.dump());
+  for (const auto& deg : head["a_stations_deg"]) out += fmt::format("A,0,{}\n", deg.dump());
+  for (const auto& pose : head["verification"]) {
+    out += fmt::format("verification,{},{}\n", pose["c_deg"].dump(), pose["a_deg"].dump());
+  }
+  return out;
+}
+
+TEST(FiveAxis, PosesOfAFileAreThoseOfThePlanAndStayThoseOfTheRun) {
+  const Scratch folder;
+  const json report = report_of(folder, plan_of_poses(folder, poses_of_example()), "poses");
+  const json before = json::parse(read(example_runs() / "19_five_axis_head/report.json"));
+  EXPECT_EQ(head_of(report).at("locations"), head_of(before).at("locations"));
+  EXPECT_EQ(head_of(report).at("left"), head_of(before).at("left"));
+  EXPECT_EQ(rondure({"verify", folder / "poses"}).status, 0);
+  write(folder / "poses.csv", read(folder / "poses.csv") + "verification,41.5,33.5\n");
+  const Outcome other =
+      rondure({"run", folder / "poses.json", "--out", folder / "poses", "--resume"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("poses.csv does not hold the poses that the run began with"));
+}
+
+TEST(FiveAxis, PosesOfAFileThatDoNotFitAreNamedByRowAndColumn) {
+  const auto refusal = [](const std::string& rows) {
+    const Scratch folder;
+    plan_of_poses(folder, rows);
+    const Outcome out = rondure({"validate", folder / "poses.json"});
+    EXPECT_EQ(out.status, 2);
+    return out.out + out.err;
+  };
+  const std::string fine = poses_of_example();
+  const auto rows = static_cast<std::size_t>(std::ranges::count(fine, '\n'));
+  const auto says = [&](const std::string& row, const std::string& words) {
+    EXPECT_THAT(refusal(fine + row), HasSubstr(words)) << row;
+  };
+  const std::string last = fmt::format("poses.csv, row {}, ", rows + 1);
+  says("C,361,0\n", last + "c_deg: 361 deg is outside");
+  says("A,0,-181\n", last + "a_deg: -181 deg is outside");
+  says("C,7,5\n", last + "a_deg: 5 deg at a station of C");
+  says("A,5,7\n", last + "c_deg: 5 deg at a station of A");
+  says("C,15,0\n", last + "c_deg: the station 15 deg of C stands in an earlier row");
+  says("verification,2,33\n", last + "c_deg, a_deg: (2, 33) deg: one axis stands near 0");
+  says("verification,15,33\n", last + "c_deg, a_deg: (15, 33) deg: an angle is a station");
+  says("verification,33,179\n", last + "c_deg, a_deg: A = 179 deg lies beyond");
+  says("both,33,20\n", "both");
+  says("C,x,0\n", "poses.csv:");
+  EXPECT_THAT(refusal("C,15,0\n"), HasSubstr("/features/0/five_axis/poses"));
+  const Scratch folder;
+  ordered_json plan = plan_of_poses(folder, fine);
+  plan["features"][0]["five_axis"]["a_stations_deg"] = {10, 20, 30};
+  write(folder / "both.json", plan.dump());
+  EXPECT_THAT(rondure({"validate", folder / "both.json"}).err,
+              HasSubstr("the file \"poses\" says where the ball is read"));
+}
+
 /// The code and the sentence of a feature without a result.
 void expect_refused(const std::function<void(std::vector<double>&)>& change, const char* code,
                     const char* words) {

@@ -39,6 +39,15 @@ void check_ball_id(const std::string& id, std::set<std::string>& seen, const std
 inline constexpr std::array<std::string_view, 4> kHeadSteps = {"reference", "C", "A",
                                                                "verification"};
 
+/// Reads the files of poses of the features of type five_axis into their stations and verification.
+/// A row that does not fit is named with its column.
+void read_head_poses(Plan& plan, Findings& findings);
+
+/// Checks that the poses of a head are those that a run began with.
+/// @param recorded  The settings of the feature in its journal.
+[[nodiscard]] core::Result<void> check_same_poses(const FeaturePlan& feature,
+                                                  const std::vector<record::Setting>& recorded);
+
 /// AnalysisKind::simulate of the type five_axis.
 [[nodiscard]] core::Result<AnalysisData> simulate_five_axis(const Plan& plan, std::size_t index,
                                                             std::uint64_t seed, bool errors);
