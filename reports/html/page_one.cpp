@@ -8,8 +8,10 @@
 
 #include "core/encodings.h"
 #include "core/numbers.h"
+#include "evaluation/part/place.h"
 #include "evaluation/results/feature_values.h"
 #include "evaluation/results/finding.h"
+#include "evaluation/results/thermal.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
@@ -205,7 +207,32 @@ std::string usual_filter(const std::vector<Callout>& callouts) {
   return most == number.end() ? std::string() : most->first;
 }
 
-std::string row(const Callout& callout, const std::string& usual, Footnotes& notes) {
+/// "U, 95 %", without the probability where it is not one for all.
+std::string expanded_head(const std::vector<Callout>& callouts) {
+  std::optional<double> coverage_1;
+  for (const Callout& one : callouts) {
+    if (one.expanded.empty()) continue;
+    const double own_1 = one.result->value->uncertainty().coverage_1();
+    if (coverage_1.value_or(own_1) != own_1) return "U";
+    coverage_1 = own_1;
+  }
+  return coverage_1 ? trf("U, {:g} %", 100.0 * *coverage_1) : "U";
+}
+
+bool is_size(const Callout& callout) {
+  return callout.result->characteristic.form == record::Form::kDiameter;
+}
+
+/// The mark of a call-out on the drawing: "28h6" of a size, a name of one word such as "K7". Other
+/// names describe what frame and symbol say, and would make lines of a long table two.
+std::string mark_on_drawing(const Callout& callout) {
+  const std::string& id = callout.result->characteristic.id;
+  const bool shown = is_size(callout) || id.find(' ') == std::string::npos;
+  return fmt::format(" <small>{}</small>", isolated(shown ? core::printable(id) : ""));
+}
+
+std::string row(const Callout& callout, const std::string& usual, const std::string& expanded,
+                Footnotes& notes) {
   const evaluation::CharacteristicResult& result = *callout.result;
   const record::Characteristic& asked = result.characteristic;
   const auto cell = [](std::string_view css_class, const std::string& name,
@@ -223,13 +250,13 @@ std::string row(const Callout& callout, const std::string& usual, Footnotes& not
       tolerance_frame(callout.feature->feature, result),
       asked.drawing_zone.empty() ? std::string()
                                  : fmt::format(" <small>{}</small>", isolated(asked.drawing_zone)));
-  html += fmt::format("<td>{}</td><td>{} <small>{}</small>{}</td>",
+  html += fmt::format("<td>{}</td><td>{} <small>{}</small>{}{}</td>",
                       isolated(callout.feature->feature.id), escaped(callout.symbol),
-                      evaluation::reference_of(asked), letters);
+                      evaluation::reference_of(asked), letters, mark_on_drawing(callout));
   html += cell("n", tr("Value"),
                callout.value.empty() ? tr("none")
                                      : fmt::format(R"(<b class="value">{}</b>)", callout.value));
-  html += cell("n", "U", callout.expanded) + cell("n", tr("Limit"), callout.limit) +
+  html += cell("n", expanded, callout.expanded) + cell("n", tr("Limit"), callout.limit) +
           cell("n", tr("Deviation"), callout.deviation) +
           cell("", tr("Share of the limit"), share_bar(callout)) +
           cell("place", tr("Worst at"), callout.place);
@@ -243,14 +270,15 @@ std::string results_table(const std::vector<Callout>& callouts) {
   const std::string usual = usual_filter(callouts);
   Footnotes notes;
   std::string rows;
-  for (const Callout& callout : callouts) rows += row(callout, usual, notes);
+  const std::string expanded = expanded_head(callouts);
+  for (const Callout& callout : callouts) rows += row(callout, usual, expanded, notes);
   std::string html =
       fmt::format(R"(<table class="results">{}<thead><tr>)", spoken_caption(tr("Result")));
   const std::vector<std::pair<std::string, bool>> names = {{tr("Call-out"), false},
                                                            {tr("Feature"), false},
                                                            {tr("Characteristic"), false},
                                                            {tr("Value"), true},
-                                                           {"U", true},
+                                                           {expanded, true},
                                                            {tr("Limit"), true},
                                                            {tr("Deviation"), true},
                                                            {tr("Share of the limit"), false},
@@ -268,8 +296,20 @@ std::string results_table(const std::vector<Callout>& callouts) {
                 "is the limit. Worst at: part z, angle from part x."));
 }
 
+/// "CYLt of journal B"; a size as the drawing has it: "30h6 of journal A".
 std::string callout_in_html(const Callout& callout) {
-  return trf("{0} of {1}", escaped(callout.symbol), isolated(callout.feature->feature.id));
+  return trf(
+      "{0} of {1}",
+      is_size(callout) ? isolated(callout.result->characteristic.id) : escaped(callout.symbol),
+      isolated(callout.feature->feature.id));
+}
+
+/// The heading of its picture: of a size too this shows form, so the words claim no more.
+std::string drawing_title(const Callout& callout) {
+  const std::string name = callout_in_html(callout);
+  if (!callout.worst_row) return name;
+  return is_size(callout) ? trf("{}: form of the section where the size is worst", name)
+                          : trf("{}: where it is worst", name);
 }
 
 /// Moves the section of a row into the zone of its own circle, where its roundness is.
@@ -298,26 +338,19 @@ std::string worst_drawing(const Callout* callout) {
   if (callout == nullptr) return {};
   const evaluation::FeatureResult& feature = *callout->feature;
   const DrawnFeature drawn = drawn_of(feature, callout->worst_row);
-  const std::string title =
-      fmt::format("<h3>{}</h3>", callout->worst_row
-                                     ? trf("{} of {}: where it is worst", escaped(callout->symbol),
-                                           isolated(feature.feature.id))
-                                     : callout_in_html(*callout));
+  const std::string title = fmt::format("<h3>{}</h3>", drawing_title(*callout));
   if (feature.mz_plane) return title + face_map(drawn.feature);
   if (const std::string lines = line_plots(*callout->result); !lines.empty())
     return fmt::format(R"({}<div class="views">{}</div>)", title, lines);
   const std::string map = deviation_map(drawn.feature, *drawn.zone, drawn.places);
   if (!zone_of(feature)) return title + map;
-  std::vector<std::string> words;
-  if (const auto& finding = callout->result->finding)
-    words = {in_words(finding->filter).value_or(finding->filter.english())};
   evaluation::FeatureResult section = drawn.feature;
   evaluation::Zone zone = *drawn.zone;
   if (callout->result->characteristic.form == record::Form::kRoundness) {
     zone.deviation_mm = into_own_circle(drawn.places.worst, section).value_or(zone.deviation_mm);
   }
   return fmt::format(R"({}<div class="worst-one">{}<div>{}</div></div>)", title,
-                     worst_section(section, zone, feature, drawn.places, words),
+                     worst_section(section, zone, feature, drawn.places),
                      map.substr(map.find("<figure")));  // one heading is enough
 }
 
@@ -358,6 +391,23 @@ std::string measured_in_words(const record::RunRecord& record,
   return html.empty() ? tr("nothing") : html;
 }
 
+/// "journal A 13.0 … 27.0 mm; journal B ...": the heights that touches reached, in part z.
+std::string seen_heights(const evaluation::Evaluation& evaluation) {
+  std::string html;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    const record::Shape shape = feature.feature.shape;
+    if (shape != record::Shape::kCylinder && shape != record::Shape::kCone) continue;
+    if (feature.cloud.empty() || is_of_file(feature.feature)) continue;
+    const auto places = evaluation::places_on_part(feature);
+    if (places.empty() || !places.front().z_mm) continue;
+    const auto [low, high] =
+        std::ranges::minmax_element(places, {}, &evaluation::PlaceOnPart::z_mm);
+    html += fmt::format("{}{} {} … {} mm", html.empty() ? "" : tr(", "),
+                        isolated(feature.feature.id), fixed(*low->z_mm, 1), fixed(*high->z_mm, 1));
+  }
+  return html;
+}
+
 std::string not_seen_in_words(const evaluation::Evaluation& evaluation) {
   const auto axes = [](const evaluation::FeatureResult& feature) {
     return feature.feature.shape == record::Shape::kRotaryAxes ||
@@ -369,6 +419,8 @@ std::string not_seen_in_words(const evaluation::Evaluation& evaluation) {
   if (of_axes > 0) {
     html += (html.empty() ? "" : tr("; ")) + tr("the errors of the axes between the stations");
   }
+  if (const std::string seen = seen_heights(evaluation); !seen.empty())
+    html += tr("; ") + trf("all outside these part z: {}", seen);
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     const auto left_out =
         std::ranges::count(feature.cloud, true, &evaluation::CloudPoint::left_out);
@@ -407,8 +459,9 @@ std::string field(const std::string& name, const std::string& html) {
   return entry(name, html, html.empty() ? "fill" : "");
 }
 
-/// "20.1 … 20.4 °C".
-std::string temperature_in_words(const evaluation::Evaluation& evaluation) {
+/// "20.1 … 20.4 °C", and whether it is what the sensor or what the plan says.
+std::string temperature_in_words(const record::RunRecord& record,
+                                 const evaluation::Evaluation& evaluation) {
   std::optional<evaluation::Temperatures> all;
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     if (!feature.temperatures) continue;
@@ -420,8 +473,11 @@ std::string temperature_in_words(const evaluation::Evaluation& evaluation) {
   if (!all) return {};
   const std::string low = fixed(all->least_degC, 1);
   const std::string high = fixed(all->greatest_degC, 1);
-  return (low == high ? low : fmt::format("{} … {}", low, high)) + " °C" +
-         (all->declared ? ", " + tr("declared, not measured") : std::string());
+  const std::string said = (low == high ? low : fmt::format("{} … {}", low, high)) + " °C";
+  if (all->declared) return said + ", " + tr("declared, not measured");
+  const auto assumed_degC = evaluation::assumed_degC(record);
+  if (!assumed_degC || fixed(*assumed_degC, 1) == said.substr(0, said.find(' '))) return said;
+  return trf("{} measured; {:g} °C of the plan not used", said, *assumed_degC);
 }
 
 std::string probe_in_words(const record::RunRecord& record,
@@ -493,7 +549,8 @@ std::string head_section(const record::RunRecord& record, const std::string& kin
                            : ""),
       field(tr("Operator"), text(header.operator_name)) +
           field(of_files ? tr("Evaluated") : tr("Time"), text(started)) +
-          field(tr("Temperature"), evaluation != nullptr ? temperature_in_words(*evaluation) : ""));
+          field(tr("Temperature"),
+                evaluation != nullptr ? temperature_in_words(record, *evaluation) : ""));
   return html + "</header>";
 }
 

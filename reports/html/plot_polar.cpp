@@ -231,8 +231,7 @@ std::string polar_plots(const evaluation::FeatureResult& feature, const evaluati
 }
 
 std::string worst_section(const evaluation::FeatureResult& feature, const evaluation::Zone& zone,
-                          const evaluation::FeatureResult& all, const Drawn& drawn,
-                          const std::vector<std::string>& words) {
+                          const evaluation::FeatureResult& all, const Drawn& drawn) {
   const std::vector<evaluation::Section> sections = sections_of(feature);
   if (sections.empty()) return {};
   const auto holds = [&](const evaluation::Section& section) {
@@ -248,10 +247,9 @@ std::string worst_section(const evaluation::FeatureResult& feature, const evalua
   if (lines.front().empty())
     lines.front() = section.projected ? tr("All points") : title_of(section);
   lines.push_back(count(section.rows.size(), "point", "points"));
-  lines.insert(lines.end(), words.begin(), words.end());
   lines.push_back(roundness_of(feature, section));
   if (lines.back().starts_with("RONt"))
-    lines.push_back(tr("as read"));  // the value may be an estimate
+    lines.push_back(tr("as read, unfiltered"));  // the value may be an estimate
   std::erase(lines, "");
   constexpr double kLine = 16.0;
   double y = kSectionCentre + 4.0 - 0.5 * kLine * static_cast<double>(lines.size() - 1);

@@ -44,11 +44,9 @@ struct DrawnFeature {
                                       const evaluation::FeatureResult* all = nullptr,
                                       const Drawn& drawn = {});
 /// The section of the worst row, else the first, with words in its middle.
-/// @param words  What stands below the place, a line each.
 [[nodiscard]] std::string worst_section(const evaluation::FeatureResult& feature,
                                         const evaluation::Zone& zone,
-                                        const evaluation::FeatureResult& all, const Drawn& drawn,
-                                        const std::vector<std::string>& words);
+                                        const evaluation::FeatureResult& all, const Drawn& drawn);
 /// The unrolled lateral surface; for a single section its profile.
 [[nodiscard]] std::string deviation_map(const evaluation::FeatureResult& feature,
                                         const evaluation::Zone& zone, const Drawn& drawn = {});

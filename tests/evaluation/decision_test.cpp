@@ -273,7 +273,8 @@ TEST(DecisionRule, IsInChineseWithItsNumbers) {
   const LanguageScope chinese(Language::kChinese);
   EXPECT_EQ(in_words(rule),
             "ISO 14253-1 (GB/T 18779.1)：y + f (hi - y) <= T 时合格，y - f (y - lo) > T "
-            "时不合格，否则待定；f = 0.5；测得值超出 T 时不判为合格；先验分布：伽马分布，均值 6 "
+            "时不合格，否则待定；f = 0.5；y：值，lo 至 "
+            "hi：其区间，T：极限值；测得值超出极限时不判为合格；先验分布：伽马分布，均值 6 "
             "um，标准差 2 um");
   for (const Kind kind : kAllRules) {
     const std::string words = in_words(rule_named(kind));
@@ -294,7 +295,7 @@ TEST(DecisionRule, AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAr
     ASSERT_TRUE(by_default);
     EXPECT_EQ(by_default->verdict, evaluation::Verdict::kUndecided);
     EXPECT_THAT(by_default->sentence, HasSubstr("read above the limit"));
-    EXPECT_THAT(in_words(rule), HasSubstr("a value as read above T never conforms"));
+    EXPECT_THAT(in_words(rule), HasSubstr("a value read beyond the limit never conforms"));
     rule.judge_corrected = true;
     const auto agreed = apply_rule(rule, value, kTolerance);
     ASSERT_TRUE(agreed);

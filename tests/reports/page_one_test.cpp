@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,57 @@ TEST(PageOne, CallOutsThatConformAreFoldedUnlessAllIsOpen) {
   EXPECT_THAT(all, AllOf(HasSubstr("<details class=\"fold\" open=\"open\">"),
                          Not(HasSubstr("<details class=\"fold\">"))));
   EXPECT_EQ(testing::first_unbalanced_tag(all), "");
+}
+
+TEST(PageOne, SaysTheProbabilityOfUAndTheNameOnTheDrawing) {
+  Case made = cylinder_case(4, 7, 1);
+  auto& result = made.evaluation.features[0].characteristics[0];
+  EXPECT_THAT(page_of(made), HasSubstr(">U</th>"));
+  result.value.emplace(with_interval(*result.value, 0.00032));
+  result.characteristic.id = "28h6";
+  const std::string page = page_of(made);
+  EXPECT_THAT(page, AllOf(HasSubstr(">U, 95 %</th>"), HasSubstr("<small><bdi>28h6</bdi></small>")));
+  result.characteristic.id = "CYLt 10";  // what frame and symbol say already
+  EXPECT_THAT(page_of(made), Not(HasSubstr("<small><bdi>CYLt 10")));
+}
+
+TEST(PageOne, SaysWhichTemperatureCounted) {
+  Case made = cylinder_case(4, 7, 1);
+  made.evaluation.features[0].temperatures = Temperatures{20.3, 20.3, 20.3, false};
+  EXPECT_THAT(page_of(made), HasSubstr("<dt>Temperature</dt><dd>20.3 °C</dd>"));
+  made.record.settings.push_back({"environment/assumed_degC", 20.5, ""});
+  EXPECT_THAT(page_of(made), HasSubstr("20.3 °C measured; 20.5 °C of the plan not used"));
+  made.evaluation.features[0].temperatures->declared = true;
+  EXPECT_THAT(page_of(made), HasSubstr("20.3 °C, declared, not measured"));
+}
+
+// Layers stand 16 mm apart from part z 12 mm on: nobody looked below 12 and above 60 mm.
+TEST(PageOne, NamesTheHeightsBeyondWhichNothingWasSeen) {
+  Case made = cylinder_case(4, 7, 1);
+  FeatureResult& feature = made.evaluation.features[0];
+  feature.poses.clear();
+  EXPECT_THAT(page_of(made), Not(HasSubstr("outside these part z")));
+  feature.feature.settings.push_back({"first_layer_mm", 12.0, ""});
+  EXPECT_THAT(page_of(made), HasSubstr("all outside these part z: <bdi>" + feature.feature.id +
+                                       "</bdi> 12.0 … 60.0 mm"));
+}
+
+TEST(PageOne, ThePictureOfASizeOrAFilteredValueClaimsNoMoreThanItShows) {
+  Case made = cylinder_case(4, 7, 1);
+  auto& result = made.evaluation.features[0].characteristics[0];
+  EXPECT_THAT(page_of(made),
+              AllOf(HasSubstr(": where it is worst</h3>"), HasSubstr("as read, unfiltered")));
+  Finding finding;
+  finding.filter = core::phrase("gaussian {} UPR", "50");
+  finding.rows = {0};
+  finding.judged = {{"CYLt", result.value->value_mm(), {}}};
+  result.finding = std::make_shared<const Finding>(finding);
+  EXPECT_THAT(page_of(made), Not(HasSubstr(">gaussian 50 UPR</text>")));
+  result.characteristic.form = record::Form::kDiameter;
+  result.characteristic.id = "28h6";
+  EXPECT_THAT(page_of(made),
+              AllOf(HasSubstr(": form of the section where the size is worst</h3>"),
+                    HasSubstr("<bdi>28h6</bdi> of "), Not(HasSubstr(": where it is worst</h3>"))));
 }
 
 }  // namespace

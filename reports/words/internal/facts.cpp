@@ -43,11 +43,16 @@ namespace {
 std::string formula(const evaluation::DecisionRule& rule) {
   switch (rule.kind) {
     case evaluation::DecisionRule::Kind::kSimpleAcceptance:
-      return tr("simple acceptance: conforms where the measured value <= T; no guard band");
+      return tr("simple acceptance: conforms where the measured value <= the limit; no guard band");
     case evaluation::DecisionRule::Kind::kIso14253:
+      if (rule.guard_factor == 1.0) {
+        return tr(
+            "ISO 14253-1: conforms where the whole interval of the value is within the limit, "
+            "does not conform where all of it is beyond, otherwise undecided");
+      }
       return trf(
           "ISO 14253-1: conforms where y + f (hi - y) <= T, does not conform where y - f (y - lo) "
-          "> T, otherwise undecided; f = {:g}",
+          "> T, otherwise undecided; f = {:g}; y: the value, lo to hi: its interval, T: the limit",
           rule.guard_factor);
     case evaluation::DecisionRule::Kind::kJcgm106:
       return trf(
@@ -57,12 +62,14 @@ std::string formula(const evaluation::DecisionRule& rule) {
     case evaluation::DecisionRule::Kind::kNToOne:
       return trf(
           "{0:g}:1 simple acceptance (ASME B89.7.3.1): where T >= {0:g} (hi - lo), conforms where "
-          "y <= T, otherwise does not conform; void where the ratio is not met",
+          "y <= T, otherwise does not conform; void where the ratio is not met; y: the value, lo "
+          "to hi: its interval, T: the limit",
           rule.ratio);
     case evaluation::DecisionRule::Kind::kGuardBand:
       return trf(
           "guard bands (ASME B89.7.3.1): conforms where y <= T - a U, does not conform where y > T "
-          "+ r U, otherwise undecided; a = {:g} %, r = {:g} %",
+          "+ r U, otherwise undecided; a = {:g} %, r = {:g} %; y: the value, U: half its interval, "
+          "T: the limit",
           100.0 * rule.acceptance_guard_1, 100.0 * rule.rejection_guard_1);
   }
   return {};
@@ -262,7 +269,7 @@ std::string in_words(const evaluation::DecisionRule& rule) {
   std::string out = formula(rule);
   if (rule.needs_interval()) {
     out = rule.judge_corrected ? trf("{}; corrected values are judged, whatever was read", out)
-                               : trf("{}; a value as read above T never conforms", out);
+                               : trf("{}; a value read beyond the limit never conforms", out);
   }
   if (!rule.prior) return out;
   return trf("{}; prior: {} with mean {:g} um and standard deviation {:g} um", out,
