@@ -52,6 +52,7 @@ constexpr std::array kRunResumed = {text("resumed_utc"), count("touches"), count
 constexpr std::array kPartLocatedAgain = {count("touches"), words("reason")};
 constexpr std::array kClampingChanged = {count("touches"), text("clamped"), words("answered_utc")};
 constexpr std::array kCalibrationTaken = {text("calibration"), words("void_because")};
+constexpr std::array kCorrectionLoaded = {words("answered_utc"), words("sha256")};
 
 /// The only list of codes, with their names and arguments.
 struct Entry {
@@ -76,6 +77,7 @@ constexpr std::array kMessages = {
     Entry{MessageCode::kPartLocatedAgain, "part-located-again", kPartLocatedAgain},
     Entry{MessageCode::kClampingChanged, "clamping-changed", kClampingChanged},
     Entry{MessageCode::kCalibrationTaken, "calibration-taken", kCalibrationTaken},
+    Entry{MessageCode::kCorrectionLoaded, "correction-loaded", kCorrectionLoaded},
 };
 
 constexpr bool stand_in_order() {

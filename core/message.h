@@ -29,9 +29,10 @@ enum class MessageCode {
   kPartLocatedAgain,       ///< part-located-again: the part had moved while the run was interrupted
   kClampingChanged,        ///< clamping-changed: balls and part were exchanged in the fixture
   kCalibrationTaken,       ///< calibration-taken: what later features take of the fixture's errors
+  kCorrectionLoaded,       ///< correction-loaded: what follows was measured with it in the control
 };
 /// The last code of the list.
-inline constexpr MessageCode kLastMessageCode = MessageCode::kCalibrationTaken;
+inline constexpr MessageCode kLastMessageCode = MessageCode::kCorrectionLoaded;
 
 /// Declares one argument of a code.
 struct ArgumentKind {

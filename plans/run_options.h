@@ -69,9 +69,10 @@ struct RunOptions {
   /// Evaluates a feature that calibrates the fixture, from what the run has recorded so far. Needed
   /// by a plan with `fixture.calibration.feature`.
   std::function<FoundCalibration(const record::RunRecord&, int feature)> calibrate;
-  /// Asks a person in front of a real cell to clamp something else, and returns the time of the
-  /// answer (UTC). An error (kStopped) ends the run, which can be resumed there.
-  std::function<core::Result<std::string>(const std::string& what)> change_clamping;
+  /// Asks a person for a step between two features, to clamp something else in a real cell or to
+  /// load a correction into a control, and returns the time of the answer (UTC). An error
+  /// (kStopped) ends the run, which can be resumed there.
+  std::function<core::Result<std::string>(const std::string& what)> ask_a_person;
   bool relocate = false;     ///< When resuming: a part that has moved is located again.
   bool single_step = false;  ///< Limits travel to the plan's step_speed_mm_s.
 };

@@ -38,7 +38,7 @@ void GrowingRecord::add(const PoseVisit& pose) {
 
 void GrowingRecord::add(const Decision& decision) {
   const std::lock_guard lock(mutex_);
-  record_.decisions.push_back(decision);
+  take(decision, record_);
 }
 
 void GrowingRecord::mark_final(int pose_id) {

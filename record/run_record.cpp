@@ -35,6 +35,14 @@ const Series* find_series(const std::vector<Series>& all, int feature, std::stri
 
 }  // namespace
 
+void take(Decision decision, RunRecord& record) {
+  if (decision.message.code == core::MessageCode::kCorrectionLoaded && decision.feature >= 0) {
+    record.features[static_cast<std::size_t>(decision.feature)].points_sha256 =
+        decision.message.text(1);
+  }
+  record.decisions.push_back(std::move(decision));
+}
+
 const Series* RunRecord::data_of(int feature, std::string_view name) const {
   return find_series(series, feature, name, Series::Role::kData);
 }

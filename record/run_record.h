@@ -240,6 +240,12 @@ struct Decision {
   core::Message message;
 };
 
+struct RunRecord;
+/// Adds a decision to a record; the digest of files that were read after an answer goes to their
+/// feature, as that of others stands there from the start.
+/// @pre  Its feature is one of the record, or -1.
+void take(Decision decision, RunRecord& record);
+
 /// One column of a series: its name in the file, which carries the unit ("H1_um"), and that unit.
 struct SeriesColumn {
   std::string name;

@@ -64,7 +64,7 @@ core::Result<void> ask_to_do(const std::string& what) {
   return core::fail_with(core::Code::kStopped, "stopped by the operator before: {}", what);
 }
 
-core::Result<std::string> ask_to_change_clamping(const std::string& what) {
+core::Result<std::string> ask_a_person(const std::string& what) {
   if (auto terminal = StepPrompt::check_terminal(""); !terminal) {
     return core::fail_with(core::Code::kStopped,
                            "stopped, standard input is no terminal and nobody can answer; resume "

@@ -29,9 +29,9 @@ class StepPrompt {
 /// @return kStopped when the user refuses.
 [[nodiscard]] core::Result<void> ask_to_do(const std::string& what);
 
-/// ask_to_do() for a change of what the fixture holds. Returns the time of the answer (UTC);
+/// ask_to_do() for a step between two features. Returns the time of the answer (UTC);
 /// kStopped, too, where standard input is no terminal.
-[[nodiscard]] core::Result<std::string> ask_to_change_clamping(const std::string& what);
+[[nodiscard]] core::Result<std::string> ask_a_person(const std::string& what);
 
 /// ask_to_do() for a pose of a fixture that is set by hand.
 [[nodiscard]] core::Result<void> ask_to_set(const core::Pose& pose);

@@ -157,7 +157,7 @@ plans::RunOptions options_of(const RunArguments& arguments) {
     return plans::FoundCalibration{found.text,
                                    found.void_because ? found.void_because->english() : ""};
   };
-  options.change_clamping = ask_to_change_clamping;
+  options.ask_a_person = ask_a_person;
   return options;
 }
 

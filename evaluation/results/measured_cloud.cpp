@@ -257,8 +257,13 @@ bool is_final(const record::RunRecord& record, const record::PoseVisit& visit) {
 bool is_complete(const record::RunRecord& record, std::size_t feature) {
   const auto index = static_cast<int>(feature);
   const auto later = [&](const auto& data) { return data.feature > index; };
+  // The data of an analysis come in one piece.
+  const auto whole = [&](const record::Series& series) {
+    return series.feature == index && series.role == record::Series::Role::kData;
+  };
   return record.ending == "finished" || taken_calibration(record, index) != nullptr ||
-         std::ranges::any_of(record.poses, later) || std::ranges::any_of(record.series, later);
+         std::ranges::any_of(record.poses, later) || std::ranges::any_of(record.series, later) ||
+         std::ranges::any_of(record.series, whole);
 }
 
 std::optional<PoseValue> value_of_pose(const record::RunRecord& record,

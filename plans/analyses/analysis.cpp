@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,6 +28,11 @@ core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
   AnalysisData out;
   std::string digests;
   for (const SeriesFile& file : kind.files(plan.features[index])) {
+    std::error_code unknown;
+    if (follows_loading(plan.features[index]) &&
+        !std::filesystem::exists(plan.folder / file.file, unknown)) {
+      return AnalysisData{};
+    }
     const auto bytes = read_data_file(plan.folder / file.file, file.file);
     if (!bytes) return core::fail(bytes.error().at(feature_pointer(index) + file.where));
     TRY(auto series, file.read
@@ -146,6 +152,11 @@ double sum_of(std::span<const HarmonicPlan> harmonics, double angle_rad) {
 bool has_files(const FeaturePlan& feature) {
   const AnalysisKind* const kind = analysis_kind(feature.type);
   return kind != nullptr && !kind->files(feature).empty();
+}
+
+bool follows_loading(const FeaturePlan& feature) {
+  return (feature.five_axis && feature.five_axis->repeat && feature.source) ||
+         (feature.contour && feature.contour->repeat && !feature.contour->parts.empty());
 }
 
 bool measures_by_touch(const FeaturePlan& feature) {

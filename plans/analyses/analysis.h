@@ -75,6 +75,11 @@ template <auto section>
 /// Whether the data of an analysis come from files, by its source or its own section.
 [[nodiscard]] bool has_files(const FeaturePlan& feature);
 
+/// Whether the files of a feature are measured with the correction of an earlier one in the
+/// control: a run asks whether it is loaded, and reads them after the answer. Until then they may
+/// be missing.
+[[nodiscard]] bool follows_loading(const FeaturePlan& feature);
+
 /// The kind of a feature's type, or nullptr for a touched surface.
 [[nodiscard]] const AnalysisKind* analysis_kind(record::Shape shape);
 
@@ -82,7 +87,8 @@ template <auto section>
 [[nodiscard]] bool measures_by_touch(const FeaturePlan& feature);
 
 /// The data of feature `index`, an analysis of series: from its files, or simulated.
-/// @return  The data; errors of files and tables name their place.
+/// @return  The data, none where a file is missing that follows_loading(); errors of files and
+/// tables name their place.
 [[nodiscard]] core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index,
                                                        std::uint64_t seed);
 

@@ -348,10 +348,10 @@ core::Result<void> RunContext::change_clamping(int feature, const std::string& c
     return replaying() ? core::Result<void>{} : come_back_to_change(known->time_s);
   }
   if (!cell->is_simulated()) {
-    if (!options.change_clamping) {
+    if (!options.ask_a_person) {
       return core::fail_with(core::Code::kStopped, "stopped, there is nobody to ask: {}", what);
     }
-    TRY(changed.message.arguments.back(), options.change_clamping(what));
+    TRY(changed.message.arguments.back(), options.ask_a_person(what));
   }
   return journal.add(changed);
 }

@@ -75,7 +75,7 @@ core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) 
 core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t seed) {
   std::vector<FeatureData> out(plan.features.size());
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (needs_machine(plan.features[i])) continue;
+    if (needs_machine(plan.features[i]) || follows_loading(plan.features[i])) continue;
     if (analysis_kind(plan.features[i].type) != nullptr) {
       TRY(auto data, analysis_data(plan, i, seed));
       out[i].sha256 = data.sha256;
@@ -109,6 +109,53 @@ core::Result<void> take_points(RunContext& context, int index, const record::Poi
   }
   if (known) return {};  // one transaction: all are there or none
   return context.journal.add(rows);
+}
+
+/// The sentence that has a correction loaded before feature `index` is measured.
+std::string loading_in_words(const Plan& plan, std::size_t index) {
+  const FeaturePlan& feature = plan.features[index];
+  std::string files;
+  for (const SeriesFile& file : analysis_kind(feature.type)->files(feature)) {
+    files += (files.empty() ? "" : ", ") + file.file;
+  }
+  return fmt::format(
+      "load the correction that feature {} gave into the control, measure feature {} and save {} "
+      "beside the plan; a run that is stopped here writes the correction, and --resume asks again",
+      in_quotes(feature.five_axis ? feature.five_axis->repeat->with.feature
+                                  : feature.contour->repeat->with.feature),
+      in_quotes(feature.id), files);
+}
+
+/// Asks for the correction to be loaded, reads the files that were measured with it, and journals
+/// the answer with their digest.
+core::Result<AnalysisData> data_after_loading(RunContext& context, std::size_t index) {
+  const FeaturePlan& feature = context.plan.features[index];
+  record::Decision answer{
+      static_cast<int>(index), 0.0, {core::MessageCode::kCorrectionLoaded, {"", ""}}};
+  const record::Decision* known = context.recorded.next_decision();
+  if (known != nullptr) {
+    TRY_DO(check_same_step(*known, answer));
+  } else {
+    const std::string what = loading_in_words(context.plan, index);
+    if (!context.options.ask_a_person) {
+      return core::fail_with(core::Code::kStopped, "stopped, there is nobody to ask: {}", what);
+    }
+    TRY(answer.message.arguments.front(), context.options.ask_a_person(what));
+  }
+  auto data = analysis_data(context.plan, index, 0);
+  if (!data || data->series.empty()) {
+    // Whoever measured it can save the file anew, and the run goes on.
+    return core::fail(
+        core::Code::kFile,
+        fmt::format("feature {}: {}; put its files right and resume the run", in_quotes(feature.id),
+                    data ? "a file is missing" : data.error().what),
+        data ? feature_pointer(index) : data.error().where);
+  }
+  answer.message.arguments.back() = data->sha256;
+  if (known == nullptr) {
+    TRY_DO(context.journal.add(answer));
+  }
+  return data;
 }
 
 /// Writes the series of an analysis into the journal: all of them or none.
@@ -156,6 +203,11 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
   for (std::size_t i = 0; i < context.plan.features.size(); ++i) {
     const FeaturePlan& feature = context.plan.features[i];
     const auto index = static_cast<int>(i);
+    if (follows_loading(feature)) {
+      TRY(const auto read, data_after_loading(context, i));
+      TRY_DO(take_series(context, index, read));
+      continue;
+    }
     if (!needs_machine(feature)) {
       auto taken = analysis_kind(feature.type) != nullptr
                        ? take_series(context, index, data[i].series)
@@ -307,8 +359,14 @@ std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& p
     if (const auto same = check_same_poses(plan.features[i], run.features[i].settings); !same) {
       changes.push_back(core::Error(same.error()).at(feature_pointer(i) + "/five_axis/poses"));
     }
-    if (changes.empty() && known.data[i].sha256 != run.features[i].points_sha256) {
-      changes.push_back(points_changed(i, run.features[i], known.data[i].sha256));
+    std::string now = known.data[i].sha256;
+    if (follows_loading(plan.features[i])) {
+      if (run.features[i].points_sha256.empty()) continue;  // they may still be measured
+      const auto read = analysis_data(plan, i, 0);
+      if (read) now = read->sha256;
+    }
+    if (changes.empty() && now != run.features[i].points_sha256) {
+      changes.push_back(points_changed(i, run.features[i], now));
     }
   }
   const auto fixture = record::task_of<record::FixtureSettings>(run.settings, "fixture/");

@@ -13,6 +13,7 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/correction/corrections.h"
 #include "evaluation/handed_calibration.h"
+#include "evaluation/results/measured_cloud.h"
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/data/analyses.h"
@@ -325,7 +326,9 @@ Corrections write_corrections(const record::RunRecord& record,
   }
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     const FeatureResult& result = evaluation.features[i];
-    Handed handed = tables_of(record, static_cast<int>(i), result);
+    Handed handed = evaluation::is_complete(record, i)
+                        ? tables_of(record, static_cast<int>(i), result)
+                        : none_because(core::phrase("the run did not finish"));
     for (const CorrectionTable& table : handed.tables) {
       if (taken.insert(table.file).second) continue;
       // A control would take the table of another feature. `validate` refuses such names.
@@ -335,7 +338,7 @@ Corrections write_corrections(const record::RunRecord& record,
     out.summary += fmt::format("{}: {}\n", printable(result.feature.id), handed.line);
     FeatureCorrections named;
     named.none_because = std::move(handed.none);
-    if (&result == calibration) {
+    if (&result == calibration && record.ending == "finished") {
       named.files.push_back({"fixture-calibration", kCalibrationFile, record::Format::kJson});
     }
     for (CorrectionTable& table : handed.tables) {

@@ -7,6 +7,7 @@
 
 #include "evaluation/handed_calibration.h"
 #include "evaluation/part/find.h"
+#include "evaluation/results/measured_cloud.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
@@ -110,6 +111,21 @@ std::vector<std::string> all_formats() {
   return out;
 }
 
+namespace {
+
+/// A stopped run hands out what its complete analyses give: the next feature may need it.
+bool has_corrections(const record::RunRecord& record) {
+  if (record.ending == "finished") return true;
+  for (std::size_t i = 0; i < record.features.size(); ++i) {
+    if (record::is_analysis(record.features[i].shape) && evaluation::is_complete(record, i)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 bool applies(const Export& what, const record::RunRecord& record) {
   if (what.file == kSeriesFile) {
     return std::any_of(record.series.begin(), record.series.end(), [](const auto& series) {
@@ -124,7 +140,7 @@ bool applies(const Export& what, const record::RunRecord& record) {
       });
     });
   }
-  if (what.format == Format::kCorrections) return record.ending == "finished";
+  if (what.format == Format::kCorrections) return has_corrections(record);
   if (what.file != kCalibrationFile) return true;
   return record.ending == "finished" &&
          std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
@@ -134,7 +150,7 @@ bool applies(const Export& what, const record::RunRecord& record) {
 
 Corrections corrections_of(const record::RunRecord& record,
                            const evaluation::Evaluation& evaluation) {
-  return record.ending == "finished" ? write_corrections(record, evaluation) : Corrections();
+  return has_corrections(record) ? write_corrections(record, evaluation) : Corrections();
 }
 
 std::string render(const Export& what, const record::RunRecord& record,

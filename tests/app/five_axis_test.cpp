@@ -19,7 +19,9 @@
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "record/sha256.h"
 #include "tests/app/files.h"
+#include "tests/app/on_terminal.h"
 #include "tests/app/program.h"
 #include "tests/core/full.h"
 
@@ -197,6 +199,45 @@ TEST(FiveAxis, TableOfAReversedCircleIsThatOfTheWholeCircleOfTheControl) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].first, std::to_string(5 * i));
 }
 
+/// Runs plan.json, whose second feature is measured with the table loaded: without anybody to ask,
+/// then resumed by somebody who forgets the file, then by one who has measured it.
+json report_after_loading(const Scratch& folder) {
+  const std::vector<std::string> run = {"run", folder / "plan.json", "--out", folder / "run"};
+  const Outcome stopped = rondure(run);
+  EXPECT_EQ(stopped.status, 3) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("nobody can answer; resume the run from one: load the "
+                                     "correction that feature \"head\" gave into the control, "
+                                     "measure feature \"loaded\" and save loaded.csv"));
+  EXPECT_THAT(read(folder / "run/corrections/head-head-table.csv"), HasSubstr("\nc,"))
+      << "what is to be loaded";
+  EXPECT_EQ(journal_of(folder / "run").data_of(1, "data"), nullptr);
+  std::vector<std::string> resumed = run;
+  resumed.emplace_back("--resume");
+  {
+    OnTerminal early(resumed);
+    EXPECT_TRUE(early.wait_for("save loaded.csv")) << early.shown();
+    early.type("\n");
+    EXPECT_EQ(early.finish(), 3);
+    EXPECT_THAT(early.shown(), HasSubstr("a file is missing"));
+  }
+  std::filesystem::rename(folder / "measured.csv", folder / "loaded.csv");
+  OnTerminal there(resumed);
+  EXPECT_TRUE(there.wait_for("save loaded.csv")) << there.shown();
+  there.type("\n");
+  EXPECT_NE(there.finish(), 3) << there.shown();
+  const auto record = journal_of(folder / "run");
+  EXPECT_EQ(record.decisions.size(), 1U);
+  const core::Message& answer = record.decisions.back().message;
+  EXPECT_EQ(answer.code, core::MessageCode::kCorrectionLoaded);
+  EXPECT_THAT(answer.text(0), ::testing::EndsWith("Z"));
+  EXPECT_EQ(record.features.at(1).points_sha256, answer.text(1));
+  EXPECT_EQ(answer.text(1), record::sha256_hex(read(folder / "loaded.csv")));
+  EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
+  write(folder / "loaded.csv", read(folder / "loaded.csv") + "# later\n");
+  EXPECT_THAT(rondure(resumed).err, HasSubstr("the points of loaded.csv changed"));
+  return json::parse(read(folder / "run/report.json"));
+}
+
 // A control that expects the other sign doubles the errors.
 TEST(FiveAxis, TableLoadedWithTheOtherSignIsVoidAndSaysWhatToDo) {
   const auto record = journal_of(example_runs() / "19_five_axis_head");
@@ -206,14 +247,15 @@ TEST(FiveAxis, TableLoadedWithTheOtherSignIsVoidAndSaysWhatToDo) {
     ordered_json plan = plan_of_file(folder, record, [times](std::vector<double>& row) {
       for (std::size_t k = 4; k < 7; ++k) row[k] *= times;
     });
-    std::filesystem::rename(folder / "nest.csv", folder / "loaded.csv");
+    std::filesystem::rename(folder / "nest.csv", folder / "measured.csv");
     ordered_json loaded = plan["features"][0];
     plan = plan_of_file(folder, record);
     loaded["id"] = "loaded";
     loaded["source"]["file"] = "loaded.csv";
     loaded["five_axis"]["repeat"]["with"]["feature"] = plan["features"][0]["id"];
     plan["features"].push_back(loaded);
-    const json report = report_of(folder, plan, "repeat");
+    write(folder / "plan.json", plan.dump());
+    const json report = report_after_loading(folder);
     const json& gates = report.at("features").at(1).at("gates");
     const auto gate =
         std::ranges::find_if(gates, [](const json& one) { return one.at("code") == "sense"; });

@@ -240,7 +240,7 @@ void read_decisions(soci::session& sql, RunRecord& record) {
                                       quoted_text(code), quoted_text(arguments)));
     }
     row.message = *std::move(message);
-    record.decisions.push_back(row);
+    take(row, record);
   }
 }
 

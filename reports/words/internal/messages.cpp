@@ -103,6 +103,8 @@ std::optional<std::string> in_words(const Message& m) {
                                         *reason))
                     : std::nullopt;
     }
+    case MessageCode::kCorrectionLoaded:
+      return trf("the correction is loaded into the control, confirmed on {}", m.text(0));
   }
   return std::nullopt;
 }
