@@ -20,7 +20,8 @@ constexpr double kLongest_mm = 300.0;
 constexpr double kLengthStep_mm = 5.0;
 
 bool reaches_all(const Plan& plan, const FeaturePlan& feature, const core::Pose& pose) {
-  return unreachable_targets(plan, feature, pose).empty();
+  constexpr std::size_t kNoDetours = 0;  // hundreds of poses are tried
+  return unreachable_targets(plan, feature, pose, kNoDetours).empty();
 }
 
 /// The pose closest to the start on a grid of 15 deg that reaches all targets.
@@ -78,7 +79,7 @@ std::optional<double> larger_margin(const Plan& plan, const FeaturePlan& feature
 }  // namespace
 
 std::vector<Unreachable> unreachable_targets(const Plan& plan, const FeaturePlan& feature,
-                                             const core::Pose& pose) {
+                                             const core::Pose& pose, std::size_t detour_moves) {
   const auto targets = sampling_targets(feature);
   if (!targets) return {};
   const PathGeometry geometry = path_geometry(plan, feature, plan.part.location_uncertainty_mm);
@@ -87,7 +88,8 @@ std::vector<Unreachable> unreachable_targets(const Plan& plan, const FeaturePlan
   const Scene scene(plan, feature);
   std::vector<std::size_t> own(targets->size());
   std::iota(own.begin(), own.end(), std::size_t{0});
-  return CloudPath(scene, {X_WN, X_WN}, geometry, plan.machine->park_mm[2], *targets, own)
+  return CloudPath(scene, {X_WN, X_WN}, geometry, plan.machine->park_mm[2], *targets, own,
+                   detour_moves)
       .unreachable();
 }
 

@@ -10,9 +10,10 @@ namespace rondure::plans {
 
 /// All targets of a feature that the tool cannot reach in a pose, before the part is located, with
 /// the part at the position stated in the plan. Ignores the order of touches: one check per target.
-[[nodiscard]] std::vector<Unreachable> unreachable_targets(const Plan& plan,
-                                                           const FeaturePlan& feature,
-                                                           const core::Pose& pose);
+/// @param detour_moves  As CloudPath.
+[[nodiscard]] std::vector<Unreachable> unreachable_targets(
+    const Plan& plan, const FeaturePlan& feature, const core::Pose& pose,
+    std::size_t detour_moves = CloudPath::kDetourMoves);
 
 /// Suggests a change that makes all targets of such a feature reachable: another start pose, a
 /// longer stylus (with its length), a larger margin or fewer layers. Each suggestion was tried and

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/path/internal/detour.h"
 #include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
@@ -50,7 +51,8 @@ PathGeometry beyond_end(PathGeometry geometry, const Placement& placement) {
 }  // namespace
 
 CloudPath::CloudPath(const Scene& scene, const Placement& placement, const PathGeometry& geometry,
-                     double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed)
+                     double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed,
+                     std::size_t detour_moves)
     : scene_(&scene),
       placement_(placement),
       geometry_(beyond_end(geometry, placement)),
@@ -58,7 +60,7 @@ CloudPath::CloudPath(const Scene& scene, const Placement& placement, const PathG
       sky_mm_(sky_mm),
       targets_(std::move(targets)) {
   further_.stand_off_mm += further_mm();
-  find_entries();
+  find_entries(detour_moves);
   if (unreachable_.empty()) choose_order(std::move(proposed));
 }
 
@@ -91,6 +93,7 @@ Way CloudPath::in_machine(const Polyline& path_P, Phase first, Phase middle, Pha
 }
 
 Way CloudPath::entry(std::size_t target, Entry kind) const {
+  if (kind == Entry::kDetour) return detours_.at(target);
   const Target& t = targets_[target];
   const bool wide = kind == Entry::kAlongAxisFurther || kind == Entry::kVerticalFurther;
   const PathGeometry& g = wide ? further_ : geometry_;
@@ -116,20 +119,29 @@ Way CloudPath::touch_way(std::size_t target) const {
                     Phase::kTouch, Phase::kTouch);
 }
 
-void CloudPath::find_entries() {
+void CloudPath::find_entries(std::size_t detour_moves) {
   std::vector<Entry> kinds = {Entry::kAlongAxis};
   const bool further = further_.stand_off_mm > geometry_.stand_off_mm + kHair_mm;
   if (further) kinds.push_back(Entry::kAlongAxisFurther);
   if (!geometry_.inside) kinds.push_back(Entry::kVertical);
   if (!geometry_.inside && further) kinds.push_back(Entry::kVerticalFurther);
   for (std::size_t i = 0; i < targets_.size(); ++i) {
+    bool barred = false;
     std::optional<Hit> hit = scene_->first_hit(touch_way(i), placement_, geometry_);
     std::optional<Entry> found;
     for (const Entry kind : kinds) {
       if (found || (hit && kind == kinds.front())) break;
       const auto on_entry = scene_->first_hit(entry(i, kind), placement_, geometry_);
       if (!on_entry) found = kind;
+      barred |= on_entry && on_entry->body == Body::kBody;
       if (!hit) hit = on_entry;
+    }
+    if (!found && barred && unreachable_.empty()) {  // otherwise the cloud is refused as it is
+      const Vector3d start = placement_.X_WP * pre_touch(geometry_, targets_[i]);
+      if (auto way = detour(*scene_, placement_, geometry_, start, sky_mm_, detour_moves)) {
+        detours_[i] = *std::move(way);
+        found = Entry::kDetour;
+      }
     }
     if (!found) unreachable_.push_back({targets_[i], *hit});
     entries_.push_back(found.value_or(kinds.front()));

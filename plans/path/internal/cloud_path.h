@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "core/result.h"
@@ -20,15 +21,20 @@ struct Unreachable {
 /// against the scene. Machine frame. Between two targets it takes the shortest clear one of these
 /// paths: around at the travel radius; the same further out, where the shaft leans over the part;
 /// over the end of the part (in a bore: along its axis); through the sky, which is always clear
-/// when both targets are reachable. Bores are entered along their axis. Keeps a reference to
+/// when both targets are reachable. Bores are entered along their axis. A target whose entries a
+/// body of the plan bars is entered by a detour(), where there is one. Keeps a reference to
 /// `scene`.
 class CloudPath {
  public:
+  /// Moves that the detours of one cloud may check: a second or two where nothing is found.
+  static constexpr std::size_t kDetourMoves = 8'000;
+
   /// @param targets   At least one.
   /// @param proposed  Order of touching, as indices; used unless the targets' own order is shorter,
   ///                  which is checked for up to 2000 targets.
   CloudPath(const Scene& scene, const Placement& placement, const PathGeometry& geometry,
-            double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed);
+            double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed,
+            std::size_t detour_moves = kDetourMoves);
 
   /// Targets without a path. @pre for the paths below: this list is empty.
   [[nodiscard]] const std::vector<Unreachable>& unreachable() const { return unreachable_; }
@@ -44,7 +50,7 @@ class CloudPath {
   [[nodiscard]] Polyline exit_W(std::size_t k) const;
 
  private:
-  enum class Entry { kAlongAxis, kAlongAxisFurther, kVertical, kVerticalFurther };
+  enum class Entry { kAlongAxis, kAlongAxisFurther, kVertical, kVerticalFurther, kDetour };
 
   [[nodiscard]] bool beside_walls() const;
   [[nodiscard]] Way in_machine(const Polyline& path_P, Phase first, Phase middle, Phase last) const;
@@ -53,7 +59,7 @@ class CloudPath {
   [[nodiscard]] Way between(std::size_t from, std::size_t to) const;
   [[nodiscard]] Way over_the_end(std::size_t from, std::size_t to) const;
   [[nodiscard]] double further_mm() const;
-  void find_entries();
+  void find_entries(std::size_t detour_moves);
   void choose_order(std::vector<std::size_t> proposed);
   [[nodiscard]] double tour_mm(const std::vector<std::size_t>& order) const;
 
@@ -64,6 +70,7 @@ class CloudPath {
   double sky_mm_;
   std::vector<Target> targets_;
   std::vector<Entry> entries_;
+  std::map<std::size_t, Way> detours_;  ///< By target, for Entry::kDetour.
   std::vector<std::size_t> order_;
   std::vector<Unreachable> unreachable_;
 };
