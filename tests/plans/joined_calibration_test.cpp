@@ -16,6 +16,7 @@
 #include "evaluation/handed_calibration.h"
 #include "plans/run/runner.h"
 #include "tests/plans/files.h"
+#include "tests/plans/random_inspection.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::plans::joined {
@@ -42,11 +43,7 @@ Plan plan_of(const json& text, const fs::path& folder = {}) {
 
 RunOptions options_for(const fs::path& directory) {
   RunOptions options = testing::options_for(directory);
-  options.calibrate = [](const record::RunRecord& so_far, int feature) {
-    const auto found =
-        evaluation::handed_calibration(evaluation::evaluate_calibration(so_far, feature));
-    return FoundCalibration{found.text, found.void_because ? found.void_because->english() : ""};
-  };
+  options.calibrate = test::calibrated;
   return options;
 }
 

@@ -345,20 +345,72 @@ Plan head(std::uint64_t seed) {
   return out;
 }
 
-/// The calibration of example 03.
-Plan calibration(std::uint64_t seed) {
-  Plan out = judged_example("03_calibrate_fixture.json");
-  judge_by_interval(out);
-  record::ProbeInfluencesTask& probe = out.uncertainty->probe.emplace();
-  probe.repeatability_um = 0.4;
+/// What a calibration of balls is uncertain of in a twin: its touches alone.
+void declare_touches_alone(Plan& plan) {
+  record::ProbeInfluencesTask& probe = plan.uncertainty->probe.emplace();
+  probe.repeatability_um = plan.simulation->probe.repeatability_um;
   probe.lobes = {{3, 0.05}};
-  auto& influences = out.features.front().rotary_axes->uncertainty.emplace();
-  for (record::Influence* one :
-       {&influences.ball_um, &influences.repeat_urad, &influences.reading_urad}) {
-    one->emplace().value = 0.0;
+  for (FeaturePlan& feature : plan.features) {
+    if (!feature.rotary_axes) continue;
+    auto& influences = feature.rotary_axes->uncertainty.emplace();
+    for (record::Influence* one :
+         {&influences.ball_um, &influences.repeat_urad, &influences.reading_urad}) {
+      one->emplace().value = 0.0;
+    }
   }
+}
+
+/// The calibration of example 03, or calibration and part of example 18.
+Plan calibration(const char* example, std::uint64_t seed) {
+  Plan out = judged_example(example);
+  judge_by_interval(out);
+  declare_touches_alone(out);
+  core::KeyedNoise draw(seed, {18});
   out.simulation->seed = seed;
   out.simulation->fixture.motion->seed = seed;
+  shuffle(out.simulation->part.lobes, draw);
+  return out;
+}
+
+/// The part of example 21, in a fixture that stands elsewhere each time.
+Plan on_holes(std::uint64_t seed) {
+  Plan out = judged_example("21_fixture_on_holes.json");
+  judge_by_interval(out);
+  out.uncertainty->machine = {};  // this twin has no such errors
+  out.uncertainty->thermal = {};
+  out.uncertainty->fixture = {};
+  declare_touches_alone(out);
+  core::KeyedNoise draw(seed, {21});
+  out.simulation->seed = seed;
+  shuffle(out.simulation->part.lobes, draw);
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Together within the millimetre that the plan allows.
+    out.simulation->fixture.base_offset_mm[i] = 0.6 * (draw.uniform() - 0.5);
+    out.simulation->fixture.base_rotation_deg[i] = 0.1 * (draw.uniform() - 0.5);
+  }
+  return out;
+}
+
+/// The pins of example 20 with traces, before and after the correction.
+Plan next_pins(std::uint64_t seed) {
+  Plan out = judged_example("20_crank_pin_next_part.json");
+  judge_by_interval(out);
+  auto influences = testing::plan_of("07_crank_pin.json").features.front().contour->uncertainty;
+  // What this twin grinds is no draw of encoders.
+  influences->c_encoder_urad = influences->x_encoder_um = record::DeclaredInfluence{0.0};
+  for (FeaturePlan& feature : out.features) {
+    feature.contour->separation = record::ContourTask::Separation::kDirect;
+    feature.contour->error = record::ContourTask::Error::kCommandMinusActual;
+    feature.contour->c_axis = record::ContourTask::CAxis::kAgainstWheel;
+    feature.contour->uncertainty = influences;
+    for (record::CharacteristicTask& asked : feature.characteristics) {
+      asked.id = feature.id + ", " + asked.id;
+    }
+  }
+  core::KeyedNoise draw(seed, {20});
+  out.simulation->seed = seed;
+  shuffle(out.simulation->contour->c_error, draw);
+  shuffle(out.simulation->contour->x_error, draw);
   return out;
 }
 
@@ -410,7 +462,22 @@ TEST(PlantedAnalyses, HeadsConformOnlyWithinTheirLimits) {
 }
 TEST(PlantedAnalyses, CalibrationsConformOnlyWithinTheirLimits) {
   study(
-      "calibration", [](std::uint64_t seed) { return calibration(seed); }, 1, 40, 200, 40);
+      "calibration",
+      [](std::uint64_t seed) { return calibration("03_calibrate_fixture.json", seed); }, 1, 40, 200,
+      40);
+}
+TEST(PlantedAnalyses, CalibrationsAndTheirPartsConformOnlyWithinTheirLimits) {
+  study(
+      "calibration and part",
+      [](std::uint64_t seed) { return calibration("18_calibrate_and_inspect.json", seed); }, 1, 4,
+      200, 40);
+}
+TEST(PlantedAnalyses, NextPinsConformOnlyWithinTheirLimits) {
+  if (!test::full()) GTEST_SKIP() << "takes some seconds a twin: run by ./test.sh --full";
+  study("next pin", next_pins, 1, 1, 200, 20);
+}
+TEST(PlantedAnalyses, PartsOnHolesConformOnlyWithinTheirLimits) {
+  study("part on holes", on_holes, 1, 4, 200, 40);
 }
 
 }  // namespace

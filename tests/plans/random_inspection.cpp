@@ -8,7 +8,9 @@
 #include "cmm/simulated/part.h"
 #include "core/noise.h"
 #include "core/units.h"
+#include "evaluation/analysis_result.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/handed_calibration.h"
 #include "fit/references/min_zone.h"
 #include "fit/zone/center_search.h"
 #include "plans/cell/internal/hidden_errors.h"
@@ -91,12 +93,19 @@ plans::Plan random_plan(std::uint64_t seed, const std::string& strategy, double 
   return plan;
 }
 
+plans::FoundCalibration calibrated(const record::RunRecord& so_far, int feature) {
+  const auto found =
+      evaluation::handed_calibration(evaluation::evaluate_calibration(so_far, feature));
+  return {found.text, found.void_because ? found.void_because->english() : ""};
+}
+
 Inspection inspect(const plans::Plan& plan) {
   const Scratch directory;
   plans::RunOptions options;
   options.directory = directory / "run";
   options.run_id = "test";
   options.started_utc = "2026-11-29T10:00:00Z";
+  options.calibrate = calibrated;
   Inspection out;
   {
     const auto run = plans::run_plan(plan, options);

@@ -9,6 +9,7 @@
 #include "core/noise.h"
 #include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
+#include "plans/run_options.h"
 #include "record/run_record.h"
 
 namespace rondure::test {
@@ -22,6 +23,9 @@ inline double between(core::KeyedNoise& random, double low, double high) {
 /// 4, 5, 7 with twist, taper, barrel and bend; tilt to 20 deg; 4 x 7 points; probe noise off.
 [[nodiscard]] plans::Plan random_plan(std::uint64_t seed, const std::string& strategy,
                                       double resolution_deg);
+
+/// What the program makes of a calibration for the features after it.
+[[nodiscard]] plans::FoundCalibration calibrated(const record::RunRecord& so_far, int feature);
 
 /// The record and evaluation of a run, from its journal.
 struct Inspection {
