@@ -257,9 +257,10 @@ bool is_final(const record::RunRecord& record, const record::PoseVisit& visit) {
 bool is_complete(const record::RunRecord& record, std::size_t feature) {
   const auto index = static_cast<int>(feature);
   const auto later = [&](const auto& data) { return data.feature > index; };
-  // The data of an analysis come in one piece.
+  // The data of an analysis come in one piece; after the last one the run still has to end.
   const auto whole = [&](const record::Series& series) {
-    return series.feature == index && series.role == record::Series::Role::kData;
+    return series.feature == index && series.role == record::Series::Role::kData &&
+           feature + 1 < record.features.size();
   };
   return record.ending == "finished" || taken_calibration(record, index) != nullptr ||
          std::ranges::any_of(record.poses, later) || std::ranges::any_of(record.series, later) ||

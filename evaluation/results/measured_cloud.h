@@ -76,7 +76,8 @@ struct RepeatNoise {
 [[nodiscard]] bool is_final(const record::RunRecord& record, const record::PoseVisit& visit);
 
 /// Whether all of a feature was measured: features are measured one after another, so that of an
-/// unfinished run those are complete after which another one was begun, and analyses with data.
+/// unfinished run those are complete after which another one was begun, and analyses with data
+/// before the last.
 [[nodiscard]] bool is_complete(const record::RunRecord& record, std::size_t feature);
 
 /// f of a pose from its own touches; none without touches, or without a fixture.

@@ -288,7 +288,7 @@ TEST(AnalysisInterval, ARuleOfALineStandsInEveryWriter) {
   record::DecisionRuleTask rule;
   rule.rule = record::DecisionRuleTask::Rule::kIso14253;
   results.back().characteristic.indication.decision_rule = rule;
-  const std::string said = "ISO 14253-1: conforms where y";
+  const std::string said = "ISO 14253-1: conforms where the whole";
   const std::string dmis = write_dmis(made.record, made.evaluation);
   EXPECT_THAT(dmis, HasSubstr("$$ F1T2: decision rule of this line: " + said));
   EXPECT_THAT(dmis, Not(HasSubstr("$$ F1T1: decision rule of this line")));

@@ -34,7 +34,7 @@ std::vector<Message> all_messages() {
 }
 
 /// Their English sentences.
-constexpr std::array<std::string_view, 15> kEnglish = {
+constexpr std::array<std::string_view, 16> kEnglish = {
     "part located in pose (12.0000, 13.0000) deg: its axis is level at (14.0000, "
     "15.0000) deg",
     "pose (12.0000, 13.0000) deg: zone of the cloud 14.000 um; turning to (15.0000, "
@@ -58,7 +58,8 @@ constexpr std::array<std::string_view, 15> kEnglish = {
     "difference 14.000 um, limit 15 um",
     "part located again behind 12 touches: not declared",
     "not declared is clamped after 12 touches, confirmed on not declared",
-    "the features that follow are void, the fixture is taken as nominal: not declared"};
+    "the features that follow are void, the fixture is taken as nominal: not declared",
+    "the correction is loaded into the control, confirmed on not declared"};
 
 TEST(MessageWords, AreTheEnglishSentenceOfEveryCode) {
   const std::vector<Message> messages = all_messages();

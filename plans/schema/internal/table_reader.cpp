@@ -172,7 +172,7 @@ void TableReader::text(std::string_view key, std::string& value, const TextSpec&
   if (json == nullptr || !read_text(*json, pointer_to(key), spec, value) || key != "id") return;
   // Reports, datums and options name things by their ids: two must not look alike.
   if (const auto fault = fault_of_name(value)) {
-    problem(*json, Code::kOutOfRange, pointer_to(key),
+    problem(*json, Code::kMeaning, pointer_to(key),
             fmt::format("{} {}", in_quotes(core::printable(value)), *fault));
   }
 }
